@@ -1,4 +1,4 @@
-//! What can go wrong, and where; and how what users name is opened, which goes wrong most.
+//! Errors with their position in an input, and the opening of inputs.
 
 mod fault;
 pub mod open;

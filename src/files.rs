@@ -1,4 +1,4 @@
-//! Files of every kind: read with errors that name the place, written whole or not at all.
+//! File formats and output files: errors name a position in the input, and outputs are complete or absent.
 
 pub mod csv;
 pub mod date;

@@ -1,9 +1,8 @@
 //! The signals of the firmware as a waveform shows them: scopes, names and drivers.
 //!
-//! The hierarchy is the Verilog's, and all of it comes from the modules themselves
-//! ([`crate::kernel::module`]). A signal that a module stores or a wire carries has an id of its own;
-//! a port that passes it on is an alias of the same id, found by the same connections that the
-//! simulation uses.
+//! The hierarchy equals that of the Verilog, and is derived from the modules themselves ([`crate::kernel::module`]).
+//! A signal that a module stores or a wire carries has its own id; a port that passes it on is an alias with the same
+//! id, found through the connections that the simulation uses.
 
 use crate::firmware::histogram_builder;
 use crate::firmware::tof_top::{Estimator, Params, Sizes};
@@ -18,7 +17,7 @@ pub use entry::{Entry, IDS, Kind, ROW, TOP, below_top};
 use entry::{MOST_OUTPUTS, RAM};
 pub use part::{Part, changes, copy};
 
-/// Every name in every scope that those parameters have, without the RAM's words.
+/// Lists every name in every scope of a design with these parameters, without the RAM's words.
 pub fn entries(params: &Params) -> Vec<Entry> {
     let absent: Vec<_> =
         params.left_out().into_iter().map(|module| format!("{TOP}.{module}")).collect();
@@ -27,7 +26,7 @@ pub fn entries(params: &Params) -> Vec<Entry> {
     entries
 }
 
-/// Every name in every scope of a design of those sizes, without the RAM's words.
+/// Lists every name in every scope of a design of these sizes, without the RAM's words.
 pub fn every_entry_of(sizes: &Sizes) -> Vec<Entry> {
     fitted(every_entry(), sizes)
 }
@@ -53,13 +52,12 @@ fn fitted(entries: Vec<Entry>, sizes: &Sizes) -> Vec<Entry> {
     entries.iter().filter_map(fit).collect()
 }
 
-/// Every name in every scope that there can be, as wide as it can be, in the order of the hierarchy, without
-/// the RAM's words.
+/// Lists every name in every scope of the largest possible design, in hierarchical order, without the RAM's words.
 pub fn every_entry() -> Vec<Entry> {
     Build::entries(Estimator::default())
 }
 
-/// The words of the histogram's RAM, `histogram_builder.ram_0` to that of the last bin.
+/// Lists the words of the histogram RAM, from `histogram_builder.ram_0` to that of the last bin.
 pub fn ram_entries(size: &histogram_builder::Params) -> Vec<Entry> {
     let word = |bin| Entry {
         scope: format!("{TOP}.histogram_builder"),
@@ -78,7 +76,8 @@ pub fn ram_entries(size: &histogram_builder::Params) -> Vec<Entry> {
     (0..size.bins).map(word).collect()
 }
 
-/// The outputs of a row of SPADs, which is no module of the firmware: `spad_row.spad_out_0` to that of the last one.
+/// Lists the outputs of the SPAD row, `spad_row.spad_out_0` to that of the last output. The row is not a module of
+/// the firmware.
 pub fn row_entries(outputs: usize) -> Vec<Entry> {
     let output = |place| Entry {
         scope: "spad_row".to_owned(),
@@ -97,7 +96,7 @@ pub fn row_entries(outputs: usize) -> Vec<Entry> {
     (0..outputs.min(MOST_OUTPUTS)).map(output).collect()
 }
 
-/// Whether a dotted path lies in another or is the same.
+/// Returns whether a dotted path equals `parent` or lies within it.
 pub fn within(scope: &str, parent: &str) -> bool {
     scope.strip_prefix(parent).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }

@@ -1,4 +1,4 @@
-//! The detector and the light that reaches it, as avalanches in time.
+//! The detector and its illumination, as a process of avalanches in time.
 
 pub mod front_end;
 pub mod light;

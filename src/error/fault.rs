@@ -1,27 +1,27 @@
-//! Errors, and how they are said.
+//! Error types, and their text.
 
 use std::borrow::Cow;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// An error that a user can act on. All of them exit with status 2, but for an interruption.
+/// An error that the user can act on. Every error sets exit status 2, except an interruption.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// Something in an input is not what it should be.
+    /// Invalid input.
     #[error("{0}")]
     Input(Box<Input>),
-    /// A file or directory cannot be read or written.
+    /// Failed access to a file or directory.
     #[error("{}: cannot {action}: {source}", shortened(&path.display().to_string(), LONG_NAME))]
     Io {
-        /// The file or directory.
+        /// Path of the file or directory.
         path: PathBuf,
-        /// What was tried, as a verb: `read`, `write`, `create`.
+        /// Attempted action, as a verb: `read`, `write`, `create`.
         action: &'static str,
-        /// What the system said.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The user stopped the run (exit status 130).
+    /// Interruption by the user (exit status 130).
     #[error("interrupted")]
     Interrupted,
 }
@@ -29,18 +29,18 @@ pub enum Error {
 /// Shorthand for results of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// A fault in an input: where it is, what stands there and what was expected.
+/// An error in an input: its position, the value found and what was expected.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Input {
-    /// File, or the option of the command line.
+    /// Name of the file or the command-line option.
     pub source: String,
     /// Line and column, counted from 1.
     pub place: Option<(usize, usize)>,
     /// Field, row or key.
     pub field: Option<String>,
-    /// What stands there.
+    /// Value found.
     pub value: Option<String>,
-    /// What was expected, or what is wrong.
+    /// Expected value, or description of the error.
     pub expected: String,
 }
 
@@ -61,14 +61,14 @@ impl fmt::Display for Input {
     }
 }
 
-/// Longest value that a message shows whole [characters].
+/// Length beyond which a message shortens a value [characters].
 const LONG_VALUE: usize = 60;
-/// Longest name of a file, an option or a field that it shows whole [characters].
+/// Length beyond which a message shortens the name of a file, an option or a field [characters].
 const LONG_NAME: usize = 300;
-/// Longest that it says of what was expected, which may quote the input [characters].
+/// Length beyond which a message shortens the expectation, which may quote the input [characters].
 const LONG_TEXT: usize = 2000;
 
-/// A text, or its beginning and three dots if it has more than `most` characters.
+/// Returns a text, or its beginning and three dots if it has more than `most` characters.
 pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     match text.char_indices().nth(most) {
         None => Cow::Borrowed(text),
@@ -77,29 +77,29 @@ pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
 }
 
 impl Input {
-    /// A fault in `source` (a file's path or an option).
+    /// Creates an error in `source`, the path of a file or a command-line option.
     pub fn new(source: impl fmt::Display, expected: impl fmt::Display) -> Self {
         let (source, expected) = (source.to_string(), expected.to_string());
         Input { source, expected, ..Input::default() }
     }
 
-    /// Where in the file, counted from 1.
+    /// Sets the position, counted from 1.
     pub fn at(self, line: usize, column: usize) -> Self {
         Input { place: Some((line, column)), ..self }
     }
 
-    /// Which field, row or key.
+    /// Sets the field, row or key.
     pub fn field(self, field: impl fmt::Display) -> Self {
         Input { field: Some(field.to_string()), ..self }
     }
 
-    /// The same of a field that lies below the key `above`.
+    /// Prefixes the field with the key `above` that contains it.
     pub(crate) fn below(self, above: impl fmt::Display) -> Self {
         let field = self.field.as_ref().map_or(above.to_string(), |key| format!("{above}.{key}"));
         self.field(field)
     }
 
-    /// What stands there; long values are shortened.
+    /// Sets the value found; a long value is shortened.
     pub fn value(self, value: impl fmt::Display) -> Self {
         Input { value: Some(shortened(&value.to_string(), LONG_VALUE).into_owned()), ..self }
     }
@@ -112,26 +112,26 @@ impl From<Input> for Error {
 }
 
 impl Error {
-    /// For `map_err` around file operations.
+    /// Creates a function that converts an I/O error, for `map_err`.
     pub fn io(path: &Path, action: &'static str) -> impl FnOnce(io::Error) -> Error {
         let path = path.to_owned();
         move |source| Error::Io { path, action, source }
     }
 
-    /// Whether the reader of our output has gone, which is no fault.
+    /// Returns whether the reader of standard output has closed it, which is not a failure.
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Error::Io { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
     }
 }
 
-/// Line and column of a byte offset in `text`, counted from 1; columns count characters.
+/// Converts a byte offset in `text` to line and column, counted from 1; columns count characters.
 pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = &text[..text.floor_char_boundary(offset)];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// The known name that `name` was probably meant to be.
+/// Returns the known name that is most similar to `name`, if one is similar enough.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let likeness = |known: &str| strsim::jaro_winkler(name, known);
     let scored = known.into_iter().map(|known| (likeness(known), known));
@@ -139,7 +139,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     (best.0 > 0.75).then_some(best.1)
 }
 
-/// The name that was probably meant, as words after what is wrong, and all known names.
+/// Formats a suggestion of the most similar known name, and the list of all known names.
 pub fn hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> (String, String) {
     let known: Vec<_> = known.into_iter().collect();
     let meant = nearest(name, known.iter().copied());

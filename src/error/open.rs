@@ -1,7 +1,7 @@
-//! Opens what a user names to be read: a file, or a pipe, which has to have a writer soon.
+//! Opening of input files and pipes. A pipe must have a writer soon.
 //!
-//! A pipe is as good as a file (`<(command)` of a shell is one), but to open one waits until somebody
-//! opens it to write, and to read one waits for the next byte. Neither may be for ever.
+//! A pipe, such as `<(command)` in a shell, is accepted wherever a file is. Opening one blocks until a writer opens
+//! it, and reading blocks until the next byte arrives; both have a time limit here.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -12,11 +12,11 @@ use std::time::Duration;
 
 use super::fault::{Error, Input, Result, line_and_column};
 
-/// How long a pipe may be without a writer.
+/// Time limit for a writer to open a pipe.
 const WRITER: Duration = Duration::from_secs(5);
-/// How long a writer may write nothing.
+/// Time limit between two writes to a pipe.
 const SILENCE: Duration = Duration::from_secs(60);
-/// Bytes that are read from a pipe at once.
+/// Size of a read from a pipe [bytes].
 const CHUNK: usize = 1 << 16;
 
 /// An opened file or pipe.
@@ -28,7 +28,7 @@ pub enum Opened {
     Pipe(Pipe),
 }
 
-/// A pipe that another thread reads.
+/// A pipe, which another thread reads.
 #[derive(Debug)]
 pub struct Pipe {
     chunks: Receiver<io::Result<Vec<u8>>>,
@@ -39,7 +39,7 @@ pub struct Pipe {
 /// Opens a file or a pipe.
 ///
 /// # Errors
-/// When it cannot be opened, or nobody opens the pipe to write.
+/// If it cannot be opened, or no writer opens the pipe in time.
 pub fn open(path: &Path) -> Result<Opened> {
     match is_pipe(path) {
         true => Pipe::open(path, WRITER, SILENCE).map(Opened::Pipe),
@@ -47,10 +47,10 @@ pub fn open(path: &Path) -> Result<Opened> {
     }
 }
 
-/// Opens a file that has to be one, because it is read more than once or has to have an end.
+/// Opens a regular file, for input that is read more than once or must have an end.
 ///
 /// # Errors
-/// When it cannot be opened or is a pipe or a device.
+/// If it cannot be opened, or is a pipe or a device.
 pub fn open_file(path: &Path) -> Result<File> {
     let found = fs::metadata(path).map_err(Error::io(path, "read"))?;
     if !found.is_file() && !found.is_dir() {
@@ -89,7 +89,7 @@ impl Pipe {
     }
 }
 
-/// Hands on that the pipe is open, and then what is in it.
+/// Reports that the pipe is open, and then sends its contents.
 fn pump(path: PathBuf, send: &SyncSender<io::Result<Vec<u8>>>) {
     let mut file = match File::open(path) {
         Ok(file) => file,
@@ -137,10 +137,13 @@ impl Read for Opened {
     }
 }
 
-/// Longest text that is read [bytes].
+/// Size limit of an input [bytes].
 const LONGEST: u64 = 1 << 28;
 
-/// What is in a file or a pipe, which has to end within 256 MiB.
+/// Reads a file or a pipe of at most 256 MiB.
+///
+/// # Errors
+/// If it cannot be read or is too long.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let file = open(path)?;
@@ -151,7 +154,10 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     }
 }
 
-/// The text of a file or a pipe, which has to be UTF-8 and end within 256 MiB.
+/// Reads a file or a pipe of at most 256 MiB as UTF-8.
+///
+/// # Errors
+/// If it cannot be read, is too long, or is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String> {
     String::from_utf8(read_bytes(path)?).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::error::{Input, Result};
 
-/// The rows of a CSV text below its header.
+/// Rows of a CSV text below its header.
 pub struct CsvInput<'a> {
     source: &'a str,
     text: &'a str,
@@ -14,7 +14,10 @@ pub struct CsvInput<'a> {
 }
 
 impl<'a> CsvInput<'a> {
-    /// Checks the header. `source` names the text in errors.
+    /// Creates a reader, and checks the header. Errors name the text as `source`.
+    ///
+    /// # Errors
+    /// If the header differs from `header`.
     pub fn new(source: &'a str, text: &'a str, header: &'a [&'a str]) -> Result<Self> {
         let mut reader = csv::ReaderBuilder::new();
         reader.has_headers(false).flexible(true).comment(Some(b'#'));
@@ -32,7 +35,10 @@ impl<'a> CsvInput<'a> {
         Ok(input)
     }
 
-    /// Goes to the next row; false at the end. A row with another number of fields is an error.
+    /// Advances to the next row, and returns false at the end.
+    ///
+    /// # Errors
+    /// If the row has another number of fields than the header.
     pub fn advance(&mut self) -> Result<bool> {
         let more = self.next_row()?;
         if more && self.record.len() != self.header.len() {
@@ -43,12 +49,12 @@ impl<'a> CsvInput<'a> {
         Ok(more)
     }
 
-    /// A field of the row as a number, if it is one.
+    /// Parses a field of the row; returns `None` if it is invalid.
     pub fn field<T: FromStr>(&self, index: usize) -> Option<T> {
         self.record.get(index)?.trim().parse().ok()
     }
 
-    /// A fault in a field of the row.
+    /// Creates an error at a field of the row.
     pub fn fault(&self, index: usize, expected: impl std::fmt::Display) -> Input {
         let value = self.record.get(index).unwrap_or_default();
         let start = self.record.range(index).map_or(0, |range| range.start + index);
@@ -61,7 +67,7 @@ impl<'a> CsvInput<'a> {
         Ok(more.map_err(|error| Input::new(self.source, error))?)
     }
 
-    /// Line of the row; the reader's position is where the comments before it begin.
+    /// Returns the line number of the row, past any comments before it.
     fn line(&self) -> usize {
         let Some(position) = self.record.position() else { return 1 };
         let rest = self.text.get(position.byte() as usize..).unwrap_or_default();

@@ -1,13 +1,16 @@
-//! The date of a file: none, so that runs compare equal, unless the environment fixes one.
+//! Dates in output files: none by default, so that outputs are reproducible, unless the environment sets one.
 
 use crate::error::{Input, Result};
 
-/// The variable by which packagers fix dates (reproducible-builds.org) [s since 1970].
+/// Environment variable that sets the date of outputs (reproducible-builds.org) [s since 1970].
 const VARIABLE: &str = "SOURCE_DATE_EPOCH";
 /// First second of the year 10000.
 const LIMIT: u64 = 253_402_300_800;
 
-/// The date to write, if there is to be one.
+/// Returns the date to write, if the environment sets one.
+///
+/// # Errors
+/// If the variable is not a valid time.
 pub fn fixed() -> Result<Option<String>> {
     let Some(value) = std::env::var_os(VARIABLE) else { return Ok(None) };
     match value.to_string_lossy().parse() {
@@ -19,7 +22,7 @@ pub fn fixed() -> Result<Option<String>> {
     }
 }
 
-/// A time since 1970 as ISO 8601 has it, in UTC.
+/// Formats a time since 1970 as ISO 8601 in UTC.
 fn spell(seconds: u64) -> String {
     let (mut day, second) = (seconds / 86_400, seconds % 86_400);
     let leap = |year: u64| {

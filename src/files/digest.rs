@@ -1,11 +1,11 @@
-//! A number that changes with any byte.
+//! A 64-bit hash of bytes.
 
 use std::fmt::{self, Write};
 
 const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 const PRIME: u64 = 0x0100_0000_01b3;
 
-/// FNV-1a of 64 bits, going on from `before`, which is 0 at first.
+/// Computes the 64-bit FNV-1a hash of `bytes`, continuing from the hash `before`, which is 0 at first.
 pub fn digest(before: u64, bytes: &[u8]) -> u64 {
     bytes.iter().fold(before ^ OFFSET, step)
 }
@@ -14,7 +14,7 @@ fn step(value: u64, &byte: &u8) -> u64 {
     (value ^ u64::from(byte)).wrapping_mul(PRIME)
 }
 
-/// The digest of a text that is not kept.
+/// Computes the hash of a formatted text without storing the text.
 pub fn digest_of(text: fmt::Arguments) -> u64 {
     let mut digest = TextDigest(OFFSET);
     // The digest takes any text.

@@ -1,4 +1,4 @@
-//! A folder that one run at a time writes into.
+//! Exclusive access to an output folder, and listing of a folder.
 
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
@@ -8,8 +8,8 @@ use crate::error::{Error, Input, Result};
 use super::output::create_directory;
 use super::unfinished::{remove_empty, will_make};
 
-/// Held while a run writes into a folder; the system lets go of it with the process. A folder that was
-/// made for it and stays empty is removed in the end.
+/// Lock on an output folder, which is held until it is dropped or the process ends. A folder that was created for it
+/// and is still empty is then removed.
 #[derive(Debug)]
 pub struct FolderLock {
     _folder: Option<File>,
@@ -17,10 +17,10 @@ pub struct FolderLock {
 }
 
 impl FolderLock {
-    /// Makes the folder, and holds it.
+    /// Creates the folder if necessary, and locks it.
     ///
     /// # Errors
-    /// When it cannot be made, or another run holds it.
+    /// If it cannot be created, or another run has locked it.
     pub fn take(path: &Path) -> Result<Self> {
         let made = will_make(path);
         create_directory(path)?;
@@ -40,10 +40,10 @@ impl FolderLock {
     }
 }
 
-/// Every file in a folder and below it, sorted.
+/// Returns the sorted paths of all files in a folder and its subfolders.
 ///
 /// # Errors
-/// When a folder cannot be read.
+/// If a folder cannot be read.
 pub fn files_below(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(Error::io(folder, "read"))? {

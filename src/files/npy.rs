@@ -1,16 +1,19 @@
-//! The headers of NumPy's `.npy` files.
+//! Headers of NumPy's `.npy` files.
 
 use std::io::{self, ErrorKind, Read};
 
 use npyz::NpyHeader;
 
-/// Longest header of an `.npy` file; that of a plain array has 118 [bytes].
+/// Longest accepted header of an `.npy` file; that of a plain array has 118 [bytes].
 const NPY_HEADER: usize = 1024;
-/// Most digits in that header, so that the product of the lengths fits in 64 bits.
+/// Largest number of digits in that header, so that the product of the lengths fits in 64 bits.
 const NPY_DIGITS: usize = 18;
 
-/// The header, refused before it is parsed if it is not like a plain array's: nested brackets take
-/// the parser forever.
+/// Reads the header. A header unlike that of a plain array is refused before it is parsed, because nested brackets
+/// take the parser exponential time.
+///
+/// # Errors
+/// If the header cannot be read or is refused.
 pub fn header(reader: &mut impl Read) -> io::Result<NpyHeader> {
     parse(reader).map_err(|error| match error.kind() {
         ErrorKind::UnexpectedEof => io::Error::other("the file ends within it"),

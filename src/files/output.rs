@@ -1,4 +1,4 @@
-//! Output files that are whole or not there: written beside the target, then renamed.
+//! Output files that are complete or absent: they are written beside the target and then renamed.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -9,9 +9,9 @@ use tempfile::TempPath;
 use super::unfinished::Unfinished;
 use crate::error::{Error, Result};
 
-/// A file under construction. Dropped without [`OutputFile::commit`], it leaves no trace.
+/// An output file under construction. If it is dropped without [`OutputFile::commit`], the target does not change.
 ///
-/// A target that exists and is no regular file (a device, a pipe) is written in place.
+/// A target that exists and is not a regular file (a device, a pipe) is written in place.
 #[derive(Debug)]
 pub struct OutputFile {
     target: PathBuf,
@@ -19,22 +19,25 @@ pub struct OutputFile {
     place: Place,
 }
 
-/// Where the bytes go at first.
+/// Destination of the bytes while the file is under construction.
 #[derive(Debug)]
 enum Place {
-    /// A file beside the target, which takes its name in the end.
+    /// Temporary file beside the target, which is renamed in the end.
     Beside(Unfinished<TempPath>),
     /// The target itself.
     Target,
-    /// A file without a name, whose bytes go to this target when they are all there.
+    /// Anonymous temporary file, which is copied to this target in the end.
     Nameless(BufWriter<File>),
 }
 
-/// Bytes gathered before they go to the system.
+/// Size of the write buffer [bytes].
 const BUFFER: usize = 1 << 16;
 
 impl OutputFile {
-    /// Begins a file; a symbolic link is followed, so that its target is what is replaced.
+    /// Creates an output file. A symbolic link is followed, so that its target is replaced.
+    ///
+    /// # Errors
+    /// If the file cannot be created.
     pub fn create(target: &Path) -> Result<Self> {
         let (file, place) = match fs::metadata(target) {
             Ok(found) if found.is_dir() => {
@@ -54,7 +57,10 @@ impl OutputFile {
         Ok(OutputFile { target: target.to_owned(), file, place })
     }
 
-    /// Begins a file that can seek, whatever stands at its path.
+    /// Creates a seekable output file, even if the target is a pipe or a device.
+    ///
+    /// # Errors
+    /// If the file cannot be created.
     pub(crate) fn create_seekable(target: &Path) -> Result<Self> {
         let mut output = OutputFile::create(target)?;
         if let Place::Target = output.place {
@@ -65,17 +71,20 @@ impl OutputFile {
         Ok(output)
     }
 
-    /// The file's final path.
+    /// Returns the final path.
     pub fn target(&self) -> &Path {
         &self.target
     }
 
-    /// Turns an error of writing here into one that names the file.
+    /// Converts an I/O error to one that names the file.
     pub fn fault(&self, source: io::Error) -> Error {
         Error::Io { path: self.target.clone(), action: "write", source }
     }
 
-    /// Puts the finished file in place.
+    /// Moves the complete file to its final path.
+    ///
+    /// # Errors
+    /// If the bytes cannot be written, or the file cannot be renamed.
     pub fn commit(self) -> Result<()> {
         let OutputFile { target, file, place } = self;
         let finish = || {
@@ -122,7 +131,10 @@ fn beside(target: &Path) -> Result<(File, Unfinished<TempPath>)> {
     Unfinished::file(directory).map_err(Error::io(&target, "write"))
 }
 
-/// Writes a whole file from what `fill` produces.
+/// Writes a complete file with the output of `fill`.
+///
+/// # Errors
+/// If `fill` fails, or the file cannot be written.
 pub fn write_file(
     target: &Path,
     fill: impl FnOnce(&mut OutputFile) -> io::Result<()>,
@@ -132,28 +144,34 @@ pub fn write_file(
     file.commit()
 }
 
-/// Writes a whole file.
+/// Writes a complete file.
+///
+/// # Errors
+/// If the file cannot be written.
 pub fn write_bytes(target: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
     write_file(target, |file| file.write_all(bytes.as_ref()))
 }
 
-/// Makes a directory and those above it.
+/// Creates a directory and its parents.
+///
+/// # Errors
+/// If a directory cannot be created.
 pub fn create_directory(path: &Path) -> Result<()> {
     fs::create_dir_all(path).map_err(Error::io(path, "create"))
 }
 
-/// Makes a directory and those above it, and sees that it takes the file `name`.
+/// Creates a directory and its parents, and checks that the file `name` can be created in it.
 ///
 /// # Errors
-/// When not.
+/// If the directory or the file cannot be created.
 pub fn create_directory_for(path: &Path, name: &str) -> Result<()> {
     create_directory(path)?;
     OutputFile::create(&path.join(name)).map(drop)
 }
 
 #[cfg(all(test, unix))]
-/// A device called `name` like `/dev/{name}`, in `folder` where the system lets us make one: a fault
-/// in our own writing must not cost the machine its devices.
+/// Returns the path of a device equivalent to `/dev/{name}`: a new one in `folder` where the system allows it, so
+/// that a faulty test cannot replace the machine's own.
 pub(crate) fn device(folder: &Path, name: &str) -> PathBuf {
     let own = folder.join(name);
     if own.exists() {

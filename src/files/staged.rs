@@ -1,4 +1,4 @@
-//! Folders under construction: several files that appear together, and scratch that never does.
+//! Folders under construction: output folders whose files appear together, and scratch folders.
 
 use std::fs::{self, File};
 use std::io;
@@ -10,7 +10,7 @@ use super::output::{create_directory, write_file};
 use super::unfinished::Unfinished;
 use crate::error::{Error, Result};
 
-/// A folder that is removed in the end, also if the run is killed: then by the next one.
+/// A scratch folder, which is removed when it is dropped; if the process was killed, a later run removes it.
 #[derive(Debug)]
 pub struct ScratchFolder {
     folder: Unfinished<TempDir>,
@@ -18,10 +18,10 @@ pub struct ScratchFolder {
 }
 
 impl ScratchFolder {
-    /// In the system's folder for what is temporary.
+    /// Creates a scratch folder in the system's temporary folder.
     ///
     /// # Errors
-    /// When it cannot be made.
+    /// If it cannot be created.
     pub fn new() -> Result<Self> {
         ScratchFolder::within(&std::env::temp_dir())
     }
@@ -32,13 +32,13 @@ impl ScratchFolder {
         Ok(ScratchFolder { folder, _lock: lock })
     }
 
-    /// Where it is.
+    /// Returns the folder's path.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 }
 
-/// Files that come to their folder all together, or not at all.
+/// An output folder whose files appear all together or not at all.
 #[derive(Debug)]
 pub struct StagedFolder {
     target: PathBuf,
@@ -46,10 +46,10 @@ pub struct StagedFolder {
 }
 
 impl StagedFolder {
-    /// For the folder `target`, which need not exist.
+    /// Begins the output folder `target`, which need not exist.
     ///
     /// # Errors
-    /// When nothing can be written there.
+    /// If it is not writable.
     pub fn new(target: &Path) -> Result<Self> {
         let absolute = std::path::absolute(target).map_err(Error::io(target, "create"))?;
         let is_there = |path: &&Path| fs::symlink_metadata(path).is_ok();
@@ -67,15 +67,15 @@ impl StagedFolder {
         }
     }
 
-    /// Where to write for now.
+    /// Returns the path of the temporary folder in which to write files.
     pub fn path(&self) -> &Path {
         self.scratch.path()
     }
 
-    /// Gives every file its place; their paths, sorted.
+    /// Moves all files to their final paths, and returns these, sorted.
     ///
     /// # Errors
-    /// When one cannot be put there.
+    /// If a file cannot be moved.
     pub fn commit(self) -> Result<Vec<PathBuf>> {
         let mut placed = Vec::new();
         place_all(self.scratch.path(), &self.target, &mut placed)?;

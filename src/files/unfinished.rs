@@ -1,9 +1,7 @@
-//! Files and folders under construction: what they are called, and what becomes of those whose run is
-//! gone.
+//! Files and folders under construction: their names, and the removal of those that a killed run left.
 //!
-//! A name is `.tofsim-PROCESS-RANDOM.part`, and whoever makes one keeps it locked. So a run that was
-//! killed is told from one that goes on: the first time that a run writes into a folder, it removes
-//! what a dead one left there.
+//! Their names are `.tofsim-PROCESS-RANDOM.part`, and their creator keeps them locked. This distinguishes a killed
+//! run from a live one: the first time that a run writes into a folder, it removes the leftovers of dead runs.
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -17,27 +15,27 @@ use tempfile::{Builder, NamedTempFile, TempDir, TempPath};
 
 const PREFIX: &str = ".tofsim-";
 const SUFFIX: &str = ".part";
-/// Age from which something that nobody has locked is a dead run's, whatever its process may be.
+/// Age from which an unlocked leftover belongs to a dead run, even if a process has its number.
 const OLD: Duration = Duration::from_secs(60);
 
-/// What this process has under construction.
+/// Paths that this process has under construction.
 static OURS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-/// Folders that this process has looked through.
+/// Folders that this process has searched for leftovers.
 static SWEPT: LazyLock<Mutex<BTreeSet<PathBuf>>> = LazyLock::new(Mutex::default);
 
-/// Folders that this process made for its outputs, outer ones first.
+/// Folders that this process created for its outputs, outer ones first.
 static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// A path under construction, which is removed unless it is put in place.
+/// A path under construction, which is removed when dropped unless it was persisted.
 #[derive(Debug)]
 pub(super) struct Unfinished<T> {
     path: PathBuf,
-    /// Removes it when dropped; `None` once it is in place.
+    /// Temporary path, which is removed when dropped; `None` once it was renamed.
     own: Option<T>,
 }
 
 impl Unfinished<TempPath> {
-    /// Begins a file in `directory`.
+    /// Creates a temporary file in `directory`.
     pub(super) fn file(directory: &Path) -> io::Result<(File, Self)> {
         sweep(directory);
         let made = made(|builder| {
@@ -53,7 +51,7 @@ impl Unfinished<TempPath> {
         Ok((file, Unfinished { path: register(&path), own: Some(path) }))
     }
 
-    /// Gives it its name.
+    /// Renames the file to its final path.
     pub(super) fn persist(mut self, target: &Path) -> io::Result<()> {
         match self.own.take() {
             Some(path) => path.persist(target).map_err(|error| error.error),
@@ -63,7 +61,7 @@ impl Unfinished<TempPath> {
 }
 
 impl Unfinished<TempDir> {
-    /// Begins a folder in `directory`.
+    /// Creates a temporary folder in `directory`.
     pub(super) fn folder(directory: &Path) -> io::Result<(Option<File>, Self)> {
         sweep(directory);
         let own = made(|builder| builder.tempdir_in(directory))?;
@@ -86,7 +84,7 @@ impl<T> Drop for Unfinished<T> {
     }
 }
 
-/// Makes something with one of our names.
+/// Creates a path that follows the naming scheme.
 fn made<T>(make: impl FnOnce(&mut Builder) -> io::Result<T>) -> io::Result<T> {
     let prefix = format!("{PREFIX}{}-", std::process::id());
     make(Builder::new().prefix(&prefix).suffix(SUFFIX))
@@ -94,7 +92,8 @@ fn made<T>(make: impl FnOnce(&mut Builder) -> io::Result<T>) -> io::Result<T> {
         .map_err(|error| io::Error::from(error.kind()))
 }
 
-/// A lock says that this process lives; a file system without locks has the age to go by.
+/// Locks a file to show that this process is alive. Where the file system has no locks, the file's age decides
+/// instead.
 fn lock(file: &File) {
     drop(file.try_lock());
 }
@@ -106,8 +105,8 @@ fn register(path: &Path) -> PathBuf {
     path
 }
 
-/// Removes all that this process has under construction, and keeps it from beginning anything more:
-/// for the last moment before it ends.
+/// Removes everything that this process has under construction, and blocks any further output, just before the
+/// process ends.
 pub fn discard_all() {
     let ours = OURS.lock().unwrap_or_else(PoisonError::into_inner);
     ours.iter().for_each(|path| remove(path));
@@ -115,8 +114,8 @@ pub fn discard_all() {
     remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
 }
 
-/// The folders that are missing up to `directory`, which this process is about to make; outer ones
-/// first.
+/// Returns the missing folders on the path to `directory`, outer ones first, and notes that this process will create
+/// them.
 pub(super) fn will_make(directory: &Path) -> Vec<PathBuf> {
     let Ok(directory) = std::path::absolute(directory) else { return Vec::new() };
     let is_missing = |path: &&Path| fs::symlink_metadata(path).is_err();
@@ -127,12 +126,12 @@ pub(super) fn will_make(directory: &Path) -> Vec<PathBuf> {
     missing
 }
 
-/// Removes those folders, outer ones first in the list, that have nothing in them.
+/// Removes those of the folders that are empty; the list has outer ones first.
 pub(super) fn remove_empty(made: &[PathBuf]) {
     made.iter().rev().for_each(|path| drop(fs::remove_dir(path)));
 }
 
-/// Removes what dead runs left in a folder, once in the life of this process.
+/// Removes the leftovers of dead runs from a folder, once per process.
 fn sweep(directory: &Path) {
     let known = fs::canonicalize(directory).unwrap_or_else(|_| directory.to_owned());
     if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(known) {
@@ -148,13 +147,14 @@ fn remove(path: &Path) {
     let _ = if is_folder { fs::remove_dir_all(path) } else { fs::remove_file(path) };
 }
 
-/// The process in the name of something under construction; `None` within if an older tofsim made it.
+/// Parses the process number from the name of a path under construction. The inner value is `None` for the names of
+/// an older tofsim.
 pub fn process(name: &OsStr) -> Option<Option<u32>> {
     let middle = name.to_str()?.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?;
     Some(middle.split_once('-').and_then(|(process, _)| process.parse().ok()))
 }
 
-/// Whether a path is something under construction that a dead run left.
+/// Returns whether a path was left by a dead run.
 fn is_left(path: &Path) -> bool {
     let Some(process) = path.file_name().and_then(process) else { return false };
     let Ok(found) = fs::symlink_metadata(path) else { return false };
@@ -164,7 +164,7 @@ fn is_left(path: &Path) -> bool {
     is_plain && may_be && File::open(path).is_ok_and(|file| file.try_lock().is_ok())
 }
 
-/// Whether there is no such process any more, as far as the system tells.
+/// Returns whether the process has ended, as far as the system can tell.
 pub fn is_gone(process: u32) -> bool {
     let tells = Path::new("/proc/self/stat").exists();
     let stat = fs::read_to_string(format!("/proc/{process}/stat"));
@@ -176,7 +176,7 @@ pub fn is_gone(process: u32) -> bool {
 mod tests {
     use super::*;
 
-    /// A process that has ended.
+    /// Returns the number of a process that has ended.
     fn dead() -> u32 {
         let mut child = std::process::Command::new("true").spawn().unwrap();
         child.wait().unwrap();

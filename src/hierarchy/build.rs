@@ -1,4 +1,4 @@
-//! Finds every name in every scope, on a way through the firmware.
+//! Construction of the list of all names in all scopes, by traversing the firmware.
 
 use crate::firmware::TofTop;
 use crate::firmware::tof_top::Estimator;
@@ -7,36 +7,36 @@ use crate::kernel::signals::{Signal, Signals, View};
 
 use super::entry::{Entry, Kind, TOP};
 
-/// What the way has come by. Paths are dotted and begin below the top.
+/// State of the traversal. Paths are dotted and start below the top.
 #[derive(Default)]
 pub(super) struct Build {
-    /// The module that was entered last.
+    /// Path of the current module.
     path: String,
-    /// Where its input ports come from.
+    /// Sources of its input ports.
     sources: Vec<(&'static str, String)>,
-    /// Every module's path, in order.
+    /// Paths of all modules, in order.
     scopes: Vec<String>,
-    /// Signals that hold a value, by id, each with its place in the scopes.
+    /// Signals that store a value, in order of id, each with the index of its scope.
     held: Vec<(usize, Entry)>,
-    /// Path of the field of each of them.
+    /// Path of the field of each stored signal.
     fields: Vec<String>,
     aliases: Vec<Shown>,
 }
 
-/// A name for what is held elsewhere.
+/// An alias of a stored signal.
 struct Shown {
-    /// Place in the scopes.
+    /// Index of the scope.
     scope: usize,
     name: &'static str,
     kind: Kind,
-    /// Path of the field that holds the value.
+    /// Path of the field that stores the value.
     holder: String,
-    /// What a port means, if not what the value does.
+    /// Meaning of the port, if it differs from that of the stored signal.
     doc: Option<&'static str>,
 }
 
 impl Build {
-    /// Every name, with that estimator in the socket, in the order of the modules.
+    /// Lists every name in every scope, in the order of the modules, with the given estimator in the estimator slot.
     pub(super) fn entries(estimator: Estimator) -> Vec<Entry> {
         let mut build = Build { scopes: vec![String::new()], ..Build::default() };
         TofTop::default().visit(None, &mut build);
@@ -46,7 +46,7 @@ impl Build {
         entries.into_iter().map(|(_, entry)| entry).collect()
     }
 
-    /// Place of a module's path in the scopes.
+    /// Returns the index of a module's path among the scopes.
     fn place(&self, path: &str) -> usize {
         self.scopes.iter().position(|scope| scope == path).unwrap_or_default()
     }
@@ -56,7 +56,7 @@ impl Build {
         self.aliases.push(Shown { scope, name, kind, holder, doc });
     }
 
-    /// The holder of what `source` says inside the module at `parent`.
+    /// Returns the path of the field that stores the value of `source`, an expression inside the module at `parent`.
     fn holder(&self, parent: &str, source: &str) -> String {
         match source.split_once('.') {
             Some(("this", rest)) => join(parent, rest),
@@ -68,7 +68,7 @@ impl Build {
         }
     }
 
-    /// The field that shows at an output of the socket; of another signal its own.
+    /// Returns the field that drives an output of the estimator slot; other signals are returned unchanged.
     fn in_socket(&self, estimator: Estimator, holder: &str) -> String {
         let Some(port) = holder.strip_prefix("socket.") else { return holder.to_owned() };
         let scope = self.place(estimator.module());
@@ -81,7 +81,7 @@ impl Build {
         own.map(|(_, entry)| self.fields[entry.id].clone()).unwrap_or_default()
     }
 
-    /// The entries of an alias: one, or of an array `name_0`, `name_1` ...
+    /// Lists the entries of an alias: one, or one per element of an array (`name_0`, `name_1`, ...).
     fn shown(&self, alias: &Shown, estimator: Estimator) -> Vec<(usize, Entry)> {
         let holder = self.in_socket(estimator, &alias.holder);
         let element = format!("{holder}_");
@@ -158,7 +158,7 @@ impl Visitor for Build {
     }
 }
 
-/// Two dotted paths, either of which may be empty.
+/// Joins two dotted paths, either of which may be empty.
 fn join(parent: &str, rest: &str) -> String {
     let parts = [parent, rest].into_iter().filter(|part| !part.is_empty());
     parts.collect::<Vec<_>>().join(".")
@@ -173,7 +173,7 @@ mod tests {
     use super::*;
     use crate::hierarchy::every_entry;
 
-    /// Counts the ports of every module, by their own declarations.
+    /// Counts the ports that each module declares.
     struct Ports(String, Vec<String>);
 
     impl Visitor for Ports {

@@ -1,4 +1,4 @@
-//! One name in one scope of a waveform, and the ids of values.
+//! Names in the scopes of a waveform, and value ids.
 
 use crate::firmware::TofTop;
 use crate::firmware::histogram_builder::MOST_BINS;
@@ -8,60 +8,60 @@ use crate::kernel::signals::Signal;
 /// Name of the top scope.
 pub const TOP: &str = "tof_top";
 
-/// What a name stands for.
+/// Role of a name in its module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Input port of its module.
+    /// Input port.
     Input,
-    /// Output port of its module.
+    /// Output port.
     Output,
-    /// Register or wire inside its module.
+    /// Internal register or wire.
     Internal,
 }
 
-/// One name in one scope.
+/// A name in a scope.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Dotted path of the module, `tof_top` first.
+    /// Dotted path of the module, beginning with `tof_top`.
     pub scope: String,
     /// Name, width, format and meaning.
     pub signal: Signal,
-    /// Port or not.
+    /// Role in the module.
     pub kind: Kind,
-    /// The value it shows; aliases share it.
+    /// Id of the value; aliases share it.
     pub id: usize,
 }
 
 impl Entry {
-    /// Dotted path of the signal.
+    /// Returns the dotted path of the signal.
     pub fn path(&self) -> String {
         format!("{}.{}", self.scope, self.signal.name)
     }
 
-    /// Its path below the top.
+    /// Returns the signal's path below the top.
     pub fn below_top(&self) -> String {
         below_top(&self.path()).to_owned()
     }
 
-    /// Whether it is a word of the histogram's RAM.
+    /// Returns whether the signal is a word of the histogram RAM.
     pub fn in_ram(&self) -> bool {
         (RAM..ROW).contains(&self.id)
     }
 }
 
-/// First id of the RAM's words, after those of all registers and wires.
+/// First id of the RAM's words, which follow all registers and wires.
 pub(super) const RAM: usize = TofTop::COUNT;
 
-/// First id of the outputs of the row of SPADs.
+/// First id of the SPAD row's outputs.
 pub const ROW: usize = RAM + MOST_BINS;
 
-/// Longest row.
+/// Largest number of outputs of a row.
 pub const MOST_OUTPUTS: usize = 64;
 
-/// Number of ids.
+/// Total number of ids.
 pub const IDS: usize = ROW + MOST_OUTPUTS;
 
-/// A path without the top.
+/// Strips the top from a path.
 pub fn below_top(path: &str) -> &str {
     path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.')).unwrap_or(path)
 }

@@ -1,4 +1,4 @@
-//! Follows some of the signals: reports those that have changed.
+//! Change detection for a subset of the signals.
 
 use crate::firmware::histogram_builder::MOST_BINS;
 use crate::firmware::tof_top::TofTop;
@@ -7,22 +7,23 @@ use crate::kernel::signals::{Signals, Sink};
 
 use super::entry::{IDS, RAM};
 
-/// Some of the signals, and what they were.
+/// A subset of the signals, with their last reported values.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Of each id whether it is one of them; a struct of signals is looked at as a whole.
+    /// Whether each id belongs to the subset. A struct of signals is compared as a whole.
     wanted: Box<[bool; IDS]>,
-    /// By the first id of a module of which none is, how many it has; of such that share it, the most.
+    /// Number of ids to skip at the first id of a module that has none in the subset; the largest number where
+    /// modules share a first id.
     unwanted: Box<[usize; IDS]>,
-    /// Words of the RAM, each once and in order; there may be fewer.
+    /// RAM words in the subset, sorted and unique. The RAM may be smaller.
     words: Vec<usize>,
-    /// The edge of `clk_sys` before the coming look may write a word of the RAM.
+    /// Whether the next edge of `clk_sys` may write a RAM word.
     writes: bool,
     kept: Option<TofTop>,
 }
 
 impl Part {
-    /// The signals of those ids, and those that stand in one struct with them.
+    /// Creates a subset with the given ids, and with the signals that share a struct with them.
     pub fn of(ids: impl IntoIterator<Item = usize>) -> Self {
         let mut wanted = Box::new([false; IDS]);
         ids.into_iter().for_each(|id| wanted[id] = true);
@@ -33,7 +34,7 @@ impl Part {
         Part { wanted, unwanted, words, writes: true, kept: None }
     }
 
-    /// Reports every signal, as if for the first time, whichever ids were asked for.
+    /// Reports every signal of the design as if it had changed.
     pub fn show(&mut self, top: &TofTop, sink: &mut impl Sink) {
         changes(top, None, sink);
         match &mut self.kept {
@@ -43,9 +44,8 @@ impl Part {
         self.writes = true;
     }
 
-    /// Reports every signal that differs from what it was; at first, every one. This has to be called
-    /// in every cycle of `clk_sys`, and not only while that is high: from high to high or low, no
-    /// register of it has moved.
+    /// Reports every signal that has changed since the last call; the first call reports all. It must be called in
+    /// every cycle of `clk_sys`, at least once while it is low: while it stays high, none of its registers changes.
     #[inline]
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
@@ -64,7 +64,7 @@ impl Part {
         }
     }
 
-    /// The same where only levels of clocks, the first of all ids, may have changed.
+    /// Reports changes at an instant when only clock levels, which have the first ids, can change.
     #[inline(always)]
     pub fn tick(&mut self, top: &TofTop, sink: &mut impl Sink) {
         if let Some(kept) = &mut self.kept {
@@ -74,7 +74,7 @@ impl Part {
     }
 }
 
-/// Reports every signal that differs from `before`, or every one.
+/// Reports every signal that differs from `before`, or every signal if there is none.
 pub fn changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
     let mut then = before.cloned();
     top.visit(then.as_mut(), &mut Look { wanted: None, between: false, id: 0, sink });
@@ -85,19 +85,19 @@ pub fn changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
     }
 }
 
-/// Makes all that [`changes`] looks at in `to` what it is in `from`, without allocating.
+/// Copies all state that [`changes`] compares, without allocating.
 pub fn copy(from: &TofTop, to: &mut TofTop) {
     from.visit(Some(to), &mut Copy);
     to.histogram_builder.ram.copy_from_slice(&from.histogram_builder.ram[..]);
 }
 
-/// Reports what differs and keeps it.
+/// Visitor that reports changes and updates the copy.
 struct Look<'a, S> {
-    /// Ids to look at, if not all, and modules without any.
+    /// Ids in the subset, and ids to skip; `None` for all signals.
     wanted: Option<(&'a [bool; IDS], &'a [usize; IDS])>,
-    /// Whether modules that have no other clock than `clk_sys` are left out.
+    /// Whether to skip modules whose only clock is `clk_sys`.
     between: bool,
-    /// The coming signal.
+    /// Id of the next signal.
     id: usize,
     sink: &'a mut S,
 }
@@ -131,11 +131,11 @@ impl<K: Sink> Visitor for Look<'_, K> {
     }
 }
 
-/// Finds the modules of which nothing is wanted.
+/// Visitor that finds modules without a signal in the subset.
 struct Unwanted<'a> {
     wanted: &'a [bool; IDS],
     counts: Box<[usize; IDS]>,
-    /// The coming signal.
+    /// Id of the next signal.
     id: usize,
 }
 
@@ -153,7 +153,7 @@ impl Visitor for Unwanted<'_> {
     }
 }
 
-/// Copies, and reports nothing.
+/// Visitor that copies without reporting.
 struct Copy;
 
 impl Visitor for Copy {
@@ -181,7 +181,7 @@ mod tests {
     use crate::sim::device::{Edge, Off, SignalProbe};
     use crate::sim::setup::Setup;
 
-    /// The value of each id; of taps their number.
+    /// Latest value of each id; of taps, their number of ones.
     #[derive(Clone, PartialEq)]
     struct Values(Vec<u64>);
 
@@ -195,13 +195,13 @@ mod tests {
         }
     }
 
-    /// Follows every signal, and looks at all of them beside it.
+    /// Follows every signal through a [`Part`], and by comparing all of them.
     struct Both {
         part: Part,
         followed: Values,
-        /// Looks at every change, not only before edges.
+        /// Whether to look at every change rather than only before edges.
         every_change: bool,
-        /// Looks before the edges of `clk_laser` too.
+        /// Whether to look before the edges of `clk_laser` too.
         middle: bool,
         looks: usize,
         ticks: usize,
@@ -262,8 +262,8 @@ mod tests {
         }
     }
 
-    /// Changes of the control signals at any time, at an edge, and as pulses from an edge to before
-    /// the next, which no look before an edge sees.
+    /// Creates control changes at random times, on edges, and as pulses between two edges, which no look before an
+    /// edge sees.
     fn control(setup: &Setup, cycles: u64, random: &mut ChaCha8Rng) -> Vec<Control> {
         let clk_sys = &setup.pll().clk_sys;
         let mut changes = Vec::new();

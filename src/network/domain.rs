@@ -1,31 +1,31 @@
-//! What a network was trained for.
+//! Training domain of a network.
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What the histograms of a training were drawn for, by keys of the scenario (`target.distance_m`).
-/// What another scenario makes of the network is not known.
+/// Scenario settings for which a network's training histograms were drawn, by key (`target.distance_m`). The
+/// network's accuracy is unknown in other scenarios.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Domain {
-    /// Least and largest value of a key, in its unit; one twice where there was only one.
+    /// Smallest and largest value of each numeric key, in its unit; equal if there was one value.
     pub ranges: BTreeMap<String, [f64; 2]>,
-    /// Words and names.
+    /// Value of each key that holds a word or a name.
     pub words: BTreeMap<String, String>,
 }
 
-/// Part of a value that decides nothing: what decimals lose in binary [1].
+/// Relative tolerance for decimal values in binary representation [1].
 const ROUNDING: f64 = 1e-9;
 
-/// Whether values from `found[0]` to `found[1]` lie within a range.
+/// Returns whether the values from `found[0]` to `found[1]` lie within `range`.
 pub fn holds(range: [f64; 2], found: [f64; 2]) -> bool {
     let slack = |limit: f64| limit.abs() * ROUNDING;
     found[0] >= range[0] - slack(range[0]) && found[1] <= range[1] + slack(range[1])
 }
 
-/// A range in words: `0.1 to 0.6`, or the only value.
+/// Formats a range: `0.1 to 0.6`, or a single value.
 pub fn in_words([least, largest]: [f64; 2]) -> String {
     if least == largest { least.to_string() } else { format!("{least} to {largest}") }
 }

@@ -1,21 +1,21 @@
-//! The estimator without its clock: bit for bit what the firmware computes, as integer sums.
+//! Fixed-point network without a clock: bit-exact with the firmware, computed as integer sums.
 //!
-//! A sum is exact and wraps when it enters its word.
+//! Sums are exact, and wrap when they are stored in a word.
 
 use crate::firmware::depth_estimator::Params;
 use crate::firmware::forward1;
 use crate::firmware::forward2::{self, MOST_NEURONS, NEURONS};
 
-/// What an estimation leaves in the registers.
+/// Final register values of an estimation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Estimate {
     /// Depth word [m].
     pub depth: forward2::Depth,
-    /// Sums of the hidden neurons; zero past the last.
+    /// Sums of the hidden neurons; zero for unused ones.
     pub l1_in: [forward1::L1In; MOST_NEURONS],
 }
 
-/// The estimate of a histogram.
+/// Estimates the depth of a histogram.
 pub fn estimate(params: &Params, histogram: &[u32]) -> Estimate {
     let (rom, output) = (&*params.forward1, &params.forward2);
     let mut l1_in = [forward1::L1In::default(); MOST_NEURONS];
@@ -29,7 +29,7 @@ pub fn estimate(params: &Params, histogram: &[u32]) -> Estimate {
     Estimate { depth: forward2::Depth::new(depth), l1_in }
 }
 
-/// Sums of the neurons from `first` on.
+/// Computes the sums of the neurons from `first` on.
 fn hidden_sums(rom: &forward1::Rom, first: usize, histogram: &[u32]) -> [forward1::L1In; NEURONS] {
     let mut sums: [i64; NEURONS] = std::array::from_fn(|unit| rom.bias(first + unit).get());
     for (row, &count) in rom.w1.iter().zip(histogram) {
@@ -50,7 +50,7 @@ mod tests {
     use crate::network::{Network, Weights, roms};
     use proptest::prelude::*;
 
-    /// The firmware's block, stepped from reset until `algo_done`, and the edges it took.
+    /// Steps the firmware's block from reset until `algo_done`, and returns the result and the number of edges.
     fn step(params: &Params, histogram: &[u32]) -> (Estimate, usize) {
         let mut block = DepthEstimator::default();
         let rst = In { rst: true, algo_start: false, count: U::new(0) };
@@ -71,7 +71,7 @@ mod tests {
         Network::builtin(name).unwrap().unwrap().params(&Default::default())
     }
 
-    /// The largest weights there are, for so many neurons.
+    /// Parameters with the largest possible weights.
     fn worst(neurons: usize) -> Params {
         let mut worst = params("uniform");
         let rom = std::sync::Arc::make_mut(&mut worst.forward1);
@@ -106,7 +106,7 @@ mod tests {
         }
     }
 
-    /// Bins, bits of a count, and a histogram of that size.
+    /// Random histogram size (bins and count width) with a histogram.
     fn any_size() -> impl Strategy<Value = (usize, u32, Vec<u32>)> {
         let size =
             (4..=10u32, 8..=24u32).prop_map(|(bin_bits, count_bits)| (1 << bin_bits, count_bits));
@@ -116,7 +116,7 @@ mod tests {
         })
     }
 
-    /// Any number formats that can be built.
+    /// Random number formats that can be built.
     fn any_datapath() -> impl Strategy<Value = Datapath> {
         let word =
             || (2..=24u32, 0..=32u32).prop_map(|(width, fraction)| WordFormat { width, fraction });

@@ -1,4 +1,4 @@
-//! The network file: a TOML text with weights, their formats and where they come from.
+//! Network files: TOML texts with weights, number formats and provenance.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,44 +14,44 @@ use super::domain::Domain;
 use super::float::Float;
 use super::weights::Fixed;
 
-/// A network and what its file says about it.
+/// A network with the metadata of its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
     /// Built-in name, or the file's path.
     pub name: String,
-    /// What it is, in a sentence.
+    /// Description, in a sentence.
     pub description: String,
-    /// How it came about.
+    /// Provenance.
     pub training: Training,
-    /// What it was trained for, if the file says.
+    /// Training domain, if known.
     pub domain: Option<Domain>,
-    /// Errors measured, if any were.
+    /// Measured accuracy, if known.
     pub accuracy: Option<Accuracy>,
-    /// The formats of the firmware's words.
+    /// Number formats of the firmware.
     pub datapath: Datapath,
-    /// The weights of the firmware.
+    /// Fixed-point weights.
     pub fixed: Fixed,
-    /// The weights before rounding, if the file has them.
+    /// Weights before rounding, if known.
     pub float: Option<Float>,
 }
 
-/// How a network came about.
+/// Provenance of a network.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Training {
     /// Recipe and data, in words.
     pub origin: String,
-    /// Chain whose bins it was trained on.
+    /// Carry chain of the training data.
     pub chain: String,
-    /// Command that trains it again, if there is one.
+    /// Command that repeats the training, if known.
     pub command: Option<String>,
-    /// Seed of the data and the starts.
+    /// Seed of the data and of the initial weights.
     pub seed: Option<u64>,
-    /// Hash of all histograms that it was trained on.
+    /// Hash of all training histograms.
     pub data: Option<String>,
 }
 
-/// Spread of the fixed-point depth over a test set.
+/// Measured errors of the fixed-point depth on a test set.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
@@ -63,7 +63,7 @@ pub struct Accuracy {
     pub mean_mm: Option<Vec<f64>>,
 }
 
-/// Networks that come with the program: name and file.
+/// Name and file text of each built-in network.
 const BUILTIN: &[(&str, &str)] = &[
     ("uniform", include_str!("../../stimuli/networks/uniform.toml")),
     ("ideal", include_str!("../../stimuli/networks/ideal.toml")),
@@ -75,20 +75,20 @@ const BUILTIN: &[(&str, &str)] = &[
 ];
 
 impl Network {
-    /// Name of the network used when none is given.
+    /// Name of the default network.
     pub const DEFAULT: &str = "uniform";
 
-    /// Names of the networks that come with the program.
+    /// Returns the names of the built-in networks.
     pub fn builtin_names() -> impl Iterator<Item = &'static str> {
         BUILTIN.iter().map(|(name, _)| *name)
     }
 
-    /// Text of the file of a network that comes with the program.
+    /// Returns the file text of a built-in network.
     pub fn builtin_text(name: &str) -> Option<&'static str> {
         BUILTIN.iter().find(|(builtin, _)| *builtin == name).map(|(_, text)| *text)
     }
 
-    /// A network that comes with the program; `None` if it has none of that name.
+    /// Loads a built-in network; returns `None` if there is none of that name.
     pub fn builtin(name: &str) -> Option<Result<Network>> {
         // A sweep makes thousands of setups.
         static PARSED: Mutex<BTreeMap<&str, Network>> = Mutex::new(BTreeMap::new());
@@ -102,12 +102,18 @@ impl Network {
         Some(network)
     }
 
-    /// A network from a file.
+    /// Loads a network from a file.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or is not a network file.
     pub fn load(path: &Path) -> Result<Network> {
         Network::parse(&read_text(path)?, &path.display().to_string())
     }
 
-    /// A network by built-in name or path; a relative path starts from `base`, if given.
+    /// Loads a network by built-in name or path; a relative path starts from `base`, if given.
+    ///
+    /// # Errors
+    /// If there is no such network, or its file is invalid.
     pub fn find(name: &str, base: Option<&Path>) -> Result<Network> {
         if let Some(builtin) = Network::builtin(name) {
             return builtin;
@@ -123,7 +129,7 @@ impl Network {
         })
     }
 
-    /// The weights in double precision: those before rounding, or else the values of the integers.
+    /// Returns the weights in double precision: those before rounding if known, otherwise the values of the integers.
     pub fn twin(&self) -> Float {
         self.float.clone().unwrap_or_else(|| Float::from_fixed(&self.fixed, &self.datapath))
     }

@@ -1,22 +1,22 @@
-//! The network in double precision: what the fixed-point datapath approximates.
+//! The network in double precision, which the fixed-point datapath approximates.
 
 use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::kernel::WordFormat;
 
 use super::weights::{Fixed, Weights};
 
-/// A network's weights before rounding.
+/// Weights of a network in double precision.
 pub type Float = Weights<f64, f64, f64, f64>;
 
 impl Float {
-    /// Values of the rounded weights.
+    /// Converts fixed-point weights to double precision.
     pub fn from_fixed(fixed: &Fixed, datapath: &Datapath) -> Float {
         let of = |format: WordFormat| move |word: i32| f64::from(word) * format.lsb();
         let Datapath { w1, b1, w2, b2, .. } = *datapath;
         fixed.map(of(w1), of(b1), of(w2), of(b2))
     }
 
-    /// Depth of a histogram [m].
+    /// Computes the depth of a histogram [m].
     pub fn forward(&self, histogram: &[u32]) -> f64 {
         self.pass(histogram, libm::tanh, |_| ())
     }

@@ -1,4 +1,4 @@
-//! What a network estimates from.
+//! Histograms as estimators take them.
 
 /// Hits per bin, bin 0 first [hits].
 pub type Histogram = Vec<u32>;

@@ -1,6 +1,6 @@
-//! Histograms from files: CSV `bin,count`, or NumPy's `.npy`, told apart by content.
+//! Histogram files: CSV `bin,count`, or NumPy's `.npy`, distinguished by content.
 //!
-//! One histogram is in memory at a time, however many the file has.
+//! Only one histogram of a file is in memory at a time.
 
 use std::fmt::Display;
 use std::io::{self, BufReader, Chain, Cursor, Read};
@@ -16,23 +16,26 @@ use crate::firmware::histogram_builder::Params;
 
 use super::histogram::Histogram;
 
-/// First bytes of an `.npy` file.
+/// Magic number of an `.npy` file.
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
-/// First line of a CSV file.
+/// Columns of a CSV file.
 const HEADER: [&str; 2] = ["bin", "count"];
-/// Longest CSV file [bytes].
+/// Size limit of a CSV file [bytes].
 const CSV: u64 = 1 << 20;
-/// A file, its first bytes put back.
+/// Reader of a file, including the bytes that were read to detect its format.
 type Reader = BufReader<Chain<Cursor<Vec<u8>>, Opened>>;
-/// A count, or what stands in its place.
+/// A count, or the text of an invalid one.
 type Count = std::result::Result<u32, String>;
 /// Elements of an array.
 type Elements = Box<dyn Iterator<Item = io::Result<Count>>>;
 
-/// The histograms of a file, one after another; after an error there is no sense in going on.
+/// Iterator over the histograms of a file. It must not be used after an error.
 pub type Histograms = Box<dyn Iterator<Item = Result<Histogram>>>;
 
-/// Opens a file of histograms that are as large as elaboration says.
+/// Opens a file of histograms of the given size.
+///
+/// # Errors
+/// If the file cannot be read, or has another size or type.
 pub fn open(path: &Path, p: Params) -> Result<Histograms> {
     let mut file = open::open(path)?;
     let mut first = Vec::with_capacity(MAGIC.len());
@@ -48,12 +51,12 @@ pub fn open(path: &Path, p: Params) -> Result<Histograms> {
     Ok(Box::new((0..rows).map(move |number| row(&mut elements, number, rows, (&name, &p)))))
 }
 
-/// What a count has to be.
+/// Describes the range of a count.
 pub fn count_range(p: &Params) -> String {
     format!("expected a whole number from 0 to {}", p.most_hits())
 }
 
-/// A total that the estimator's words bear.
+/// Checks that the histogram's total fits the estimator's words.
 fn checked(histogram: Histogram, path: &str, field: String, p: &Params) -> Result<Histogram> {
     let (total, most): (u64, u64) =
         (histogram.iter().map(|&count| u64::from(count)).sum(), p.most_hits());
@@ -64,7 +67,10 @@ fn checked(histogram: Histogram, path: &str, field: String, p: &Params) -> Resul
     Ok(histogram)
 }
 
-/// The histogram of a CSV text; `source` names it in errors.
+/// Parses a histogram from CSV. Errors name the text as `source`.
+///
+/// # Errors
+/// If a row is invalid or missing.
 pub fn parse_csv(source: &str, text: &str, p: &Params) -> Result<Histogram> {
     let mut input = CsvInput::new(source, text, &HEADER)?;
     let (bins, last) = (p.bins, p.last_bin());
@@ -89,7 +95,7 @@ pub fn parse_csv(source: &str, text: &str, p: &Params) -> Result<Histogram> {
     checked(histogram, source, "total".to_owned(), p)
 }
 
-/// Reads a CSV file to its end.
+/// Reads a histogram from a CSV file.
 fn csv(reader: Reader, path: &str, p: &Params) -> Result<Histogram> {
     let mut bytes = Vec::new();
     let read = reader.take(CSV + 1).read_to_end(&mut bytes);
@@ -110,7 +116,7 @@ fn csv(reader: Reader, path: &str, p: &Params) -> Result<Histogram> {
     }
 }
 
-/// Reads the header of an `.npy` file.
+/// Reads the header of an `.npy` file, and returns its elements and number of histograms.
 fn array(mut reader: Reader, path: &str, p: &Params) -> Result<(Elements, u64)> {
     let fault = |expected: String| Error::from(Input::new(path, expected));
     let header =
@@ -136,7 +142,10 @@ fn array(mut reader: Reader, path: &str, p: &Params) -> Result<(Elements, u64)> 
     Ok((elements, rows))
 }
 
-/// The elements after the header; in error, the type that is none of ours.
+/// Returns the elements after the header.
+///
+/// # Errors
+/// The element type, if it is not supported.
 fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, String> {
     let dtype = header.dtype();
     let DType::Plain(plain) = &dtype else { return Err(dtype.descr()) };
@@ -161,7 +170,7 @@ fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, 
     found.ok_or_else(|| dtype.descr())
 }
 
-/// Whole numbers of a type as counts.
+/// Returns integer elements as counts.
 fn whole<T>(file: NpyFile<Reader>) -> Option<Elements>
 where
     T: Deserialize + TryInto<u32> + Display + Copy + 'static,
@@ -169,7 +178,7 @@ where
     counts(file, |x: T| x.try_into().map_err(|_| x.to_string()))
 }
 
-/// Numbers of a type as counts; `None` if the file has them otherwise.
+/// Returns elements of one type as counts; `None` if the file has another type.
 fn counts<T: Deserialize + 'static>(
     file: NpyFile<Reader>,
     count: impl Fn(T) -> Count + 'static,
@@ -177,7 +186,7 @@ fn counts<T: Deserialize + 'static>(
     Some(Box::new(file.data::<T>().ok()?.map(move |x| x.map(&count))))
 }
 
-/// The histogram of a row.
+/// Reads the histogram of one row.
 fn row(
     elements: &mut Elements,
     row: u64,

@@ -1,4 +1,4 @@
-//! The ROMs as texts for Verilog's `$readmemh`: one word a line, in hexadecimal.
+//! ROM contents for Verilog's `$readmemh`: one hexadecimal word per line.
 
 use crate::firmware::depth_estimator::Params;
 use crate::firmware::depth_estimator::datapath::Datapath;
@@ -12,15 +12,15 @@ use crate::firmware::tansig;
 use crate::firmware::tdc_decoder;
 use crate::kernel::WordFormat;
 
-/// A ROM's file.
+/// Name and text of a ROM file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mem {
     pub name: &'static str,
     pub text: String,
 }
 
-/// MEM1: the weights, a line a bin with a word for each neuron, then the biases, one such line. The
-/// last neuron is in the top bits.
+/// Formats MEM1: one line per bin with a word for each neuron, and one such line of biases. The last neuron is in the
+/// top bits.
 pub fn forward1(rom: &Rom, neurons: usize, datapath: &Datapath) -> [Mem; 2] {
     let row = |row: &[Weight], format: WordFormat| words(&row[..neurons], format.width);
     [
@@ -29,14 +29,14 @@ pub fn forward1(rom: &Rom, neurons: usize, datapath: &Datapath) -> [Mem; 2] {
     ]
 }
 
-/// MEM2: line k is address k as an unsigned word.
+/// Formats MEM2, the activation table; the line number is the address.
 pub fn tansig(rom: &tansig::Rom, datapath: &Datapath) -> Mem {
     let width = datapath.l1_out.width;
     let entries = rom.entries.iter().map(|entry| low_bits(entry.get(), width));
     Mem { name: "tansig.mem", text: lines(entries, digits(width)) }
 }
 
-/// MEM3: the weights, a line with the last neuron in the top bits, and the bias.
+/// Formats MEM3: one line of weights with the last neuron in the top bits, and the bias.
 pub fn forward2(rom: &forward2::Rom) -> [Mem; 2] {
     let Datapath { w2, b2, .. } = rom.datapath;
     [
@@ -45,7 +45,7 @@ pub fn forward2(rom: &forward2::Rom) -> [Mem; 2] {
     ]
 }
 
-/// All of the estimator's ROMs.
+/// Formats all ROMs of the network estimator.
 pub fn depth_estimator(params: &Params) -> Vec<Mem> {
     let datapath = &params.forward2.datapath;
     let hidden = forward1(&params.forward1, params.neurons(), datapath);
@@ -53,14 +53,14 @@ pub fn depth_estimator(params: &Params) -> Vec<Mem> {
     hidden.into_iter().chain(output).chain([tansig(&params.tansig, datapath)]).collect()
 }
 
-/// The decoder's calibration: line N is the time for N ones [units].
+/// Formats the decoder's calibration ROM: line N is the time for a ones count of N [units].
 pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
     let words = params.cal.iter().map(|age| age.get());
     Mem { name: "tdc_cal.mem", text: lines(words, digits(params.age_bits())) }
 }
 
-/// The likelihood estimator's ROMs: of each place between bins the width of the bin before it and its time, the
-/// pulse, k and what it grows by, and the logarithm.
+/// Formats the ROMs of the likelihood estimator: for each bin boundary its time and the width of the bin before it,
+/// the pulse, k with its slope, and the logarithm.
 pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [Mem; 4] {
     let edge_bits = params.edge_bits();
     let edge = |place: usize| {
@@ -82,7 +82,7 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [M
     ]
 }
 
-/// Words of so many bits side by side on a line, the first in the low bits.
+/// Concatenates words of `width` bits into one, the first in the low bits.
 fn words(row: &[Weight], width: u32) -> String {
     let bits = row.iter().flat_map(|word| (0..width).map(|bit| (word.get() >> bit & 1) as u8));
     let bits: Vec<u8> = bits.collect();
@@ -91,17 +91,17 @@ fn words(row: &[Weight], width: u32) -> String {
     digits.chain(["\n".to_owned()]).collect()
 }
 
-/// The low bits of a word in two's complement.
+/// Returns the low bits of a word in two's complement.
 fn low_bits(word: i64, width: u32) -> u64 {
     word as u64 & (u64::MAX >> (u64::BITS - width))
 }
 
-/// Hexadecimal digits of a word of so many bits.
+/// Returns the number of hexadecimal digits of a word of `bits` bits.
 pub fn digits(bits: u32) -> usize {
     bits.div_ceil(4) as usize
 }
 
-/// Words as lines of that many hexadecimal digits.
+/// Formats words as lines of `digits` hexadecimal digits.
 pub fn lines(words: impl IntoIterator<Item = u64>, digits: usize) -> String {
     words.into_iter().map(|word| format!("{word:0digits$x}\n")).collect()
 }

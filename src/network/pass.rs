@@ -1,18 +1,18 @@
-//! A network's pass over a histogram, in whatever numbers it is computed.
+//! Forward pass of a network over a histogram, generic over the number type.
 
 use std::iter::Sum;
 use std::ops::{Add, Mul};
 
 use super::weights::Weights;
 
-/// What a hidden neuron comes to.
+/// Intermediate values of a hidden neuron.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HiddenNeuron<T> {
-    /// Sum of the products of weights and counts, and of the bias.
+    /// Sum of the weighted counts and the bias.
     pub sum: T,
-    /// What the activation makes of the sum.
+    /// Activation of the sum.
     pub activation: T,
-    /// Activation times its weight in the output layer.
+    /// Activation times its output weight.
     pub product: T,
 }
 
@@ -20,8 +20,8 @@ impl<T> Weights<T, T, T, T>
 where
     T: Copy + From<u32> + Add<Output = T> + Mul<Output = T> + Sum,
 {
-    /// The depth of a histogram. `activate` is the activation function; `record` is shown every
-    /// neuron, in order.
+    /// Computes the depth of a histogram with the activation function `activate`. Each neuron's intermediate values
+    /// are passed to `record`, in order.
     pub fn pass(
         &self,
         histogram: &[u32],

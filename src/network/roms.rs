@@ -1,4 +1,4 @@
-//! What the estimator's ROMs hold for a network.
+//! ROM contents of the network estimator.
 
 use std::sync::{Arc, LazyLock};
 
@@ -14,18 +14,18 @@ use super::file::Network;
 use super::weights::{Fixed, Weights};
 
 impl Network {
-    /// Whether it has as many inputs as the histogram has bins.
+    /// Returns whether the network has one input per histogram bin.
     pub fn fits(&self, histogram: &histogram_builder::Params) -> bool {
         self.fixed.bins() == histogram.bins
     }
 
-    /// The estimator's ROMs, for such a histogram, which has as many bins as the network has inputs.
+    /// Returns the estimator's ROMs for a histogram with one bin per input of the network.
     pub fn params(&self, histogram: &histogram_builder::Params) -> Params {
         params(&self.fixed, &self.datapath, histogram)
     }
 }
 
-/// The ROMs of words in such a datapath, for such a histogram.
+/// Returns the ROMs for weights in a given datapath.
 pub fn params(fixed: &Fixed, datapath: &Datapath, histogram: &histogram_builder::Params) -> Params {
     Params {
         forward1: Arc::new(hidden(fixed, datapath, histogram)),
@@ -34,14 +34,14 @@ pub fn params(fixed: &Fixed, datapath: &Datapath, histogram: &histogram_builder:
     }
 }
 
-/// A network for such a histogram whose weights are all zero, with the thesis's neurons and formats.
+/// Returns the ROMs of a network whose weights are all zero, with the thesis's neurons and formats.
 pub fn blank(histogram: &histogram_builder::Params) -> Params {
     let w1 = vec![vec![0; histogram.bins]; NEURONS];
     let fixed = Weights { w1, b1: vec![0; NEURONS], w2: vec![0; NEURONS], b2: 0 };
     params(&fixed, &Datapath::THESIS, histogram)
 }
 
-/// MEM1: a row of weights for each bin, and the biases.
+/// Builds MEM1: a row of weights for each bin, and the biases.
 fn hidden(
     fixed: &Fixed,
     datapath: &Datapath,
@@ -57,7 +57,7 @@ fn hidden(
     forward1::Rom::new(w1, b1, fixed.neurons(), datapath, histogram)
 }
 
-/// MEM3.
+/// Builds MEM3: the output weights and bias.
 fn output(fixed: &Fixed, datapath: &Datapath) -> forward2::Rom {
     let word = |neuron: usize| S::new(fixed.w2.get(neuron).copied().unwrap_or_default().into());
     forward2::Rom {
@@ -68,7 +68,7 @@ fn output(fixed: &Fixed, datapath: &Datapath) -> forward2::Rom {
     }
 }
 
-/// MEM2, made once for the thesis's formats.
+/// Builds MEM2, the activation table. The one for the thesis's formats is built only once.
 fn tansig_table(datapath: &Datapath) -> Arc<tansig::Rom> {
     static THESIS: LazyLock<Arc<tansig::Rom>> =
         LazyLock::new(|| Arc::new(tansig::Rom::new(&Datapath::THESIS)));

@@ -1,4 +1,4 @@
-//! From weights in double precision to the words of the ROMs.
+//! Rounding of double-precision weights to ROM words.
 
 use crate::error::{Input, Result};
 use crate::firmware::depth_estimator::datapath::Datapath;
@@ -7,19 +7,19 @@ use crate::kernel::{Overflow, WordFormat};
 use super::float::Float;
 use super::weights::{Fixed, Weights};
 
-/// Rounded weights, and what did not fit.
+/// Rounded weights, and the number of overflows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounded {
     pub fixed: Fixed,
-    /// Weights that no word holds, and were saturated.
+    /// Number of weights that were out of range and saturated.
     pub saturated: usize,
 }
 
 impl Float {
-    /// The nearest words of a datapath, halves away from zero; `name` is the network's in messages.
+    /// Rounds all weights to a datapath's formats, halves away from zero. Messages name the network as `name`.
     ///
     /// # Errors
-    /// When a weight does not fit and is not to be saturated, or is no number.
+    /// If a weight is not a number, or is out of range and `overflow` does not allow saturation.
     pub fn round(&self, name: &str, datapath: &Datapath, overflow: Overflow) -> Result<Rounded> {
         let mut rounding = Rounding { name, overflow, saturated: 0 };
         let mut w1 = Vec::new();
@@ -40,7 +40,7 @@ struct Rounding<'a> {
 }
 
 impl Rounding<'_> {
-    /// The words nearest to values.
+    /// Rounds a list of values.
     fn list(&mut self, format: WordFormat, values: &[f64], name: &str) -> Result<Vec<i32>> {
         let word = |(place, &value): (usize, &f64)| {
             self.word(format, value, || format!("{name}[{place}]"))
@@ -48,7 +48,7 @@ impl Rounding<'_> {
         values.iter().enumerate().map(word).collect()
     }
 
-    /// The word nearest to a value.
+    /// Rounds a value.
     fn word(&mut self, format: WordFormat, value: f64, field: impl Fn() -> String) -> Result<i32> {
         if let Some(word) = format.round(value, Overflow::Refuse) {
             return Ok(word as i32);

@@ -1,4 +1,4 @@
-//! The fields of a network file and the rules they obey.
+//! Fields of a network file, and their constraints.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -15,11 +15,11 @@ use super::weights::Weights;
 
 /// Value of the key `schema`.
 pub(super) const SCHEMA: &str = "tofsim.network/1";
-/// Keys of `[scaling]`, each with the one value that the firmware's arithmetic allows.
+/// Keys of `[scaling]`, each with the only value that the firmware's arithmetic supports.
 pub(super) const SCALING: [(&str, &str); 3] =
     [("input", "counts"), ("output", "metres"), ("normalisation", "folded")];
 
-/// A network's file.
+/// Contents of a network file.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -60,7 +60,7 @@ struct TansigFormat {
     range: u32,
 }
 
-/// `w1[neuron][bin]` and what goes with it.
+/// Weights and biases: `w1[neuron][bin]`, `b1[neuron]`, `w2[neuron]`, `b2`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Arrays<T> {
@@ -77,7 +77,7 @@ impl<T: Copy> Arrays<T> {
         Weights { w1, b1, w2, b2 }
     }
 
-    /// That there is one of each for each of so many neurons, and for each a weight for so many bins.
+    /// Checks the lengths of all lists against the numbers of neurons and bins.
     fn check(
         &self,
         section: &str,
@@ -99,11 +99,10 @@ impl<T: Copy> Arrays<T> {
 }
 
 impl Network {
-    /// A network from the text of its file; messages name `source`.
+    /// Parses the text of a network file. Errors name it as `source`.
     ///
     /// # Errors
-    /// When the text is no TOML, a key is missing, unknown or out of range, or a weight is none of its
-    /// format.
+    /// If the text is not TOML, a key is missing, unknown or out of range, or a weight does not fit its format.
     pub fn parse(text: &str, source: &str) -> Result<Network> {
         let checked = Checked::parse::<File>(source, text)?;
         let file: File = checked.read()?;
@@ -122,7 +121,7 @@ impl Network {
 }
 
 impl File {
-    /// What the types alone do not say.
+    /// Checks the constraints that the schema does not express.
     fn check(&self, checked: &Checked) -> Result<Datapath> {
         let fault = |key: &str, expected: String| -> Result<Datapath> {
             Err(checked.fault(key, expected).into())
@@ -163,7 +162,7 @@ impl File {
 }
 
 impl Arrays<i32> {
-    /// That each is an integer of its word.
+    /// Checks that each weight fits its format.
     fn check_words(&self, datapath: &Datapath, checked: &Checked) -> Result<()> {
         let row = |(neuron, row): (usize, &Vec<i32>)| {
             outside(datapath.w1, row).map(|place| (format!("w1.{neuron}.{place}"), datapath.w1))
@@ -181,13 +180,16 @@ impl Arrays<i32> {
     }
 }
 
-/// Place of the first integer that the word does not have.
+/// Returns the index of the first integer that does not fit the format.
 fn outside(format: WordFormat, words: &[i32]) -> Option<usize> {
     words.iter().position(|&word| !(format.min()..=format.max()).contains(&word.into()))
 }
 
 impl Formats {
-    /// The datapath of these formats, which can be built.
+    /// Returns the datapath with the file's formats.
+    ///
+    /// # Errors
+    /// If it cannot be built.
     fn datapath(&self, checked: &Checked) -> Result<Datapath> {
         let TansigFormat { address_bits, range } = self.tansig;
         if !range.is_power_of_two() {
@@ -215,15 +217,14 @@ impl Formats {
 mod tests {
     use super::*;
 
-    /// The message about the built-in file after replacing a piece of it.
+    /// Returns the error message for the built-in file with a piece of its text replaced.
     fn fault(from: &str, to: &str) -> String {
         let text = Network::builtin_text("uniform").unwrap();
         assert!(text.contains(from), "{from}");
         Network::parse(&text.replacen(from, to, 1), "a.toml").unwrap_err().to_string()
     }
 
-    /// What the file's first row of integers begins with, and the same with `word` in place of the
-    /// first one.
+    /// Returns the start of the file's first row of integers, and the same with the first integer replaced by `word`.
     fn first(word: &str) -> (String, String) {
         let network = Network::builtin("uniform").unwrap().unwrap();
         let begin = |word: &str| format!("w1 = [\n  [\n    {word}");

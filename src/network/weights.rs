@@ -1,34 +1,34 @@
-//! The weights of a network, in any number format.
+//! Weights of a network, generic over the number type.
 
-/// The weights of a network, `w1[neuron][bin]`, biases beside them; as many neurons in each list, and
-/// no more than the firmware has ports for.
+/// Weights `w1[neuron][bin]` and `w2[neuron]` of a network, and its biases. The number of neurons is at most that of
+/// the firmware's ports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights<W1, B1, W2, B2> {
-    /// Hidden layer, applied to raw counts.
+    /// Weights of the hidden layer, applied to raw counts.
     pub w1: Vec<Vec<W1>>,
     /// Biases of the hidden layer.
     pub b1: Vec<B1>,
-    /// Output layer [m].
+    /// Weights of the output layer [m].
     pub w2: Vec<W2>,
     /// Bias of the output layer [m].
     pub b2: B2,
 }
 
-/// A network's weights as the ROMs hold them: integers, whose formats stand beside them.
+/// Weights as integer ROM words, whose formats the datapath defines.
 pub type Fixed = Weights<i32, i32, i32, i32>;
 
 impl<W1: Copy, B1: Copy, W2: Copy, B2: Copy> Weights<W1, B1, W2, B2> {
-    /// Hidden neurons.
+    /// Returns the number of hidden neurons.
     pub fn neurons(&self) -> usize {
         self.w2.len()
     }
 
-    /// Bins of a histogram.
+    /// Returns the number of histogram bins.
     pub fn bins(&self) -> usize {
         self.w1.first().map_or(0, Vec::len)
     }
 
-    /// The same in other formats.
+    /// Converts all weights to other number types.
     pub fn map<V1, C1, V2, C2>(
         &self,
         w1: impl Fn(W1) -> V1,

@@ -1,4 +1,4 @@
-//! The text of a network file, laid out so that a change of a few weights is a change of few lines.
+//! Writer of network files, with a layout in which a change of few weights changes few lines.
 
 use serde::Serialize;
 
@@ -8,12 +8,12 @@ use super::file::Network;
 use super::schema::{SCALING, SCHEMA};
 use super::weights::Weights;
 
-/// Weights on a line.
+/// Number of weights per line.
 const INTEGERS_A_LINE: usize = 16;
 const FLOATS_A_LINE: usize = 4;
 
 impl Network {
-    /// The network's file.
+    /// Formats the network as a TOML text.
     pub fn to_toml(&self) -> String {
         let description = toml::Value::from(self.description.as_str());
         let mut text =
@@ -57,7 +57,7 @@ impl Network {
     }
 }
 
-/// The keys of a table, of which all can be written.
+/// Formats the keys of a serializable table.
 fn keys(table: &impl Serialize) -> String {
     toml::to_string(table).unwrap_or_default()
 }
@@ -70,7 +70,7 @@ fn weights(weights: &Weights<String, String, String, String>, a_line: usize) -> 
     format!("w1 = [\n{rows}]\n{b1}{w2}b2 = {b2}\n")
 }
 
-/// A list, so many items on a line; `before` it, before its end and `after` it.
+/// Formats a list with `a_line` items per line, preceded by `before` and followed by `after`.
 fn list(before: &str, indent: &str, items: &[String], a_line: usize, after: &str) -> String {
     let lines = items.chunks(a_line).map(|line| format!("    {},\n", line.join(", ")));
     format!("{before}[\n{}{indent}]{after}\n", lines.collect::<String>())

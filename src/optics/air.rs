@@ -1,27 +1,27 @@
-//! What the air does to light that passes: published coefficients of fog and rain.
+//! Attenuation and scattering of light by the air, with published coefficients of fog and rain.
 
 use std::f64::consts::LN_10;
 
 use crate::scenario::{Atmosphere, Scenario, VisibilityModel};
 
-/// Wavelength for which visibility is stated [nm].
+/// Wavelength at which visibility is defined [nm].
 const STATED_NM: f64 = 550.0;
 
-/// The air between sensor and target, the same everywhere.
+/// The air between sensor and target, which is homogeneous.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Air {
-    /// Part of the light that is lost on the way, to a metre [1/m].
+    /// Extinction coefficient [1/m].
     pub extinction_per_m: f64,
-    /// Part of it that goes back, to a metre and a steradian [1/(m sr)].
+    /// Backscatter coefficient [1/(m sr)].
     pub backscatter_per_m_sr: f64,
-    /// Nearer air sends nothing back [m].
+    /// Distance below which the air returns no light to the sensor [m].
     pub from_m: f64,
-    /// Ambient light of endless air to that of a white target [1].
+    /// Ambient light scattered by an infinite depth of air, relative to a white target [1].
     pub airlight: f64,
 }
 
 impl Air {
-    /// Of a scenario.
+    /// Returns the air of a scenario.
     pub fn of(scenario: &Scenario) -> Self {
         let keys = &scenario.atmosphere;
         let extinction_per_m = fog_per_m(keys, scenario.laser.wavelength_nm) + rain_per_m(keys);
@@ -33,20 +33,20 @@ impl Air {
         }
     }
 
-    /// Part of the light that passes a way [m], by Beer and Lambert [1].
+    /// Returns the transmission over a path [m] by the Beer-Lambert law [1].
     pub fn passes(&self, way_m: f64) -> f64 {
         libm::exp(-self.extinction_per_m * way_m)
     }
 
-    /// Light that comes back from air at distances from `near_m` to `far_m`, of one steradian of the beam: the lidar
-    /// equation, where the way is so short that extinction in its middle stands for all of it [1/(m^2 sr)].
+    /// Returns the backscatter from distances `near_m` to `far_m`, per steradian of the beam, by the lidar equation.
+    /// The section must be so short that the extinction at its middle represents all of it [1/(m^2 sr)].
     pub fn sends_back(&self, near_m: f64, far_m: f64) -> f64 {
         let way_m = near_m + far_m;
         self.backscatter_per_m_sr * (1.0 / near_m - 1.0 / far_m) * self.passes(way_m)
     }
 }
 
-/// Extinction by fog or haze, by Koschmieder's law at 550 nm, and from there by a power of the wavelength [1/m].
+/// Returns the extinction by fog or haze: Koschmieder's law at 550 nm, scaled by a power of the wavelength [1/m].
 fn fog_per_m(keys: &Atmosphere, wavelength_nm: f64) -> f64 {
     if keys.visibility_m == 0.0 {
         return 0.0;
@@ -56,8 +56,8 @@ fn fog_per_m(keys: &Atmosphere, wavelength_nm: f64) -> f64 {
     stated * libm::pow(wavelength_nm / STATED_NM, -exponent)
 }
 
-/// How extinction falls with the wavelength, of air with such a visibility [km]: Kruse et al. 1962, and Kim et al.,
-/// Proc. SPIE 4214 (2001), for less than 6 km [1].
+/// Returns the wavelength exponent of extinction for a visibility [km]: Kruse et al. 1962, or Kim et al., Proc. SPIE
+/// 4214 (2001), which differs below 6 km [1].
 fn exponent(model: VisibilityModel, visibility_km: f64) -> f64 {
     match (model, visibility_km) {
         (VisibilityModel::Flat, _) => 0.0,
@@ -70,7 +70,7 @@ fn exponent(model: VisibilityModel, visibility_km: f64) -> f64 {
     }
 }
 
-/// Extinction by rain, which knows no wavelength: drops are much larger [1/m].
+/// Returns the extinction by rain, which does not depend on the wavelength because drops are much larger [1/m].
 fn rain_per_m(keys: &Atmosphere) -> f64 {
     if keys.rain_mm_h == 0.0 {
         return 0.0;

@@ -1,4 +1,4 @@
-//! The link budget: photons and avalanches that a shot can expect.
+//! The link budget: expected photons and avalanches per shot.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -24,38 +24,38 @@ const FITTED_EFFICIENCY: f64 = 0.003;
 /// Largest distance of Table 4.3, to which the fitted ambient rate belongs [m].
 const FARTHEST_FITTED_M: f64 = 0.6;
 
-/// What the SPADs on the TDC can expect of the scene together.
+/// Expected light on the SPADs connected to the TDC, all together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
-    /// Mean number of detected laser photons per shot that the target diffuses, S_p of eq. 3.14 [1].
+    /// Mean number of detected laser photons per shot from the target's diffuse reflection, S_p of eq. 3.14 [1].
     pub signal_per_shot: f64,
-    /// The same of those that a retroreflecting patch on it sends back [1].
+    /// Mean number of detected laser photons per shot from a retroreflective patch [1].
     pub retro_per_shot: f64,
-    /// The same of those that the air sends back [1].
+    /// Mean number of detected laser photons per shot scattered back by the air [1].
     pub backscatter_per_shot: f64,
-    /// The part of the target's light that the air leaves, on both ways together [1].
+    /// Transmission of the air to the target and back [1].
     pub transmission: f64,
-    /// Rate of avalanches from ambient light that the target diffuses, N_r of eq. 3.20 [1/s].
+    /// Rate of avalanches from ambient light reflected by the target, N_r of eq. 3.20 [1/s].
     pub ambient_rate_hz: f64,
-    /// The same of ambient light that the air scatters [1/s].
+    /// Rate of avalanches from ambient light scattered by the air [1/s].
     pub airlight_rate_hz: f64,
-    /// Rate of avalanches in the dark [1/s].
+    /// Dark count rate [1/s].
     pub dark_rate_hz: f64,
     /// Energy of a laser pulse [J].
     pub pulse_energy_j: f64,
-    /// Mean arrival of what the target diffuses, from the laser edge: eq. 3.23 after the laser's delay.
+    /// Mean arrival time of the diffuse reflection, from the laser edge: eq. 3.23 plus the laser's delay.
     pub mean_arrival: Time,
-    /// How the laser's light is spread over time, where it is not one echo.
+    /// Temporal distribution of the laser light, if it is not a single echo.
     pub spread: Option<Arc<Spread>>,
-    /// How long after the laser edge the light leaves.
+    /// Delay from the laser edge to the light.
     pub delay: Time,
-    /// The pulse as the detector times it.
+    /// Pulse shape as timed by the detector.
     pub pulse: Pulse,
-    /// How shots differ.
+    /// Variation from shot to shot.
     pub variation: Variation,
 }
 
-/// No light at all, of the default pulse.
+/// Returns a budget without any light, with the default pulse.
 impl Default for Budget {
     fn default() -> Self {
         Budget {
@@ -77,13 +77,14 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// Of a scene that has no mesh, with the pulse that its laser has, and without measured dark rates
+    /// Computes the budget of a scene without a mesh, for the given laser pulse and without measured dark rates
     /// ([`Budget::with_dark_rates`]).
     pub fn new(scenario: &Scenario, pulse: Pulse) -> Self {
         Budget::of_scene(scenario, pulse, None)
     }
 
-    /// The same of a scene that may have a mesh.
+    /// Computes the budget of a scene that may have a mesh, for the given laser pulse and without measured dark
+    /// rates.
     pub fn of_scene(scenario: &Scenario, pulse: Pulse, mesh: Option<&Mesh>) -> Self {
         let scene = scenario.beside_one_echo().map(|_| Scene::new(scenario, mesh));
         let seen = match &scene {
@@ -119,7 +120,7 @@ impl Budget {
         }
     }
 
-    /// The same with the laser's light that comes back from a scene, each part of it when it comes.
+    /// Replaces the laser light by that returned from a scene, distributed in time.
     fn with_light_of(self, scene: &Scene, scenario: &Scenario) -> Self {
         let returned = scene.returned();
         let horizon_m = longest_period_s(scenario) * LIGHT_M_S / 2.0;
@@ -141,18 +142,18 @@ impl Budget {
         }
     }
 
-    /// The same with dark rates that may have been measured.
+    /// Replaces the dark count rate.
     pub fn with_dark_rates(self, dark: &DarkRates) -> Self {
         Budget { dark_rate_hz: dark.on_tdc_hz(), ..self }
     }
 
-    /// That of all outputs that are simulated, where this is of those on the TDC: each has the same light.
+    /// Scales the budget of the SPADs on the TDC to all simulated outputs, each of which receives the same light.
     pub fn of_row(&self, wiring: &Wiring, dark: &DarkRates) -> Self {
         let share = wiring.simulated.len() as f64 / wiring.on_tdc.len() as f64;
         Budget { dark_rate_hz: dark.of_row_hz(), ..self.dimmed(share) }
     }
 
-    /// A part of all of it, light and dark.
+    /// Scales all light and dark counts by a factor.
     pub fn dimmed(&self, part: f64) -> Self {
         Budget {
             signal_per_shot: self.signal_per_shot * part,
@@ -165,9 +166,9 @@ impl Budget {
         }
     }
 
-    /// That of a target with a reflectance in an irradiance [W/m^2/nm], where this is of a white one in 1 W/m^2/nm:
-    /// what it diffuses is proportional to its reflectance (eq. 3.13), and ambient light to irradiance too (eq. 3.19 and
-    /// 3.20). A retroreflecting patch and the air send back what they do, whatever is around them.
+    /// Scales the budget of a white target in an irradiance of 1 W/m^2/nm to another reflectance and irradiance
+    /// [W/m^2/nm]: diffuse reflection is proportional to reflectance (eq. 3.13), and ambient light also to irradiance
+    /// (eq. 3.19 and 3.20). Light from a retroreflective patch and from the air does not depend on the reflectance.
     pub fn of_white(&self, reflectance: f64, irradiance_w_m2_nm: f64) -> Self {
         Budget {
             signal_per_shot: self.signal_per_shot * reflectance,
@@ -177,33 +178,33 @@ impl Budget {
         }
     }
 
-    /// Mean number of detected laser photons per shot, wherever they come back from [1].
+    /// Returns the mean number of detected laser photons per shot, from all origins [1].
     pub fn laser_per_shot(&self) -> f64 {
         self.signal_per_shot + self.retro_per_shot + self.backscatter_per_shot
     }
 
-    /// When light of the nearest and of the farthest part of the target comes.
+    /// Returns the arrival times of light from the nearest and the farthest part of the target.
     pub fn target_ends(&self) -> [Time; 2] {
         self.spread.as_ref().map_or([self.mean_arrival; 2], |spread| spread.ends)
     }
 
-    /// Rate of avalanches from light that is not the laser's [1/s].
+    /// Returns the rate of avalanches from ambient light [1/s].
     pub fn ambient_light_hz(&self) -> f64 {
         self.ambient_rate_hz + self.airlight_rate_hz
     }
 
-    /// Mean time of flight, eq. 3.23.
+    /// Returns the mean time of flight, eq. 3.23.
     pub fn flight(&self) -> Time {
         self.mean_arrival - self.delay
     }
 
-    /// Rate of avalanches that no laser photon causes [1/s].
+    /// Returns the rate of avalanches from ambient light and dark counts [1/s].
     pub fn background_rate_hz(&self) -> f64 {
         self.ambient_light_hz() + self.dark_rate_hz
     }
 }
 
-/// S_p of one SPAD: eq. 3.13 into eq. 3.14, with P_s / f as the energy of the pulse.
+/// Computes S_p of one SPAD: eq. 3.13 in eq. 3.14, with P_s / f as the pulse energy.
 fn signal_per_shot(scenario: &Scenario) -> f64 {
     let (target, laser) = (&scenario.target, &scenario.laser);
     let illumination_deg = laser.field_of_illumination_deg;
@@ -215,7 +216,7 @@ fn signal_per_shot(scenario: &Scenario) -> f64 {
     lens_energy_j * scenario.filter.efficiency * avalanches_per_joule(scenario)
 }
 
-/// The same of a white target for which the sum of eq. 3.13 is one to a square metre [m^2].
+/// Computes S_p of one SPAD for a white target whose sum in eq. 3.13 is 1 per square metre [m^2].
 fn white_per_shot(scenario: &Scenario) -> f64 {
     let sin = libm::sin((scenario.laser.field_of_illumination_deg / 4.0).to_radians());
     let lens_energy_j_m2 =
@@ -223,7 +224,7 @@ fn white_per_shot(scenario: &Scenario) -> f64 {
     lens_energy_j_m2 * scenario.filter.efficiency * avalanches_per_joule(scenario)
 }
 
-/// The longest time from one pulse to the next that the run may have [s].
+/// Returns the longest laser period that the run may use [s].
 fn longest_period_s(scenario: &Scenario) -> f64 {
     let firmware = &scenario.firmware;
     let changes = scenario.control.iter().filter_map(|change| change.laser_freq);
@@ -232,8 +233,9 @@ fn longest_period_s(scenario: &Scenario) -> f64 {
     cycles.map_or(0.0, |cycles| *cycles as f64) * scenario.pll.params().cycle().seconds()
 }
 
-/// N_r of one SPAD, proportional to irradiance and reflectance, with the constant fitted to Table 4.3, and to what
-/// the optics make of ambient light from a projected solid angle, against the optics that the constant is stated for.
+/// Computes N_r of one SPAD, proportional to irradiance and reflectance, with the constant fitted to Table 4.3, and
+/// scaled by the ambient light that the optics collect from a projected solid angle, relative to the optics for which
+/// the constant is stated.
 fn fitted_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -> f64 {
     let ambient = &scenario.ambient;
     let of_the_thesis_optics =
@@ -243,13 +245,13 @@ fn fitted_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -
     of_the_thesis_optics * against_the_thesis_optics(scenario, seen_sr)
 }
 
-/// Ambient photons of a scenario's optics against those of the thesis's: exactly 1 for its own, at its
-/// own distances, because both sides are the same sum [1].
+/// Returns the ratio of ambient photons with a scenario's optics to those with the thesis's: exactly 1 for the
+/// thesis's optics and distances, because both are the same sum [1].
 ///
-/// The thesis's optics look at their own target from the same distance, because Table 4.3 has one rate for
-/// all of its distances, although that target does not fill the view from 0.47 m on. Beyond the last of
-/// them nothing was fitted, and the reference stays there: the rate falls with the target's solid angle,
-/// and a wall that fills the view has the same rate from everywhere.
+/// The reference is the thesis's target at the scenario's distance, because Table 4.3 has one rate for all distances,
+/// although that target does not fill the field of view beyond 0.47 m. Beyond the table's largest distance the
+/// reference is constant, so that the rate falls with the target's solid angle, and a wall that fills the field of
+/// view gives the same rate from everywhere.
 fn against_the_thesis_optics(scenario: &Scenario, own_sr: f64) -> f64 {
     let mut thesis = Scenario::default();
     thesis.target.distance_m = scenario.target.distance_m.min(FARTHEST_FITTED_M);
@@ -257,7 +259,8 @@ fn against_the_thesis_optics(scenario: &Scenario, own_sr: f64) -> f64 {
     ambient_photons_hz(scenario, own_sr) / ambient_photons_hz(&thesis, seen_sr(&thesis))
 }
 
-/// Ambient photons on one SPAD, of a white target under a projected solid angle, in an irradiance of 1 W/m^2/nm [1/s].
+/// Computes the rate of ambient photons on one SPAD from a white target of the given projected solid angle, in an
+/// irradiance of 1 W/m^2/nm [1/s].
 fn ambient_photons_hz(scenario: &Scenario, seen_sr: f64) -> f64 {
     passband_nm(&scenario.filter) / PI
         * scenario.lens.area_m2
@@ -265,30 +268,31 @@ fn ambient_photons_hz(scenario: &Scenario, seen_sr: f64) -> f64 {
         * photons_per_joule(scenario)
 }
 
-/// N_r of one SPAD by eq. 3.20, with what eq. 3.19 lacks: the factor pi of a diffuse reflector and the solid angle.
+/// Computes N_r of one SPAD by eq. 3.20, with the factors that eq. 3.19 omits: pi of a diffuse reflector, and the
+/// solid angle.
 fn physical_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -> f64 {
     let radiance_w_m2_sr =
         scenario.ambient.irradiance_w_m2_nm * passband_nm(&scenario.filter) * reflectance / PI;
     radiance_w_m2_sr * scenario.lens.area_m2 * seen_sr * avalanches_per_joule(scenario)
 }
 
-/// Integral of the filter's transmission, eq. 3.17 [nm].
+/// Returns the integral of the filter's transmission, eq. 3.17 [nm].
 fn passband_nm(filter: &Filter) -> f64 {
     filter.efficiency * (2.0 * PI).sqrt() * filter.sigma_nm
 }
 
-/// Projected solid angle of the part of a plain target that is seen [sr].
+/// Returns the projected solid angle of the visible part of a plain target [sr].
 fn seen_sr(scenario: &Scenario) -> f64 {
     geometry::projected_solid_angle(&scenario.target, scenario.spad.field_of_view_deg)
 }
 
-/// Avalanches of one SPAD per joule on the lens: eq. 3.14 after the filter [1/J].
+/// Returns the number of avalanches of one SPAD per joule on the lens: eq. 3.14 behind the filter [1/J].
 fn avalanches_per_joule(scenario: &Scenario) -> f64 {
     photons_per_joule(scenario) * scenario.spad.detection_efficiency()
 }
 
-/// Photons on one SPAD per joule on the lens. The factor 2 / pi is the square array inside the lens's
-/// round image [1/J].
+/// Returns the number of photons on one SPAD per joule on the lens. The factor 2 / pi is the square array within the
+/// lens's round image [1/J].
 fn photons_per_joule(scenario: &Scenario) -> f64 {
     let photon_j = PLANCK_J_S * LIGHT_M_S / (scenario.laser.wavelength_nm * 1e-9);
     let share = 2.0 / (PI * scenario.spad.count as f64);

@@ -1,10 +1,10 @@
-//! What the hits of each code are to be expected to come of, where nobody has seen their avalanches.
+//! Expected causes of the hits with each code, for histograms whose avalanches were not simulated.
 
 use super::closed_form::Bins;
 use super::hazard::Hazard;
 
-/// Of the hits of each code the parts that come of the laser, of ambient light and of no light at all, where the
-/// first avalanche of a shot decides; zeros for a code without hits [1].
+/// Returns the fractions of each code's hits that are due to the laser, to ambient light and to dark counts, if the
+/// first avalanche of a shot decides. All are zero for a code without hits [1].
 pub fn cause_parts(hazard: &Hazard, bins: &Bins) -> Vec<[f64; 3]> {
     let mut parts = vec![[0.0; 3]; bins.count()];
     for span in bins.spans() {

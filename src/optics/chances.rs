@@ -1,25 +1,25 @@
-//! What a shot can expect: chances of its first avalanche, in closed form.
+//! Probabilities of the first avalanche of a shot, in closed form.
 
 use crate::kernel::Time;
 
 use super::closed_form::{BinProbabilities, Bins};
 use super::hazard::Hazard;
 
-/// Chances of a shot whose detector is armed at the laser edge, where the first avalanche decides.
+/// Probabilities of a shot whose detector is armed at the laser edge, so that the first avalanche decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chances {
-    /// That the TDC keeps a hit, whenever in the shot [1].
+    /// Probability that the TDC registers a hit at any time in the shot [1].
     pub hit: f64,
-    /// That it keeps a hit and a laser photon is its cause [1].
+    /// Probability that the TDC registers a hit due to a laser photon [1].
     pub signal_first: f64,
-    /// Mean number of hits in the histogram: those with a code [1].
+    /// Mean number of hits in the histogram, that is, with a code [1].
     pub counted: f64,
-    /// Of these, the laser photons' [1].
+    /// Mean number of laser photons' hits in the histogram [1].
     pub counted_signal: f64,
 }
 
 impl Chances {
-    /// Where hits have the codes of `bins`, and the TDC keeps none from `end` on.
+    /// Computes the probabilities for hits with the codes of `bins`, and a TDC that registers none from `end` on.
     pub fn new(hazard: &Hazard, bins: &Bins, end: Time) -> Self {
         let mut counted_signal = 0.0;
         let mut spans = bins.spans().iter().peekable();
@@ -39,7 +39,8 @@ impl Chances {
         }
     }
 
-    /// Hits of laser photons to one of any other cause, in the histogram; `None` without any other [1].
+    /// Returns the signal-to-background ratio: laser photons' hits in the histogram per hit of any other cause;
+    /// `None` without other hits [1].
     pub fn signal_to_noise(&self) -> Option<f64> {
         let noise = self.counted - self.counted_signal;
         // Below this it is what sums of a thousand terms leave over.
@@ -47,7 +48,7 @@ impl Chances {
     }
 }
 
-/// Chance of an avalanche before `end`.
+/// Returns the probability of an avalanche before `end`.
 fn hit(hazard: &Hazard, end: Time) -> f64 {
     match hazard.variation().is_none() {
         true => -libm::expm1(-hazard.at(end)),

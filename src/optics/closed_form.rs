@@ -1,7 +1,7 @@
 //! The histogram of a frame in one step, for SPAD mode 0, where the first avalanche decides.
 //!
-//! A bin has the probability `exp(-H(a)) - exp(-H(b))`, summed over the times that give its code;
-//! which times those are depends on the carry chain. What is left over has no code.
+//! The probability of a bin is the sum of `exp(-H(a)) - exp(-H(b))` over the time spans that give its code, which
+//! depend on the carry chain. The remaining probability has no code.
 
 use rand::Rng;
 use rand_distr::{Binomial, Distribution};
@@ -12,31 +12,31 @@ use crate::kernel::Time;
 
 use super::hazard::Hazard;
 
-/// A span of avalanche times that give one code.
+/// A span of avalanche times with the same code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
-    /// First time, from the laser edge.
+    /// Start, from the laser edge.
     pub from: Time,
-    /// First time after it.
+    /// End, excluded.
     pub until: Time,
-    /// Code of the TDC [bins].
+    /// TDC code [bins].
     pub code: u16,
 }
 
-/// Which avalanche times give which code.
+/// Mapping from avalanche times to codes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bins {
-    /// In order of time, without overlap.
+    /// Spans in order of time, not overlapping.
     spans: Vec<Span>,
-    /// What a code is meant to be.
+    /// Nominal time scale of the codes.
     scale: TimeScale,
 }
 
 impl Bins {
-    /// Of a converter.
+    /// Computes the mapping of a converter.
     ///
-    /// The chain has to be clear again before the next shot's first edge, 2 periods after
-    /// `spad_rst` rises, or a hit would be counted together with the one before.
+    /// The chain must be clear before the first edge of the next shot, two periods after `spad_rst` rises, or a hit
+    /// would be counted together with the previous one.
     pub fn of_tdc(p: &tdc::Params) -> Self {
         let (delays, period) = (&p.delays, p.decoder.scale.period());
         let mut spans = Vec::new();
@@ -59,8 +59,8 @@ impl Bins {
         Bins { spans, scale: p.decoder.scale }
     }
 
-    /// Of a converter that tells times apart however close they are: each bin is exactly what the scale means it to
-    /// be, as far as the window reaches.
+    /// Computes the mapping of an ideal converter with unlimited resolution: each bin has its nominal limits, as far
+    /// as the window reaches.
     pub fn without_taps(p: &tdc::Params) -> Self {
         let scale = p.decoder.scale;
         let end = Time::from_fs(p.coarse_counter.window() * scale.period().fs());
@@ -72,18 +72,18 @@ impl Bins {
         Bins { spans, scale }
     }
 
-    /// The spans of all codes, in order of time.
+    /// Returns the spans of all codes, in order of time.
     pub fn spans(&self) -> &[Span] {
         &self.spans
     }
 
-    /// How many there are.
+    /// Returns the number of bins.
     pub fn count(&self) -> usize {
         self.scale.bins()
     }
 
-    /// Where each bin begins, and last where the last one ends, as far as codes follow time: a code that none has
-    /// is a bin without width [ps].
+    /// Returns the start of each bin, followed by the end of the last one, provided that codes increase with time. A
+    /// code that never occurs is a bin of zero width [ps].
     pub fn edges_ps(&self) -> Vec<f64> {
         let mut edges = vec![0.0; self.count() + 1];
         for span in &self.spans {
@@ -96,28 +96,28 @@ impl Bins {
         edges
     }
 
-    /// Width of a bin, as codes count it [ps].
+    /// Returns the nominal bin width [ps].
     pub fn bin_ps(&self) -> f64 {
         self.scale.bin().fs() as f64 * 1e-3
     }
 
-    /// Time at which bin 0 begins, as codes count it [ps].
+    /// Returns the nominal start of bin 0 [ps].
     pub fn first_ps(&self) -> f64 {
         self.scale.first().fs() as f64 * 1e-3
     }
 
-    /// Place of a time from the laser edge [ps] among the bins, as codes count them [bins].
+    /// Converts a time from the laser edge [ps] to a nominal position on the scale of bins [bins].
     pub fn place(&self, ps: f64) -> f64 {
         (ps - self.first_ps()) / self.bin_ps()
     }
 
-    /// Whether codes count what the KC705's do.
+    /// Returns whether the scale equals the KC705's.
     pub fn are_kc705(&self) -> bool {
         let kc705 = |scale: &TimeScale| (scale.bin(), scale.first(), scale.bins());
         kc705(&self.scale) == kc705(&TimeScale::default())
     }
 
-    /// Code of an avalanche at `t` from the laser edge.
+    /// Returns the code of an avalanche at `t` from the laser edge.
     pub fn code_at(&self, t: Time) -> Option<u16> {
         let next = self.spans.partition_point(|span| span.from <= t);
         let span = self.spans[..next].last()?;
@@ -125,12 +125,12 @@ impl Bins {
     }
 }
 
-/// First time of an avalanche that at `edge` is younger than `age`.
+/// Returns the earliest avalanche time with an age below `age` at `edge`.
 fn first_younger(age: Time, edge: Time) -> Time {
     (edge + Time::from_fs(1)).since(age)
 }
 
-/// Appends a span, if there is anything of it, to the one before if they are one.
+/// Appends a span unless it is empty, and merges it with the previous one if they are contiguous.
 fn push(spans: &mut Vec<Span>, span: Span) {
     if span.from >= span.until {
         return;
@@ -141,12 +141,13 @@ fn push(spans: &mut Vec<Span>, span: Span) {
     }
 }
 
-/// The probability of each code in one shot.
+/// Probability of each code in one shot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BinProbabilities(Vec<f64>);
 
 impl BinProbabilities {
-    /// Of shots that are armed at the laser edge, in the mean over all kinds of them.
+    /// Computes the probabilities for shots that are armed at the laser edge, averaged over the variation from shot
+    /// to shot.
     pub fn new(hazard: &Hazard, bins: &Bins) -> Self {
         if hazard.variation().is_none() {
             return BinProbabilities(first_avalanches(|t| hazard.at(t), bins));
@@ -159,20 +160,20 @@ impl BinProbabilities {
         BinProbabilities(of_code)
     }
 
-    /// Of such shots, all alike, in which the avalanches of several hazards come: that of one surface with the
-    /// ambient light, and those of others without.
+    /// Computes the probabilities for identical shots that are armed at the laser edge, with avalanches from several
+    /// hazards: that of one surface including the ambient light, and those of others without it.
     pub fn of_all(hazards: &[Hazard], bins: &Bins) -> Self {
         let together = |t| hazards.iter().map(|hazard| hazard.at(t)).sum();
         BinProbabilities(first_avalanches(together, bins))
     }
 
-    /// By code.
+    /// Returns the probabilities, by code.
     pub fn of_code(&self) -> &[f64] {
         &self.0
     }
 
-    /// A histogram of `shots` shots: multinomial, as a binomial draw for each code from the shots
-    /// that are left.
+    /// Draws a histogram of `shots` shots: a multinomial draw, as one binomial draw per code from the remaining
+    /// shots.
     pub fn draw(&self, shots: u64, rng: &mut impl Rng) -> Vec<u64> {
         let mut histogram = vec![0; self.0.len()];
         let (mut shots_left, mut probability_left) = (shots, 1.0);
@@ -190,7 +191,7 @@ impl BinProbabilities {
     }
 }
 
-/// The probability that a shot's first avalanche has each code, by its hazard.
+/// Computes the probability that a shot's first avalanche has each code, given the cumulative hazard.
 fn first_avalanches(at_time: impl Fn(Time) -> f64, bins: &Bins) -> Vec<f64> {
     let mut of_code = vec![0.0; bins.count()];
     // Hazard, and probability of no avalanche, up to where we are.

@@ -1,4 +1,4 @@
-//! Avalanches in the dark: how many at a temperature, and how diodes differ.
+//! Dark count rates: their dependence on temperature and their spread over SPADs.
 
 use std::ops::Range;
 
@@ -7,34 +7,34 @@ use crate::scenario::Spad;
 use crate::scenario::dark::Measured;
 use crate::scenario::wiring::{ON_TDC, Wiring};
 
-/// The temperature at which `spad.dark_rate_hz` is stated [deg C].
+/// Temperature at which `spad.dark_rate_hz` is stated [deg C].
 pub const STATED_AT_C: f64 = 20.0;
 
-/// Dark rate of a diode in the middle of all at the scenario's temperature: it doubles with every
-/// `spad.dark_doubling_c` degrees [1/s].
+/// Returns the median dark count rate at the scenario's temperature, which doubles every `spad.dark_doubling_c`
+/// degrees [1/s].
 pub fn dark_rate_hz(spad: &Spad) -> f64 {
     spad.dark_rate_hz * growth(spad)
 }
 
-/// What dark rates grow by from 20 deg C to the scenario's temperature [1].
+/// Returns the factor on dark count rates from 20 deg C to the scenario's temperature [1].
 fn growth(spad: &Spad) -> f64 {
     libm::exp2((spad.temperature_c - STATED_AT_C) / spad.dark_doubling_c)
 }
 
-/// Dark rates of the outputs of the row that are simulated.
+/// Dark count rates of the simulated outputs of the row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DarkRates {
-    /// Of each, in units of `unit_hz`; none if all have that [1].
+    /// Rate of each output, in units of `unit_hz`; empty if all are 1 [1].
     parts: Vec<f64>,
-    /// [1/s].
+    /// Unit of the relative rates [1/s].
     unit_hz: f64,
     wiring: Wiring,
-    /// Of output 15 alone, of which others are told to be no more than neighbours [1/s].
+    /// Rate of output 15 alone [1/s].
     one_hz: f64,
 }
 
 impl DarkRates {
-    /// Those of a detector: all alike, spread, or as measured.
+    /// Computes the rates of a detector: equal, spread, or measured.
     pub fn new(spad: &Spad, measured: Option<&Measured>) -> Self {
         let (wiring, middle_hz) = (Wiring::of(spad), dark_rate_hz(spad));
         let count = wiring.simulated.len();
@@ -47,22 +47,22 @@ impl DarkRates {
         DarkRates { parts, unit_hz, wiring, one_hz: rate(ON_TDC) * unit_hz }
     }
 
-    /// Rate of all on the TDC together [1/s].
+    /// Returns the total rate of the outputs connected to the TDC [1/s].
     pub fn on_tdc_hz(&self) -> f64 {
         self.sum_hz(self.wiring.places())
     }
 
-    /// Rate of all that are simulated together [1/s].
+    /// Returns the total rate of all simulated outputs [1/s].
     pub fn of_row_hz(&self) -> f64 {
         self.sum_hz(0..self.wiring.simulated.len())
     }
 
-    /// Rate of one diode by itself: that of output 15 as measured, or one in the middle of all [1/s].
+    /// Returns the rate of a single SPAD: output 15 if measured, otherwise the median [1/s].
     pub fn one_hz(&self) -> f64 {
         self.one_hz
     }
 
-    /// Rate of each to a common factor, if there are several that differ [1].
+    /// Returns the relative rates of all outputs, if several outputs differ [1].
     pub fn parts(&self) -> &[f64] {
         if self.parts.len() > 1 { &self.parts } else { &[] }
     }
@@ -76,8 +76,8 @@ impl DarkRates {
     }
 }
 
-/// The quantiles (k + 1/2) / n of a log-normal distribution, quiet and hot ones side by side in turn, so that no chance
-/// decides which there are; none if they are all alike [1].
+/// Returns the quantiles (k + 1/2) / n of a log-normal distribution, with low and high ones alternating, so that the
+/// rates are not random; empty if all are equal [1].
 fn quantiles(spread: f64, count: usize) -> Vec<f64> {
     if spread == 0.0 {
         return Vec::new();

@@ -1,17 +1,16 @@
-//! Class 1 limits of IEC 60825-1:2014 as the thesis has them (Table 3.1).
+//! Class 1 limits of IEC 60825-1:2014, as stated in the thesis (Table 3.1).
 
 use std::ops::RangeInclusive;
 
-/// Where Table 3.1 ends [s].
+/// Longest exposure of Table 3.1 [s].
 pub const LONGEST_S: f64 = 10.0;
-/// Wavelengths for which C4 is that of Table 3.1 [nm].
+/// Wavelengths for which Table 3.1 states C4 [nm].
 pub const C4_NM: RangeInclusive<f64> = 700.0..=1050.0;
 
-/// Accessible emission limit of a pulse or exposure of that length: Table 3.1 [J].
+/// Returns the accessible emission limit for a pulse or exposure of the given length: Table 3.1 [J].
 ///
-/// C4 multiplies: the exponent -1 printed at it is the mark of the table's footnote, and only so
-/// does eq. 3.3 give its 12.77 mW. `None` outside the table (1e-13 .. 10 s) and outside the range
-/// of C4 (700 .. 1050 nm).
+/// C4 is a factor: the exponent -1 printed with it is the mark of the table's footnote, because only then does eq.
+/// 3.3 yield 12.77 mW. Returns `None` outside the table (1e-13 to 10 s) and outside the range of C4 (700 to 1050 nm).
 pub fn accessible_emission_limit_j(exposure_s: f64, wavelength_nm: f64) -> Option<f64> {
     let c4 = correction_c4(wavelength_nm)?;
     match exposure_s {
@@ -22,46 +21,46 @@ pub fn accessible_emission_limit_j(exposure_s: f64, wavelength_nm: f64) -> Optio
     }
 }
 
-/// Highest average power over an exposure: eq. 3.2 [W].
+/// Returns the highest average power over an exposure: eq. 3.2 [W].
 pub fn maximum_average_power_w(exposure_s: f64, wavelength_nm: f64) -> Option<f64> {
     Some(accessible_emission_limit_j(exposure_s, wavelength_nm)? / exposure_s)
 }
 
-/// Longest exposure to that average power within Class 1: eq. 3.2 with the last row of Table 3.1, which
+/// Returns the longest exposure to an average power within Class 1: eq. 3.2 with the last row of Table 3.1, which
 /// ends at 10 s [s].
 ///
-/// `None` if it would begin before that row, and where there is no limit to tell.
+/// Returns `None` if it would lie before that row, or if no limit is known.
 pub fn longest_exposure_s(average_w: f64, wavelength_nm: f64) -> Option<f64> {
     let at_one_second_w = maximum_average_power_w(1.0, wavelength_nm)?;
     let longest_s = (at_one_second_w / average_w).powi(4).min(LONGEST_S);
     (longest_s >= 5e-6).then_some(longest_s)
 }
 
-/// An exposure of an eye to the laser, beside what Class 1 allows.
+/// An exposure of the eye to the laser, with the Class 1 limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exposure {
-    /// How long it is [s].
+    /// Duration [s].
     pub exposure_s: f64,
-    /// Average power over it [W].
+    /// Average power during the exposure [W].
     pub average_w: f64,
-    /// Highest average power over it; `None` where there is none to tell [W].
+    /// Highest average power within Class 1; `None` if no limit is known [W].
     pub limit_w: Option<f64>,
 }
 
 impl Exposure {
-    /// To that power on average, for so long.
+    /// Creates an exposure of the given duration and average power.
     pub fn new(exposure_s: f64, average_w: f64, wavelength_nm: f64) -> Self {
         let limit_w = maximum_average_power_w(exposure_s, wavelength_nm);
         Exposure { exposure_s, average_w, limit_w }
     }
 
-    /// Whether it is within the limit, where there is one.
+    /// Returns whether the exposure is within the limit, if one is known.
     pub fn is_within(&self) -> Option<bool> {
         self.limit_w.map(|limit_w| self.average_w <= limit_w)
     }
 }
 
-/// C4 of IEC 60825-1: 3.02 at 940 nm.
+/// Returns C4 of IEC 60825-1: 3.02 at 940 nm.
 fn correction_c4(wavelength_nm: f64) -> Option<f64> {
     C4_NM.contains(&wavelength_nm).then(|| libm::pow(10.0, 0.002 * (wavelength_nm - 700.0)))
 }

@@ -1,34 +1,36 @@
-//! What pile-up makes of an echo: when the first avalanche of a shot comes, in closed form.
+//! Effect of pile-up on an echo: the distribution of a shot's first avalanche, in closed form.
 //!
-//! A TDC keeps the first avalanche of a shot, whose density is `f(t) = h(t) exp(-H(t))`, with the rate `h` and its integral
-//! `H`: photons that come late in the pulse are seen only where none came before. So the histogram's peak is early, the
-//! more so the stronger the echo is, and it lies where `h' = h^2` (order statistics, thesis section 4.3; Coates, J. Phys. E 1,
-//! 1968). The mean of a weak Gaussian echo is early by `S sigma / (2 sqrt(pi))`: with a chance of S/2 there is a second photon,
-//! and the first of two is early by `sigma / sqrt(pi)`.
+//! A TDC registers the first avalanche of a shot, whose density is `f(t) = h(t) exp(-H(t))`, with the rate `h` and
+//! its integral `H`: photons late in the pulse are seen only if none came before. The histogram's peak therefore
+//! shifts to shorter times, the more so the stronger the echo, to the point where `h' = h^2` (order statistics,
+//! thesis section 4.3; Coates, J. Phys. E 1, 1968). The mean of a weak Gaussian echo shifts by `-S sigma / (2
+//! sqrt(pi))`: with probability S/2 there is a second photon, and the first of two is earlier by `sigma / sqrt(pi)`
+//! on average.
 
 use crate::kernel::Time;
 
 use super::budget::{Budget, LIGHT_M_S};
 use super::hazard::Hazard;
 
-/// Stretches that an echo is cut into [1].
+/// Number of intervals into which an echo is divided [1].
 const STRETCHES: usize = 1024;
-/// Neighbouring stretches among which the peak is looked for: finer ones show the pieces of the pulse's broken line [1].
+/// Number of adjacent intervals that are combined to locate the peak; with shorter ones, the segments of the
+/// piecewise linear pulse would show [1].
 const TOGETHER: usize = 4;
 
-/// Where first avalanches come around the echo.
+/// Distribution of first avalanches around the echo.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstPhoton {
-    /// That the first avalanche of a shot comes there [1].
+    /// Probability that a shot's first avalanche lies in the interval [1].
     pub chance: f64,
-    /// Mean time of those, from the light's mean arrival [ps].
+    /// Mean of their times, relative to the light's mean arrival [ps].
     pub mean_ps: f64,
-    /// Where most come, from the light's mean arrival [ps].
+    /// Most likely time, relative to the light's mean arrival [ps].
     pub peak_ps: f64,
 }
 
-/// The stretch of time around the echo that is looked at: from the nearest light's mean arrival to the farthest's, and half as
-/// far as the pulse reaches on both sides, which is four sigma of a Gaussian.
+/// Returns the time interval around the echo that is evaluated: from the nearest to the farthest light's mean
+/// arrival, extended on both sides by half of the pulse's length, which is four sigma for a Gaussian.
 pub fn around_the_echo(budget: &Budget) -> [Time; 2] {
     let [nearest, farthest] = budget.target_ends();
     let [before_ps, after_ps] = budget.pulse.reach_ps().map(|ps| ps / 2.0);
@@ -37,7 +39,8 @@ pub fn around_the_echo(budget: &Budget) -> [Time; 2] {
 }
 
 impl FirstPhoton {
-    /// Of a shot of `budget`, whose avalanches are those of `hazard`; `None` where none comes there.
+    /// Computes the distribution for a shot of `budget` with the given hazard; `None` if no avalanche falls into the
+    /// interval.
     pub fn new(budget: &Budget, hazard: &Hazard) -> Option<Self> {
         let [from, until] = around_the_echo(budget).map(|time| time.fs() as f64);
         let step = (until - from) / STRETCHES as f64;
@@ -60,13 +63,14 @@ impl FirstPhoton {
         Some(FirstPhoton { chance, mean_ps, peak_ps })
     }
 
-    /// A time as the distance that it stands for [mm].
+    /// Converts a time to the corresponding distance [mm].
     pub fn shift_mm(ps: f64) -> f64 {
         ps * 1e-12 * LIGHT_M_S / 2.0 * 1e3
     }
 }
 
-/// How far beside the largest value the top of the parabola through it and its neighbours lies [places].
+/// Returns the vertex of the parabola through the largest value and its neighbours, relative to the largest value
+/// [indices].
 fn between(values: &[f64], largest: usize) -> f64 {
     let [Some(&before), Some(&after)] =
         [largest.checked_sub(1), Some(largest + 1)].map(|place| values.get(place?))

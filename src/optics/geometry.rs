@@ -1,8 +1,8 @@
-//! Integrals over the pixelated target: how much of the cone's light it returns.
+//! Integrals over the pixelated target: the fraction of the cone's light that it returns.
 //!
-//! The target is a rectangle across the axis, centred on it; laser and sensor share one point. A
-//! quadrant is enough, by symmetry. Its lit part is divided into sub-elements, and those that the
-//! cone's edge cuts count with the part of their row inside:
+//! The target is a rectangle perpendicular to the axis and centred on it; laser and sensor share one point. By
+//! symmetry, one quadrant suffices. Its illuminated part is divided into sub-elements, and those that the edge of the
+//! cone intersects count with the part of their row inside:
 //!
 //! ```text
 //! y ^ ___
@@ -12,13 +12,13 @@
 //!   +--------> x
 //! ```
 //!
-//! Counting whole sub-elements by their centres, as the thesis does, leaves errors up to 0.4 % at
-//! 400 a side; this leaves 0.005 % at 128.
+//! Counting whole sub-elements by their centres, as the thesis does, has errors of up to 0.4 % at 400 per side; this
+//! method has 0.005 % at 128.
 
 use crate::scenario::Target;
 
-/// Sum of eq. 3.13: the target's elements, weighted with cos^2(theta) / (d_e^2 d_s^2), inside a cone
-/// of that full angle [1/m^2].
+/// Computes the sum of eq. 3.13: the target's elements, weighted with cos^2(theta) / (d_e^2 d_s^2), inside a cone of
+/// the given full angle [1/m^2].
 ///
 /// The cone is the narrower of field of illumination and field of view.
 pub fn round_trip(target: &Target, full_angle_deg: f64) -> f64 {
@@ -26,15 +26,15 @@ pub fn round_trip(target: &Target, full_angle_deg: f64) -> f64 {
     integrate(target, full_angle_deg, |r2| axis / (r2 * r2 * r2))
 }
 
-/// Projected solid angle of the target inside the field of view, as the lens sees it [sr].
+/// Computes the projected solid angle of the target inside the field of view, as seen from the lens [sr].
 ///
-/// It is pi sin^2(FOV / 2) where the target covers the field of view.
+/// It is pi sin^2(FOV / 2) if the target covers the field of view.
 pub fn projected_solid_angle(target: &Target, full_angle_deg: f64) -> f64 {
     let axis = target.distance_m * target.distance_m;
     integrate(target, full_angle_deg, |r2| axis / (r2 * r2))
 }
 
-/// Integral of a function of the squared distance [m^2] over the target inside the cone.
+/// Integrates a function of the squared distance [m^2] over the target inside the cone.
 fn integrate(target: &Target, full_angle_deg: f64, f: impl Fn(f64) -> f64) -> f64 {
     let radius = target.distance_m * libm::tan((full_angle_deg / 2.0).to_radians());
     let (x_end, y_end) = (radius.min(target.length_m / 2.0), radius.min(target.width_m / 2.0));

@@ -1,17 +1,17 @@
-//! The avalanche process of one shot: its cumulative hazard and the inverse of that.
+//! The avalanche process of one shot: its cumulative hazard and the inverse function.
 //!
-//! `H(t) = N t + S F(t - mu)`, t from the laser edge: N the ambient and dark rate (eq. 3.24), S the
-//! signal (eq. 3.21), mu the mean arrival, and F the part of the pulse that has come, Phi(t / sigma)
-//! in eq. 3.22. The probability of no avalanche from a to b is exp(H(a) - H(b)), so that the next one
-//! after a is at `inverse(at(a) + e)` with an exponential `e`: exact, at one draw an avalanche.
+//! `H(t) = N t + S F(t - mu)`, with t from the laser edge: N is the ambient and dark rate (eq. 3.24), S the signal
+//! (eq. 3.21), mu the mean arrival, and F the cumulative pulse, Phi(t / sigma) in eq. 3.22. The probability of no
+//! avalanche from a to b is exp(H(a) - H(b)), so that the next one after a is at `inverse(at(a) + e)` with an
+//! exponential `e`: exact, at one draw per avalanche.
 //!
-//! H(0) is 0: a photon that the pulse puts before the laser edge arrives at it, and H jumps at 0.
+//! H(0) is 0: a photon that the pulse puts before the laser edge arrives at the edge, and H jumps at 0.
 //!
-//! F is a broken line, 0 before and 1 after, in `at` and `inverse` alike, of 1024 pieces for one echo. That of a Gaussian
-//! goes from -8 to 8 sigma: against the exact function H is off by 7.4e-6 S at most, and an arrival by
-//! 3e-5 |z| sigma at z sigma from the mean: 4 fs at 1 sigma of 137 ps, 21 fs at 5. That of another
-//! pulse is as long as the pulse is; with a tail as long as sigma H is off by 5e-5 S at most. Light that comes back over
-//! a time has as many pieces as [`Spread`](super::spread) says.
+//! F is piecewise linear, from 0 to 1, in `at` and `inverse` alike, with 1024 segments for one echo. That of a
+//! Gaussian reaches from -8 to 8 sigma: H differs from the exact function by at most 7.4e-6 S, and an arrival by 3e-5
+//! |z| sigma at z sigma from the mean: 4 fs at 1 sigma of 137 ps, 21 fs at 5. That of another pulse is as long as the
+//! pulse; with a tail as long as sigma, H differs by at most 5e-5 S. Light that is spread in time has the number of
+//! segments given by [`Spread`](super::spread).
 
 use std::hint::select_unpredictable;
 use std::sync::Arc;
@@ -25,37 +25,37 @@ use line::Line;
 mod line;
 pub mod varied;
 
-/// A signal too faint to be told from none, in any number of shots [1].
+/// Signal below which it has no effect in any number of shots [1].
 const FAINTEST: f64 = 1e-100;
 
-/// Cells of the guide to an octave of the hazard, as a power of two.
+/// Number of guide cells per octave of the hazard, as a power of two.
 const CELL_BITS: u32 = 7;
-/// The guide's cells become equal below this part of the hazard's span, 2^-14 [1].
+/// Fraction of the hazard's range below which the guide's cells have equal size, 2^-14 [1].
 const GUIDE_FLOOR: f64 = 1.0 / 16384.0;
-/// Bits of an `f64` that tell nothing of its cell.
+/// Number of low bits of an `f64` that do not affect its cell.
 const CELL_SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - CELL_BITS;
-/// A part of the hazard's span that is past the last node and its cell [1].
+/// A fraction of the hazard's range beyond the last node and its cell [1].
 const PAST: f64 = 1.0 + 2.0 / (1 << CELL_BITS) as f64;
-/// Cells of the guide: 14 octaves up to the last node, its own, and those up to `PAST` [1].
+/// Number of guide cells: 14 octaves up to the last node, its own, and those up to `PAST` [1].
 const CELLS: usize = (14 << CELL_BITS) + 3;
 
-/// What caused an avalanche.
+/// Cause of an avalanche.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Cause {
     /// A laser photon.
     Signal,
     /// Ambient light.
     Ambient,
-    /// No light at all.
+    /// A dark count.
     Dark,
-    /// A carrier that an earlier avalanche left in a trap.
+    /// A trapped carrier from an earlier avalanche.
     Afterpulse,
 }
 
 /// The avalanche process of one shot.
 #[derive(Clone, Debug)]
 pub struct Hazard {
-    /// S [1].
+    /// Signal S [1].
     signal: f64,
     /// Rate of ambient avalanches [1/fs].
     ambient: f64,
@@ -65,27 +65,27 @@ pub struct Hazard {
     pause: f64,
     /// Time between nodes [fs].
     step: f64,
-    /// Part of the broken line's hazard to a unit of it [1].
+    /// Inverse of the hazard's range over the nodes [1].
     scale: f64,
-    /// First node; it may be before the laser edge, and is never reached without signal.
+    /// First node; it may precede the laser edge, and is never reached without signal.
     first: Node,
     last: Node,
-    /// H at the nodes, and then NaN, which no search passes.
+    /// H at the nodes, followed by NaN, at which every search ends.
     nodes: Vec<f64>,
-    /// For each cell the number of nodes in the cells before it.
+    /// For each cell, the number of nodes in the preceding cells.
     guide: Vec<u16>,
-    /// The part of the pulse that has come, at the nodes [1].
+    /// Cumulative pulse at the nodes [1].
     parts: Arc<[f64]>,
-    /// How shots differ from this one.
+    /// Variation from shot to shot.
     variation: Variation,
 }
 
-/// An end of the broken line.
+/// An end of the piecewise linear function.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     /// Time from the laser edge [fs].
     time: f64,
-    /// H there [1].
+    /// H at that time [1].
     h: f64,
 }
 
@@ -94,7 +94,7 @@ impl Node {
 }
 
 impl Hazard {
-    /// Of a shot with the laser on.
+    /// Creates the process of a shot with laser pulse.
     pub fn new(budget: &Budget) -> Self {
         let mut hazard = Hazard::dark(budget);
         if budget.laser_per_shot() > FAINTEST {
@@ -115,7 +115,7 @@ impl Hazard {
         hazard
     }
 
-    /// Of a shot with the laser off: a constant rate.
+    /// Creates the process of a shot without laser pulse: a constant rate.
     pub fn dark(budget: &Budget) -> Self {
         Hazard {
             signal: 0.0,
@@ -133,14 +133,13 @@ impl Hazard {
         }
     }
 
-    /// H(t): the mean number of avalanches from the laser edge to `t`, if the detector never
-    /// rested [1].
+    /// Returns H(t): the mean number of avalanches from the laser edge to `t` for a detector without dead time [1].
     #[inline]
     pub fn at(&self, t: Time) -> f64 {
         if t == Time::ZERO { 0.0 } else { self.after(t.fs() as f64) }
     }
 
-    /// H just after a time [fs].
+    /// Returns H immediately after a time [fs].
     #[inline]
     fn after(&self, time: f64) -> f64 {
         if time < self.first.time {
@@ -156,27 +155,26 @@ impl Hazard {
         }
     }
 
-    /// What laser, ambient light and no light at all add to H from `from` to `until` [1].
+    /// Returns the increase of H from `from` to `until` due to laser, ambient light and dark counts [1].
     pub fn by_cause(&self, from: Time, until: Time) -> [f64; 3] {
         let span = until.since(from).fs() as f64;
         let signal = self.at(until) - self.at(from) - self.background * span;
         [signal.max(0.0), self.ambient * span, (self.background - self.ambient) * span]
     }
 
-    /// How shots differ.
+    /// Returns the variation from shot to shot.
     pub fn variation(&self) -> Variation {
         self.variation
     }
 
-    /// Largest rate of avalanches [1/fs].
+    /// Returns the highest rate of avalanches [1/fs].
     pub fn steepest_per_fs(&self) -> f64 {
         let steepest = |piece: &[f64]| self.signal * (piece[1] - piece[0]) / self.step;
         let signal = self.parts.windows(2).map(steepest).fold(0.0, f64::max);
         self.background + signal
     }
 
-    /// The first time with H(t) >= h, rounded down to the femtosecond; [`Time::NEVER`] where there
-    /// is none.
+    /// Returns the first time with H(t) >= h, rounded down to the femtosecond; [`Time::NEVER`] if there is none.
     #[inline]
     pub fn inverse(&self, h: f64) -> Time {
         let before = h * self.pause;
@@ -192,7 +190,7 @@ impl Hazard {
         Time::from_fs(if h > 0.0 { time as u64 } else { 0 })
     }
 
-    /// The inverse between the first node and the last [fs].
+    /// Returns the inverse between the first and the last node [fs].
     #[inline]
     fn on_the_line(&self, h: f64) -> f64 {
         let mut next = (self.guide[self.cell(h)] as usize).max(1);
@@ -205,8 +203,8 @@ impl Hazard {
         self.first.time + self.step * ((next - 1) as f64 + (h - below) / (above - below))
     }
 
-    /// Cell of the guide that holds `h`. Cells are finer towards the first node, where a strong
-    /// signal puts nearly all avalanches.
+    /// Returns the guide cell that contains `h`. Cells are finer towards the first node, where a strong signal has
+    /// nearly all avalanches.
     #[inline]
     fn cell(&self, h: f64) -> usize {
         let part = (h - self.first.h) * self.scale;
@@ -214,7 +212,7 @@ impl Hazard {
         (bits >> CELL_SHIFT) as usize
     }
 
-    /// The guide: for each cell the number of nodes in the cells before it.
+    /// Builds the guide: for each cell, the number of nodes in the preceding cells.
     fn make_guide(&self) -> Vec<u16> {
         let mut guide = Vec::with_capacity(CELLS);
         let nodes = &self.nodes[..self.nodes.len() - 1];
@@ -226,7 +224,7 @@ impl Hazard {
         guide
     }
 
-    /// Rate of signal avalanches at `t`, S times the density of the pulse [1/s].
+    /// Returns the rate of signal avalanches at `t`, S times the density of the pulse [1/s].
     pub fn signal_rate_hz(&self, t: Time) -> f64 {
         let place = (t.fs() as f64 - self.first.time) / self.step;
         let node = place as usize;
@@ -236,30 +234,30 @@ impl Hazard {
         }
     }
 
-    /// What caused an avalanche at `t`, in proportion to the rates there; `uniform` is a draw from
-    /// 0 .. 1. At time 0 nearly all are signal that would have come before the laser edge.
+    /// Draws the cause of an avalanche at `t` in proportion to the rates; `uniform` is a random number from 0 to 1.
+    /// At time 0 nearly all are laser photons that would have come before the laser edge.
     pub fn cause(&self, t: Time, uniform: f64) -> Cause {
         self.cause_beside(self.signal_per_fs(t), uniform)
     }
 
-    /// The part of the rate at `t` that comes without any light [1].
+    /// Returns the dark fraction of the rate at `t` [1].
     pub fn dark_part(&self, t: Time) -> f64 {
         self.dark_beside(self.signal_per_fs(t))
     }
 
-    /// Rate of laser photons' avalanches at `t` [1/fs].
+    /// Returns the rate of signal avalanches at `t` [1/fs].
     fn signal_per_fs(&self, t: Time) -> f64 {
         let signal = self.signal_rate_hz(t) * 1e-15;
         if t == Time::ZERO { signal + self.after(0.0) } else { signal }
     }
 
-    /// The part of the dark beside such a rate of laser photons' avalanches [1/fs].
+    /// Returns the dark fraction of the rate, given the rate of signal avalanches [1/fs].
     fn dark_beside(&self, signal: f64) -> f64 {
         let all = signal + self.background;
         if all > 0.0 { (self.background - self.ambient) / all } else { 0.0 }
     }
 
-    /// The same beside such a rate of laser photons' avalanches [1/fs].
+    /// Draws the cause of an avalanche, given the rate of signal avalanches [1/fs].
     fn cause_beside(&self, signal: f64, uniform: f64) -> Cause {
         let draw = uniform * (signal + self.background);
         if draw < signal {

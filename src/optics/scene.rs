@@ -1,10 +1,10 @@
-//! What the sensor sees of a target that is no plain rectangle, and of the air before it.
+//! Light from targets other than a plain rectangle, and from the air in front of them.
 //!
-//! Laser and sensor share one point. An element of a surface under the solid angle `dw`, at the end of a line of sight
-//! `r` with the cosine `c` to its normal, sends back `c / r^2 dw` of the laser's light, which is the summand
-//! `cos^2 / r^4 dA` of eq. 3.13; a patch that sends light back to where it comes from, of which the coefficient of
-//! retroreflection is stated to its own area, `1 / (c r^2) dw`. Air sends back the lidar equation's
-//! `beta / r^2 dr dw` up to the first surface. All of it passes the air twice, `exp(-2 alpha r)`.
+//! Laser and sensor share one point. A surface element of solid angle `dw`, at the end of a line of sight `r` with
+//! the cosine `c` to its normal, returns `c / r^2 dw` of the laser light, which is the summand `cos^2 / r^4 dA` of
+//! eq. 3.13. A retroreflective patch, whose coefficient refers to its own area, returns `1 / (c r^2) dw`. Air returns
+//! `beta / r^2 dr dw` of the lidar equation up to the first surface. All of it passes through the air twice, `exp(-2
+//! alpha r)`.
 
 mod element;
 mod outline;
@@ -22,7 +22,7 @@ use element::{Element, elements};
 use raster::Placed;
 use surface::{Kind, Surface, surfaces};
 
-/// A target and the air before it.
+/// A target and the air in front of it.
 pub struct Scene<'a> {
     scenario: &'a Scenario,
     air: Air,
@@ -30,17 +30,17 @@ pub struct Scene<'a> {
     mesh: Option<Placed>,
 }
 
-/// Ambient light that comes in, as projected solid angles of a white target that fills them [sr].
+/// Received ambient light, as projected solid angles of a white target with equal effect [sr].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ambient {
-    /// Of the target.
+    /// Part reflected by the target.
     pub target_sr: f64,
-    /// Of the air.
+    /// Part scattered by the air.
     pub air_sr: f64,
 }
 
 impl<'a> Scene<'a> {
-    /// Of a scenario, with the mesh that it names.
+    /// Creates the scene of a scenario, with its mesh if it names one.
     pub fn new(scenario: &'a Scenario, mesh: Option<&Mesh>) -> Self {
         let target = &scenario.target;
         Scene {
@@ -51,7 +51,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Shows the elements inside a cone of that full angle.
+    /// Passes the elements inside a cone of the given full angle to `take`.
     fn elements(&self, full_angle_deg: f64, mut take: impl FnMut(Element)) {
         let cells = self.scenario.target.cells;
         for surface in &self.surfaces {
@@ -63,7 +63,8 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Ambient light: that of the target on its way to the sensor, and that which the air scatters (Koschmieder).
+    /// Computes the ambient light: that from the target, attenuated on its way to the sensor, and that scattered by
+    /// the air (Koschmieder).
     pub fn ambient(&self) -> Ambient {
         let full_angle_deg = self.scenario.spad.field_of_view_deg;
         let (mut target_sr, mut hidden_sr) = (0.0, 0.0);
@@ -81,7 +82,7 @@ impl<'a> Scene<'a> {
         Ambient { target_sr, air_sr }
     }
 
-    /// What comes back of the laser's light.
+    /// Computes the returned laser light.
     pub fn returned(&self) -> Returned {
         let (laser, spad) = (&self.scenario.laser, &self.scenario.spad);
         let full_angle_deg = laser.field_of_illumination_deg.min(spad.field_of_view_deg);

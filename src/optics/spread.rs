@@ -1,9 +1,9 @@
-//! Light that comes back over a time: surfaces and air at all their distances, each with the laser's pulse.
+//! Temporal distribution of light from surfaces and air at various distances, each with the laser's pulse.
 //!
-//! The parts are put on an even grid in time, so that their mean stays where it is, and the pulse is laid over each. A
-//! step is 1/1024 of the pulse's length, 1/64 sigma of a Gaussian, unless that would be more than 65,000 steps; then it
-//! is a 65,000th of the whole. A broken line of steps of s sigma is off by 0.03 s^2 of an echo at most, and putting
-//! an echo on the grid adds s^2 / 4 to its variance of 1 sigma^2 at most.
+//! The parts are placed on a uniform time grid such that their mean is preserved, and convolved with the pulse. A
+//! step is 1/1024 of the pulse's length, 1/64 sigma of a Gaussian, unless that would be more than 65,000 steps; then
+//! it is 1/65,000 of the whole. A piecewise linear function with steps of s sigma deviates by at most 0.03 s^2 of an
+//! echo, and placing an echo on the grid increases its variance of 1 sigma^2 by at most s^2 / 4.
 
 use std::sync::Arc;
 
@@ -12,38 +12,39 @@ use crate::kernel::pulse::Pulse;
 
 use super::returned::{Haze, Light, Returned};
 
-/// Steps to the length of a pulse.
+/// Number of steps per length of a pulse.
 const PER_PULSE: f64 = 1024.0;
-/// Most steps of all.
+/// Largest number of steps.
 const MOST: usize = 65_000;
-/// Time for light to come back from a metre away, 2 / c [fs/m].
+/// Time of flight to a distance of one metre and back, 2 / c [fs/m].
 const FS_PER_M: f64 = 2e15 / 299_792_458.0;
 
-/// Of each kind of light, how much of it has come, over time.
+/// Cumulative light of each kind over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spread {
     /// First node, from the laser edge [fs].
     pub from: f64,
-    /// From one to the next [fs].
+    /// Time between nodes [fs].
     pub step: f64,
-    /// The part that has come at the nodes, of what surfaces diffuse, of a retroreflecting patch, and of the air; each
-    /// empty where there is none [1].
+    /// Cumulative fraction at the nodes, for diffuse reflection, a retroreflective patch, and the air; empty if there
+    /// is no such light [1].
     parts: [Arc<[f64]>; 3],
-    /// When light of the nearest and of the farthest surface comes, in the middle of its pulse.
+    /// Arrival times of the middle of the pulse from the nearest and from the farthest surface.
     pub ends: [Time; 2],
 }
 
-/// An even grid in time.
+/// A uniform time grid.
 struct Grid {
-    /// Its first place, from the laser's light on [fs].
+    /// Time of its first point, from the emission of the pulse [fs].
     from: f64,
     step: f64,
-    /// What comes at each place.
+    /// Light at each point.
     weights: Vec<f64>,
 }
 
 impl Spread {
-    /// Of light that comes back, up to that of `horizon_m`, and how much the air sends back [1/m^2].
+    /// Computes the distribution of the returned light from distances up to `horizon_m`, and the total backscatter of
+    /// the air [1/m^2].
     pub fn new(returned: &Returned, pulse: &Pulse, delay: Time, horizon_m: f64) -> (Self, f64) {
         let [begin_ps, end_ps] = pulse.reach_ps();
         let (begin, length) = (begin_ps * 1e3, (end_ps - begin_ps) * 1e3);
@@ -81,7 +82,7 @@ impl Spread {
         (spread, sent_back)
     }
 
-    /// The part of all light that has come at the nodes, where so much is of each kind.
+    /// Returns the cumulative fraction of all light at the nodes, for the given amounts of each kind.
     pub fn of(&self, amounts: [f64; 3]) -> Arc<[f64]> {
         let sum: f64 = amounts.iter().sum();
         let nodes = self.parts.iter().map(|parts| parts.len()).max().unwrap_or(0);
@@ -103,7 +104,7 @@ impl Spread {
 }
 
 impl Grid {
-    /// Adds what comes at a time from the laser's light on [fs].
+    /// Adds light at a time from the emission of the pulse [fs].
     fn add(&mut self, time: f64, weight: f64) {
         let last = self.weights.len() - 2;
         let place = ((time - self.from) / self.step).max(0.0);
@@ -136,8 +137,8 @@ impl Grid {
         }
     }
 
-    /// How much has come at each node, from the begin of the pulse at the first place to its end at the last, of which
-    /// `kernel` has the part that has come; nothing where nothing comes [1].
+    /// Returns the cumulative light at each node, from the start of the pulse at the first point to its end at the
+    /// last one, where `kernel` is the cumulative pulse; empty without light [1].
     fn blurred(&self, kernel: &[f64]) -> Arc<[f64]> {
         let sum: f64 = self.weights.iter().sum();
         if sum <= 0.0 {

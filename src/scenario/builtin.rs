@@ -1,4 +1,4 @@
-//! Files built into the program, and where a scenario's own files are looked for.
+//! Instruments, scenarios, carry chains and stimuli that are built into the program.
 
 use std::path::PathBuf;
 
@@ -54,17 +54,20 @@ pub fn chain(name: &str) -> Option<&'static str> {
     find(CHAINS, name)
 }
 
-/// Where the files are that a scenario names.
+/// The origin of the files that a scenario names.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
-    /// In the program.
+    /// Files built into the program.
     BuiltIn,
-    /// In a folder.
+    /// Files below a folder, which is that of the scenario's own file.
     Folder(PathBuf),
 }
 
 impl Source {
-    /// The full name and the text of the file called `name`.
+    /// Reads the text file `name`, and returns its full name and its text.
+    ///
+    /// # Errors
+    /// If there is no such file, or it is not UTF-8.
     pub fn read(&self, name: &str) -> Result<(String, String)> {
         if let (Source::BuiltIn, Some(text)) = (self, find(STIMULI, name)) {
             return Ok((name.trim_start_matches("../").to_owned(), text.into()));
@@ -73,7 +76,11 @@ impl Source {
         Ok((path.display().to_string(), read_text(&path)?))
     }
 
-    /// The same of a file that need not be text, which none in the program is.
+    /// Reads the file `name`, which may be binary, and returns its full name and its bytes. No built-in file is
+    /// binary.
+    ///
+    /// # Errors
+    /// If there is no such file.
     pub fn read_bytes(&self, name: &str) -> Result<(String, Vec<u8>)> {
         let path = self.path(name);
         Ok((path.display().to_string(), read_bytes(&path)?))

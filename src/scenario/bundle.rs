@@ -1,4 +1,4 @@
-//! The files that a scenario names, as bytes that travel with it to another machine.
+//! The contents of the files that a scenario names, to be sent to another machine with it.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,22 +11,23 @@ use super::builtin::Source;
 use super::chain::Chain;
 use super::model::{Scenario, Stimulus, TdcCalibration};
 
-/// Folders that a file may lie above the one that names it.
+/// Greatest number of `..` with which a file name in a bundle may begin [1].
 const ABOVE: usize = 8;
 
-/// Files by the names that they are found by from a folder.
+/// File contents, keyed by their path relative to the scenario's folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bundle {
-    /// Their bytes.
+    /// Contents of each file, by its relative path.
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
 impl Bundle {
-    /// The files that a scenario names, and those that a chain among them names. What is built in, and what is not
-    /// there, is left out; beside files, what a built-in scenario has of the program's is among them.
+    /// Collects the files that a scenario names, including those that its chain file names. Built-in and missing
+    /// files are left out, except that the stimuli of a built-in scenario are included when it also names a file of
+    /// the user's.
     ///
     /// # Errors
-    /// When one cannot be read.
+    /// If a file cannot be read.
     pub fn of(files: &Source, scenario: &Scenario) -> Result<Bundle> {
         let mut bundle = Bundle::default();
         let folder = match files {
@@ -47,10 +48,11 @@ impl Bundle {
         Ok(bundle)
     }
 
-    /// Adds a file, if `folder` has one of that name; an absolute one has to be there where it is read.
+    /// Adds the file `name` of `folder`, if there is one. Absolute paths are not added: they must exist on the
+    /// machine that runs the scenario.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If the file cannot be read.
     pub fn add(&mut self, folder: &Path, name: &str) -> Result<()> {
         let path = folder.join(name);
         if Path::new(name).is_absolute() || !name.contains(['/', '.']) || !path.is_file() {
@@ -68,10 +70,11 @@ impl Bundle {
         Ok(())
     }
 
-    /// Writes the files; the folder from which their names lead to them, within one that goes with the first value.
+    /// Writes the files to a temporary folder, and returns that folder and the subfolder to which the file names are
+    /// relative.
     ///
     /// # Errors
-    /// When one cannot be written.
+    /// If a file cannot be written.
     pub fn unpack(&self) -> Result<(TempDir, PathBuf)> {
         let temporary = Path::new("temporary folder");
         let home = TempDir::with_prefix("tofsim-").map_err(Error::io(temporary, "create"))?;
@@ -88,7 +91,7 @@ impl Bundle {
     }
 }
 
-/// What a scenario has at keys that may name files.
+/// Returns the values of all keys that may name a file.
 pub fn names(scenario: &Scenario) -> impl Iterator<Item = &str> {
     let Scenario { target, laser, spad, tdc, stimulus, training, estimator, .. } = scenario;
     let given = [

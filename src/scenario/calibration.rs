@@ -1,4 +1,5 @@
-//! What the decoder's ROM holds: ages by the chain's delays, by equal taps, or from a file.
+//! The decoder's calibration ROM: ages computed from the chain's delays, from the nominal tap width, or read from a
+//! file.
 
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
@@ -12,23 +13,22 @@ mod known;
 
 /// Columns of a calibration file.
 pub const HEADER: [&str; 3] = ["n", "age_ps", "age_se_ps"];
-/// Oldest hit: as late as the last tap of a chain may be reached, and more [ps].
+/// Upper limit of an age in a calibration file, beyond the last tap of any chain [ps].
 const OLDEST_PS: f64 = 1e6;
 
-/// What the decoder's ROM holds, and the chain that goes with it.
+/// The contents of the decoder's calibration ROM, with the chain that it assumes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rom {
-    /// The words.
+    /// ROM words: the age for each ones count.
     pub cal: Calibration,
-    /// The chain in the order of `n` that the calibration takes hits to come through, if that is not the one it was
-    /// made for.
+    /// Chain that the calibration assumes, if it differs from the simulated one.
     pub chain: Option<Delays>,
 }
 
-/// The ROM for a chain and a decoder; a file's path is taken from `base`.
+/// Builds the ROM for a chain and a decoder. The path of a calibration file is relative to `base`.
 ///
 /// # Errors
-/// When the file cannot be read, or is none for a chain of that length.
+/// If the file cannot be read, or does not fit a chain of this length.
 pub fn load(
     calibration: &TdcCalibration,
     base: &Source,
@@ -57,7 +57,7 @@ pub fn load(
     Ok(Rom { cal, chain: known::chain(&ages_ps, delays.tap_0()) })
 }
 
-/// The age for each `n` [ps].
+/// Parses the age for each ones count `n` [ps].
 fn parse(source: &str, text: &str, taps: usize) -> Result<Vec<f64>> {
     let mut ages = Vec::new();
     let mut input = CsvInput::new(source, text, &HEADER)?;
@@ -107,7 +107,7 @@ mod tests {
         format!("n,age_ps,age_se_ps\n{}", rows.collect::<String>())
     }
 
-    /// The middle of each interval, by hand.
+    /// Midpoints of the age intervals, computed by hand.
     fn ages() -> impl Iterator<Item = f64> {
         (0..=16).map(|n| if n == 0 { 2000.0 } else { 1750.0 + 500.0 * f64::from(n) })
     }

@@ -1,4 +1,4 @@
-//! Chain files: the delays of a carry chain, as data.
+//! Chain files: the tap delays of a carry chain.
 
 pub mod measured;
 mod silicon;
@@ -18,56 +18,59 @@ use super::builtin::{self, Source};
 use silicon::Silicon;
 pub(super) use span::{too_long, too_short};
 
-/// A chain file. Its delays are one of five: all alike (`tap_ps`), one by one (`tap_delays_ps`), drawn as silicon
-/// has them (`[silicon]`), or measured (`delays_file`, `counts_file`).
+/// A chain file. Its delays are given in one of five ways: equal taps (`tap_ps`), a list (`tap_delays_ps`), a random
+/// model of silicon (`[silicon]`), or measurements (`delays_file`, `counts_file`).
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
-    /// What the chain is and where its numbers come from.
+    /// Description of the chain and the origin of its numbers.
     #[serde(default)]
     pub description: String,
-    /// From `tdc_stop` to the begin of the chain, which is tap 0 where taps are reached in order, beyond the
-    /// clock's own delay to the registers.
+    /// Delay from `tdc_stop` to the start of the chain (tap 0 if taps are reached in order), relative to the clock's
+    /// own delay to the tap registers.
     #[schemars(range(min = 0.001, max = 100_000.0), extend("unit" = "ps"))]
     pub offset_ps: f64,
-    /// How many taps there are, if `tap_delays_ps` does not say.
+    /// Number of taps, unless `tap_delays_ps` lists them.
     #[schemars(range(min = 16, max = 2000), extend("unit" = "tap"))]
     pub taps: Option<usize>,
-    /// Delay of each tap, if all are alike.
+    /// Delay of each tap, if all are equal.
     #[schemars(range(min = 0.001, max = 1000.0), extend("unit" = "ps"))]
     pub tap_ps: Option<f64>,
-    /// Delays of the taps, one by one; a tap may be reached before the one below it.
+    /// Delay of each tap; a negative delay means that a tap is reached before its predecessor.
     #[schemars(length(min = 16, max = 2000))]
     pub tap_delays_ps: Option<Vec<f64>>,
-    /// Delays as silicon has them.
+    /// Random model of a chain in silicon.
     pub silicon: Option<Silicon>,
     /// CSV file with columns `tap` (from 0) and `delay_ps`, a row for each tap.
     pub delays_file: Option<String>,
     /// CSV file with columns `n` (from 0) and `count`: a code-density test, whose hits are spread evenly over
     /// `period_ps`.
     pub counts_file: Option<String>,
-    /// Period of the clock that the counts were measured with; that of `clk_sys` if it is not given.
+    /// Period of the clock with which the counts were measured; the period of `clk_sys` by default.
     #[schemars(range(min = 100.0, max = 1e6), extend("unit" = "ps"))]
     pub period_ps: Option<f64>,
-    /// Delays that come on top.
+    /// Additional delays of single taps.
     #[serde(default)]
     pub extra: Vec<Extra>,
 }
 
-/// A delay on top of a tap's own, as where the chain crosses a clock region.
+/// An additional delay of one tap, such as at the border of a clock region.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Extra {
-    /// The tap, from 0.
+    /// Tap number, from 0.
     #[schemars(range(min = 0, max = 1999), extend("unit" = "tap"))]
     pub tap: usize,
-    /// The delay.
+    /// Additional delay.
     #[schemars(range(min = -10_000.0, max = 10_000.0), extend("unit" = "ps"))]
     pub ps: f64,
 }
 
-/// The chain called `name`: a built-in profile, or a file whose path is taken from `base`. It samples with
-/// a clock of the period `cycle`.
+/// Loads a chain: a built-in profile, or a file whose path is relative to `base`. The chain is sampled with the clock
+/// period `cycle`.
+///
+/// # Errors
+/// If the file cannot be read, or its delays are invalid.
 pub fn load(name: &str, base: &Source, cycle: Time) -> Result<Delays> {
     if let Some(text) = builtin::chain(name) {
         return parse(&format!("chain {name}"), text, &Source::BuiltIn, cycle);
@@ -82,7 +85,7 @@ pub fn load(name: &str, base: &Source, cycle: Time) -> Result<Delays> {
     parse(&source, &text, &Source::Folder(folder), cycle)
 }
 
-/// `files` is where the files are that the chain names.
+/// Parses a chain file; `files` locates the files that it names.
 fn parse(source: &str, text: &str, files: &Source, cycle: Time) -> Result<Delays> {
     let checked = Checked::parse::<Chain>(source, text)?;
     let chain: Chain = checked.read()?;
@@ -125,7 +128,7 @@ fn parse(source: &str, text: &str, files: &Source, cycle: Time) -> Result<Delays
 }
 
 impl Chain {
-    /// The one key that says what the delays are.
+    /// Returns the one key that defines the delays.
     fn origin(&self, source: &str, checked: &Checked) -> Result<&'static str> {
         let given = [
             ("tap_ps", self.tap_ps.is_some()),
@@ -150,7 +153,7 @@ impl Chain {
         Ok(key)
     }
 
-    /// Delay before tap 0, beside the offset, and the delay of each tap [ps].
+    /// Returns the delay before tap 0 in addition to the offset, and the delay of each tap [ps].
     fn taps_ps(&self, checked: &Checked, files: &Source, cycle: Time) -> Result<(f64, Vec<f64>)> {
         if let Some(silicon) = &self.silicon {
             return silicon.delays_ps(checked);

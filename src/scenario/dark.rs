@@ -1,4 +1,4 @@
-//! The measured dark rates of an array: a CSV file of `row,output,rate_hz`, at 20 deg C.
+//! Measured dark count rates of the SPAD array, from a CSV file with columns `row,output,rate_hz`, at 20 deg C.
 
 use crate::error::Result;
 use crate::files::csv::CsvInput;
@@ -9,16 +9,16 @@ use super::wiring::{OUTPUTS, ROWS, SELECTED};
 
 /// Columns of the file.
 const HEADER: [&str; 3] = ["row", "output", "rate_hz"];
-/// Largest rate, as of `spad.dark_rate_hz` [1/s].
+/// Upper limit of a rate, the same as for `spad.dark_rate_hz` [1/s].
 const MOST_HZ: f64 = 1e9;
 
-/// Rate of each output of the selected row, if the file names it [1/s].
+/// Measured dark count rate of each output of the selected row; `None` for outputs that the file does not list [1/s].
 pub type Measured = [Option<f64>; OUTPUTS];
 
-/// What the file of a detector has of the selected row, if there is one; its path is taken from `base`.
+/// Loads the dark count rates of the selected row, if the detector names a file. Its path is relative to `base`.
 ///
 /// # Errors
-/// When the file cannot be read, or a row of it is wrong.
+/// If the file cannot be read, or a row is invalid.
 pub fn load(spad: &Spad, base: &Source) -> Result<Option<Measured>> {
     let Some(name) = &spad.dark_file else { return Ok(None) };
     let (source, text) = base.read(name)?;

@@ -1,8 +1,8 @@
-//! What temperature and supply make of a chain: every delay of it grows by the same part.
+//! Effect of temperature and supply voltage on a chain: all delays scale by the same factor.
 //!
-//! A die heats up in seconds, and a frame takes milliseconds: within a run both stand still, unless a profile says
-//! otherwise (`tdc.conditions`). The ROM knows the delays as they were when it was calibrated, and a drift since
-//! then is an error of all ages.
+//! A die heats up in seconds and a frame takes milliseconds, so both are constant within a run unless a profile is
+//! given (`tdc.conditions`). The calibration ROM holds the ages at the conditions of the calibration; any drift since
+//! then is an error in all ages.
 
 mod pace;
 mod profile;
@@ -18,37 +18,37 @@ use super::model::Tdc;
 pub use pace::Pace;
 pub use profile::{DIE_C, Moment, Profile, SUPPLY_MV};
 
-/// Latest time of a profile within a run: no run is longer [s].
+/// Latest time of a profile that is simulated, beyond the end of any run [s].
 const LATEST_S: f64 = 10_000.0;
-/// Temperature at which the delays of a chain's file hold [degC].
+/// Temperature at which the delays in a chain file apply [degC].
 pub const REFERENCE_C: f64 = 25.0;
 
-/// A chain at power-up, and as the ROM was calibrated.
+/// The delays of a chain at power-up, at calibration and during the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drifted {
-    /// Its delays at power-up.
+    /// Delays at power-up.
     pub now: Delays,
-    /// Those that the calibration knows, if they are others.
+    /// Delays that the calibration assumes, if they differ from those at power-up.
     pub calibrated: Option<Delays>,
-    /// What becomes of them within the run, if something does.
+    /// Drift during the run, if there is any.
     pub course: Option<Course>,
 }
 
-/// What becomes of the delays within a run.
+/// Drift of the delays during a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    /// How many times as long they are over time.
+    /// Scale factor of the delays over time.
     pub pace: Pace,
-    /// The shortest and the longest of them against those that the calibration knows [1].
+    /// Smallest and largest scale factor, relative to the calibrated delays [1].
     pub range: [f64; 2],
-    /// The longest of them against those at power-up [1].
+    /// Largest scale factor, relative to the delays at power-up [1].
     pub slowest: f64,
 }
 
-/// The conditions over time that a file has, if there is one; its path is taken from `base`.
+/// Loads the profile of temperature and supply, if the TDC names one. Its path is relative to `base`.
 ///
 /// # Errors
-/// When the file cannot be read, or a row is none.
+/// If the file cannot be read, or a row is invalid.
 pub fn conditions(tdc: &Tdc, base: &Source) -> Result<Option<Profile>> {
     let Some(name) = &tdc.conditions else { return Ok(None) };
     let (source, text) = base.read(name)?;
@@ -62,16 +62,16 @@ pub fn conditions(tdc: &Tdc, base: &Source) -> Result<Option<Profile>> {
 }
 
 impl Drifted {
-    /// The delays that the calibration knows.
+    /// Returns the delays that the calibration assumes.
     pub fn known(&self) -> &Delays {
         self.calibrated.as_ref().unwrap_or(&self.now)
     }
 
-    /// A chain whose file has these delays, sampled with a clock of the period `cycle`, in the conditions of the keys
-    /// or of a profile.
+    /// Computes the delays of a chain from those in its file (`own`), under the conditions of the keys or of a
+    /// profile. The chain is sampled with the clock period `cycle`.
     ///
     /// # Errors
-    /// When it is too short or too long for the clock in one of the conditions.
+    /// If the chain is too short or too long for the clock under any of the conditions.
     pub fn new(own: Delays, tdc: &Tdc, profile: Option<&Profile>, cycle: Time) -> Result<Self> {
         let given = Conditions {
             celsius: ("tdc.temperature_c", tdc.temperature_c),
@@ -108,7 +108,7 @@ impl Drifted {
     }
 }
 
-/// Temperature and supply, with the keys that say what they are.
+/// Temperature and supply, with the scenario keys that set them.
 #[derive(Clone, Copy, Debug)]
 struct Conditions {
     celsius: (&'static str, f64),
@@ -121,25 +121,25 @@ impl Conditions {
         Conditions { celsius: (key, moment.temperature_c), millivolts: (key, moment.supply_mv) }
     }
 
-    /// What they make of the delays, each by itself [1].
+    /// Returns the relative change of delay due to temperature and due to supply [1].
     fn parts(&self, tdc: &Tdc) -> [f64; 2] {
         [tdc.delay_per_c * (self.celsius.1 - REFERENCE_C), tdc.delay_per_mv * self.millivolts.1]
     }
 
-    /// How many times as long as at the reference each delay is [1].
+    /// Returns the scale factor of the delays, relative to the reference conditions [1].
     fn factor(&self, tdc: &Tdc) -> f64 {
         let [by_c, by_mv] = self.parts(tdc);
         (1.0 + by_c) * (1.0 + by_mv)
     }
 
-    /// The key that makes most of it, and its value.
+    /// Returns the key that contributes most to the scale factor, and its value.
     fn cause(&self, tdc: &Tdc) -> (&'static str, f64) {
         let [by_c, by_mv] = self.parts(tdc);
         if by_mv.abs() > by_c.abs() { self.millivolts } else { self.celsius }
     }
 }
 
-/// The delays times `factor`, mostly because of what stands at `key`.
+/// Scales the delays by `factor`. Errors name the given key and value as the cause.
 fn stretched(own: &Delays, factor: f64, cycle: Time, (key, value): (&str, f64)) -> Result<Delays> {
     if factor == 1.0 {
         return Ok(own.clone());

@@ -1,6 +1,6 @@
-//! Ambient light stated as an illuminance in klux: the thesis's halogen light, eq. 3.15 to 3.18.
+//! Ambient light given as an illuminance in klux of halogen light (thesis eq. 3.15 to 3.18).
 //!
-//! Loading a scenario turns it into the spectral irradiance that everything else takes.
+//! Loading a scenario converts it to the spectral irradiance that the rest of the program uses.
 
 use std::f64::consts::PI;
 
@@ -11,27 +11,26 @@ use crate::files::toml::Checked;
 
 use super::model::Scenario;
 
-/// Temperature of the black body that stands for halogen light (section 3.2.2) [K].
+/// Temperature of the black body that models halogen light (section 3.2.2) [K].
 const HALOGEN_K: f64 = 2800.0;
-/// Its luminous efficacy, K_0 of eq. 3.15, which the thesis does not print: 683 lm/W, weighted with the
+/// Luminous efficacy of that black body, K_0 of eq. 3.15, which the thesis does not state: 683 lm/W weighted with the
 /// CIE's V(lambda) of 1924 [lm/W].
 const EFFICACY_LM_W: f64 = 14.92;
 /// Second radiation constant, h c / k, exact in the SI [m K].
 const RADIATION_M_K: f64 = 1.438_776_877e-2;
-/// How far the integral over the filter goes, either side [sigma].
+/// Half width of the integration range over the filter's passband [sigma].
 const REACH: f64 = 6.0;
-/// Steps of that integral [1].
+/// Number of integration steps [1].
 const STEPS: u32 = 240;
 
 const TABLE: &str = "ambient";
 const ILLUMINANCE: &str = "illuminance_klux";
 const IRRADIANCE: &str = "irradiance_w_m2_nm";
 
-/// Mean spectral irradiance within the passband of a filter of that centre and standard deviation, in
-/// halogen light of that illuminance: E_v C_0 / K_0 by eq. 3.15 and 3.18, to a nanometre of the passband
-/// of eq. 3.17 [W/m^2/nm].
+/// Computes the mean spectral irradiance within a filter's passband under halogen light: E_v C_0 / K_0 by eq. 3.15
+/// and 3.18, per nanometre of the passband of eq. 3.17 [W/m^2/nm].
 ///
-/// The filter's peak efficiency is left out, because the budget counts it.
+/// The filter's peak efficiency is excluded, because the link budget applies it.
 pub fn spectral_irradiance_w_m2_nm(
     illuminance_klux: f64,
     wavelength_nm: f64,
@@ -48,7 +47,7 @@ pub fn spectral_irradiance_w_m2_nm(
     illuminance_klux * 1e3 / EFFICACY_LM_W * (sum / weights)
 }
 
-/// Share of the black body's power at a wavelength: eq. 3.16 over its integral [1/nm].
+/// Returns the fraction of the black body's power per wavelength: eq. 3.16 over its integral [1/nm].
 fn halogen_share_per_nm(wavelength_nm: f64) -> f64 {
     if wavelength_nm < 1.0 {
         return 0.0;
@@ -58,7 +57,7 @@ fn halogen_share_per_nm(wavelength_nm: f64) -> f64 {
     per_m * 1e-9
 }
 
-/// Turns an illuminance, if one is given, into the irradiance that it stands for.
+/// Converts the illuminance, if one is given, to a spectral irradiance.
 pub fn settle(scenario: &mut Scenario) {
     let (laser, filter) = (&scenario.laser, &scenario.filter);
     let ambient = &mut scenario.ambient;
@@ -68,11 +67,10 @@ pub fn settle(scenario: &mut Scenario) {
     }
 }
 
-/// Makes overrides say alone how much ambient light there is, if they do: what `table` says in the other
-/// way goes.
+/// Removes the file's ambient light from `table` if the overrides set it in the other unit.
 ///
 /// # Errors
-/// When the file says it in both ways, or the overrides do.
+/// If the file or the overrides set both the illuminance and the irradiance.
 pub fn settle_overrides(checked: &Checked, table: &mut Table, overrides: &Table) -> Result<()> {
     let expected = |option: &str| {
         format!(
@@ -105,7 +103,7 @@ fn says<'a>(table: &'a Table, key: &str) -> Option<&'a Item> {
 mod tests {
     use super::*;
 
-    /// The CIE's V(lambda) of 1924, every 10 nm from 380 nm.
+    /// The CIE's photopic luminosity function V(lambda) of 1924, every 10 nm from 380 nm [1].
     const V: [f64; 40] = [
         0.000039, 0.00012, 0.000396, 0.00121, 0.0040, 0.0116, 0.023, 0.038, 0.060, 0.09098,
         0.13902, 0.20802, 0.323, 0.503, 0.710, 0.862, 0.954, 0.99495, 0.995, 0.952, 0.870, 0.757,

@@ -1,4 +1,4 @@
-//! The triangles of a target from a file: Wavefront OBJ, or STL in ASCII or binary.
+//! Triangle meshes of a target: Wavefront OBJ, and STL in ASCII or binary.
 
 mod closed;
 mod facets;
@@ -15,33 +15,33 @@ use super::model::{Shape, Target};
 
 pub use facets::Point;
 
-/// A closed surface, in the file's units; seen from outside, corners go counter-clockwise.
+/// A closed triangle mesh, in the file's units. Corners are counter-clockwise as seen from outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     triangles: Vec<[Point; 3]>,
 }
 
 impl Mesh {
-    /// Its triangles.
+    /// Returns the triangles.
     pub fn triangles(&self) -> &[[Point; 3]] {
         &self.triangles
     }
 }
 
-/// The mesh of a target, if that is one; its path is taken from `base`.
+/// Loads the mesh of a target, if its shape is one. The path is relative to `base`.
 ///
 /// # Errors
-/// When the file cannot be read, or holds no closed surface with its outside outside.
+/// If the file cannot be read, or is not a closed surface with outward normals.
 pub fn load(target: &Target, base: &Source) -> Result<Option<Arc<Mesh>>> {
     let (Shape::Mesh, Some(name)) = (target.shape, &target.mesh_file) else { return Ok(None) };
     let (source, bytes) = base.read_bytes(name)?;
     parse(&source, &bytes).map(|mesh| Some(Arc::new(mesh)))
 }
 
-/// The mesh of a file whose name tells its format.
+/// Parses a mesh; the extension of `source` selects the format.
 ///
 /// # Errors
-/// When it holds no closed surface with its outside outside.
+/// If it is not a closed surface with outward normals.
 pub fn parse(source: &str, bytes: &[u8]) -> Result<Mesh> {
     let ending = Path::new(source).extension().map(|ending| ending.to_ascii_lowercase());
     let facets = match ending.as_ref().and_then(|ending| ending.to_str()) {

@@ -1,4 +1,4 @@
-//! The pulse of the laser, by its keys or from a file.
+//! The laser pulse, defined by keys or a file.
 
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
@@ -9,17 +9,17 @@ use super::model::Laser;
 
 /// Columns of a pulse file.
 const HEADER: [&str; 2] = ["time_ps", "density"];
-/// Most rows of one.
+/// Largest number of rows of a pulse file.
 const MOST_ROWS: usize = 100_000;
-/// How far a step may be from the mean of all [1].
+/// Largest relative deviation of a time step from the mean step [1].
 const UNEVEN: f64 = 1e-3;
-/// Least and largest standard deviation, as of `laser.pulse_sigma_ps` [ps].
+/// Smallest and largest standard deviation, the same as for `laser.pulse_sigma_ps` [ps].
 const SIGMA_PS: [f64; 2] = [1.0, 2000.0];
 
-/// The pulse of a laser; a file's path is taken from `base`.
+/// Loads the pulse of a laser. The path of a pulse file is relative to `base`.
 ///
 /// # Errors
-/// When the file cannot be read, or holds no pulse.
+/// If the file cannot be read, or does not describe a pulse.
 pub fn load(laser: &Laser, base: &Source) -> Result<Pulse> {
     let Some(name) = &laser.pulse_file else {
         return Ok(Pulse::tailed(laser.pulse_sigma_ps, laser.pulse_tail_ps));

@@ -1,4 +1,4 @@
-//! A scenario written out in full: every key with its meaning, unit, range and source.
+//! Complete listing of a scenario: every key with its value, meaning, unit, range and source.
 
 use std::fmt::Write;
 
@@ -6,13 +6,13 @@ use serde_json::Value as Json;
 
 use super::model::Scenario;
 
-/// The JSON Schema of a scenario.
+/// Returns the JSON Schema of a scenario.
 pub fn schema() -> Json {
     schemars::schema_for!(Scenario).to_value()
 }
 
-/// The resolved scenario as TOML, with the schema's words as comments; what may be given and is not is a
-/// comment too.
+/// Formats the resolved scenario as TOML. The schema's descriptions, and optional keys that are not set, appear as
+/// comments.
 pub fn show(scenario: &Scenario) -> String {
     let schema = schema();
     let values = serde_json::to_value(scenario).unwrap_or(Json::Null);

@@ -1,4 +1,4 @@
-//! What the scenario's keys must be to one another.
+//! Checks of the scenario that involve more than one key.
 
 mod clocks;
 mod target;
@@ -16,10 +16,13 @@ use super::model::{Control, Firmware, Scenario, Spad, Stimulus, Tdc, TdcCalibrat
 use super::window::Window;
 use super::wiring::ON_TDC;
 
-/// Most units of the decoder in a period of `clk_sys`: times and ages have 42 bits.
+/// Largest number of decoder time units per period of `clk_sys`, because times and ages have 42 bits.
 const MOST_UNITS: u64 = 1 << 29;
 
-/// Checks what no single key shows.
+/// Checks all constraints that involve more than one key.
+///
+/// # Errors
+/// The first key that violates a constraint, with its value and what was expected.
 pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks::check(&scenario.pll, checked)?;
     bins(scenario, checked)?;
@@ -37,7 +40,7 @@ fn ensure(holds: bool, checked: &Checked, key: &str, expected: impl Display) -> 
     if holds { Ok(()) } else { Err(checked.fault(key, expected).into()) }
 }
 
-/// That the window of a shot holds the first bin, and the decoder its times.
+/// Checks that the shot window contains the first bin, and that the decoder can represent its times.
 fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let Tdc { bins, bin_ps, first_bin_ps, coarse_bits, .. } = scenario.tdc;
     if !bins.is_power_of_two() {
@@ -74,7 +77,8 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
     }
 }
 
-/// That conditions are said once, and a firmware that calibrates itself is told nothing else, and has a TDC.
+/// Checks that the TDC's conditions are given once, and that a self-calibrating firmware has a TDC and no other
+/// calibration.
 fn calibration(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let (tdc, stimulus) = (&scenario.tdc, &scenario.stimulus);
     let usual = Tdc::default();
@@ -103,7 +107,7 @@ fn calibration(scenario: &Scenario, checked: &Checked) -> Result<()> {
     Ok(())
 }
 
-/// That a word of the histogram holds the shots of a frame.
+/// Checks that a histogram bin can count all shots of a frame.
 fn counts(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let Firmware { count_bits, shots_per_frame: shots, .. } = scenario.firmware;
     let (most, enough) = ((1u64 << count_bits) - 1, u64::BITS - shots.leading_zeros());
@@ -161,7 +165,8 @@ fn spads(scenario: &Scenario, checked: &Checked) -> Result<()> {
     }
 }
 
-/// That the row has the outputs on the TDC, light for each, and dark rates of one kind.
+/// Checks that the simulated row contains the outputs on the TDC, that it is not larger than the number of
+/// illuminated SPADs, and that its dark rates are given once.
 fn row(spad: &Spad, checked: &Checked) -> Result<()> {
     let &Spad { on_tdc, count, row_outputs: row, dark_spread, .. } = spad;
     let refused = match row {
@@ -188,7 +193,7 @@ fn row(spad: &Spad, checked: &Checked) -> Result<()> {
     Ok(())
 }
 
-/// One pulse, and codes of rates that there are.
+/// Checks that one pulse is given, and that every `laser_freq` selects an entry of `firmware.laser_periods`.
 fn laser(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let (firmware, laser) = (&scenario.firmware, &scenario.laser);
     if laser.pulse_file.is_some() && laser.pulse_tail_ps > 0.0 {
@@ -210,7 +215,7 @@ fn laser(scenario: &Scenario, checked: &Checked) -> Result<()> {
     Ok(())
 }
 
-/// Checks the texts that stand for windows in a table of values, before they are read.
+/// Checks the text of each waveform window, before the scenario is deserialized.
 pub fn windows(values: &Table, checked: &Checked) -> Result<()> {
     let windows = values.get("report").and_then(|report| report.get("windows"));
     for (k, text) in windows.and_then(Item::as_array).into_iter().flatten().enumerate() {
@@ -229,7 +234,7 @@ fn control(scenario: &Scenario, checked: &Checked) -> Result<()> {
     Ok(())
 }
 
-/// What pairs of a dark and a lit frame cannot be made of.
+/// Checks that dark and lit frames can alternate.
 fn dark_frames(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let (Firmware { shots_per_frame, laser_en, .. }, stimulus) =
         (&scenario.firmware, &scenario.stimulus);

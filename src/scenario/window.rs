@@ -1,4 +1,4 @@
-//! Which part of a run is written to the waveform.
+//! Waveform windows: the parts of a run that are written to the waveform.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,44 +9,44 @@ use crate::kernel::Time;
 
 /// A part of a run: `shot:0..8`, `10us..12us` or `estimation`.
 ///
-/// All begin and end with an edge of `clk_sys`. A shot lasts from three cycles before its laser
-/// edge (one before `pre_start`) to the next one's, shots counted over the whole run; a window of
-/// time is widened to whole cycles; `estimation` is every frame's, from two cycles before
-/// `algo_start` to one after `frame_done`.
+/// All windows begin and end with an edge of `clk_sys`. A shot lasts from three cycles before its laser edge (one
+/// before `pre_start`) to the same point of the next shot; shots are numbered over the whole run. A time window is
+/// widened to whole cycles. `estimation` selects every frame from two cycles before `algo_start` to one after
+/// `frame_done`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Window {
-    /// Shots, the end excluded.
+    /// Range of shots, end excluded.
     Shots {
         /// First shot.
         from: u64,
         /// Shot after the last.
         to: u64,
     },
-    /// A span of time.
+    /// Range of time.
     Span {
-        /// Begin.
+        /// Start.
         from: Time,
         /// End.
         to: Time,
     },
-    /// The estimator at work.
+    /// All cycles in which the estimator works.
     Estimation,
 }
 
-/// What a window is decided by, as the coming cycle begins.
+/// State of the run at the start of a cycle, by which a window selects the cycle.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
-    /// Begin and end of the cycle.
+    /// Start and end of the cycle.
     pub cycle: (Time, Time),
-    /// Shot under way, over the whole run.
+    /// Number of the current shot, over the whole run.
     pub shot: Option<u64>,
-    /// The estimator works, is about to or has just finished.
+    /// Whether the estimator is working, about to start or has just finished.
     pub estimating: bool,
 }
 
 impl Window {
-    /// Whether the coming cycle belongs to it.
+    /// Returns whether the window contains the cycle.
     pub fn wants(&self, moment: &Moment) -> bool {
         match *self {
             Window::Shots { from, to } => {
@@ -57,8 +57,8 @@ impl Window {
         }
     }
 
-    /// A time that no cycle ends after, of those from `now` on, before [`Window::wants`] can
-    /// answer another thing than for the cycle at `now`, whatever the device does.
+    /// Returns the time until which [`Window::wants`] cannot change, whatever the device does: it is the same for
+    /// every cycle that starts at `now` or later and ends by that time.
     pub fn holds_until(&self, now: Time) -> Time {
         match *self {
             Window::Span { from, to } => {
@@ -68,7 +68,10 @@ impl Window {
         }
     }
 
-    /// That a run of so many shots and that end reaches the window's end; if not, why.
+    /// Checks that the window ends within a run of `shots` shots that ends at `end`.
+    ///
+    /// # Errors
+    /// The reason why the window is out of range.
     pub fn check(&self, shots: u64, end: Time) -> Result<(), String> {
         match *self {
             Window::Shots { to, .. } if to > shots => {
@@ -119,7 +122,7 @@ impl From<Window> for String {
     }
 }
 
-/// A number with its unit.
+/// Parses a non-negative number with a unit of time.
 fn time(text: &str) -> Option<Time> {
     const UNITS: &[(&str, f64)] =
         &[("ps", 1.0), ("ns", 1e3), ("us", 1e6), ("ms", 1e9), ("s", 1e12)];

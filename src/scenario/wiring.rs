@@ -1,34 +1,34 @@
-//! Which outputs of the selected row of the array are simulated, and which of them are joined to `tdc_stop`.
+//! Outputs of the selected SPAD row: which are simulated, and which are connected to `tdc_stop`.
 //!
-//! The thesis's array has 40 rows of 30 SPADs (Fig. 4.3); `spad_sel` stays at row 0, the row's outputs come to the FPGA as
-//! `spad_out_0` .. `spad_out_29`, and output 15 is the one on the TDC. More of them are those around it.
+//! The thesis's array has 40 rows of 30 SPADs (Fig. 4.3). `spad_sel` stays at row 0, whose outputs reach the FPGA as
+//! `spad_out_0` to `spad_out_29`. Output 15 is connected to the TDC; further connected outputs are its neighbours.
 
 use std::ops::Range;
 
 use super::model::Spad;
 
-/// Rows of the array.
+/// Number of rows of the array.
 pub const ROWS: usize = 40;
-/// Outputs of a row of it.
+/// Number of outputs of a row.
 pub const OUTPUTS: usize = 30;
-/// The selected row.
+/// Number of the selected row.
 pub const SELECTED: usize = 0;
-/// The output that is on the TDC, alone or among others.
+/// Output that is always connected to the TDC.
 pub const ON_TDC: usize = 15;
 
 /// The outputs of the selected row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wiring {
-    /// Those that are simulated.
+    /// Outputs that are simulated.
     pub simulated: Range<usize>,
-    /// Those whose OR is `tdc_stop`, all of them simulated.
+    /// Outputs whose OR drives `tdc_stop`; all of them are simulated.
     pub on_tdc: Range<usize>,
 }
 
 impl Wiring {
-    /// What a scenario's detector has: of n on the TDC output 15, (n - 1) / 2 before it (rounded down) and the rest after
-    /// it, moved so far that all are outputs of the row. Without `spad.row_outputs` the row is the thesis's, or as long as
-    /// there are SPADs on the TDC, and only those are simulated.
+    /// Returns the wiring of a detector. With n outputs on the TDC these are output 15, (n - 1) / 2 below it (rounded
+    /// down) and the rest above it, shifted so that all lie within the row. Without `spad.row_outputs`, only the
+    /// connected outputs are simulated, and the row has the thesis's 30 outputs or more if more are connected.
     pub fn of(spad: &Spad) -> Self {
         let (count, row) = (spad.on_tdc as usize, spad.row_outputs as usize);
         let outputs = if row > 0 { row } else { OUTPUTS.max(count) };
@@ -38,12 +38,12 @@ impl Wiring {
         Wiring { simulated, on_tdc }
     }
 
-    /// Whether some are simulated that are not on the TDC.
+    /// Returns whether some simulated outputs are not connected to the TDC.
     pub fn has_unwired(&self) -> bool {
         self.simulated != self.on_tdc
     }
 
-    /// Those on the TDC, counted from the first that is simulated.
+    /// Returns the positions of the connected outputs among the simulated ones.
     pub fn places(&self) -> Range<usize> {
         let first = self.simulated.start;
         self.on_tdc.start - first..self.on_tdc.end - first

@@ -1,4 +1,4 @@
-//! What drives `tdc_stop`: the diodes through their shaper, or the ring oscillator while that runs.
+//! The driver of `tdc_stop`: the SPADs through their pulse shaper, or the ring oscillator while it runs.
 
 use crate::kernel::Time;
 
@@ -8,27 +8,27 @@ use super::shaper::Shaper;
 /// The source of `tdc_stop`.
 #[derive(Clone, Debug)]
 pub struct FrontEnd {
-    /// What gives the TDC its hits during a calibration.
+    /// Source of the TDC's hits during a calibration.
     ring: Ring,
-    /// Without one the wire follows the diodes.
+    /// Pulse shaper; without one, the wire follows the SPADs.
     shaper: Option<Box<Shaper>>,
-    /// The next event of either.
+    /// Next event of the ring or the shaper.
     next: Time,
 }
 
 impl FrontEnd {
-    /// At rest.
+    /// Creates an idle front end.
     pub fn new(ring: Ring, shaper: Option<Shaper>) -> Self {
         FrontEnd { ring, shaper: shaper.map(Box::new), next: Time::NEVER }
     }
 
-    /// When it next does something by itself.
+    /// Returns the time of the next event of the ring or the shaper.
     #[inline(always)]
     pub fn next_event(&self) -> Time {
         self.next
     }
 
-    /// Does what is due at [`FrontEnd::next_event`]; [`FrontEnd::drive`] has to follow.
+    /// Processes the event at [`FrontEnd::next_event`]. A call of [`FrontEnd::drive`] must follow.
     pub fn event(&mut self) {
         let now = self.next;
         if self.ring.next_event() == now {
@@ -42,19 +42,19 @@ impl FrontEnd {
         self.look_ahead();
     }
 
-    /// Whether the ring runs.
+    /// Returns whether the ring runs.
     #[inline(always)]
     pub fn ring_is_on(&self) -> bool {
         self.ring.is_on()
     }
 
-    /// The ring begins or ends to run; [`FrontEnd::drive`] has to follow.
+    /// Starts or stops the ring. A call of [`FrontEnd::drive`] must follow.
     pub fn switch_ring(&mut self, on: bool, now: Time) {
         self.ring.switch(on, now);
         self.look_ahead();
     }
 
-    /// The level of `tdc_stop`, with the output of the diodes as it is from `now` on.
+    /// Returns the level of `tdc_stop`, given the SPADs' output from `now` on.
     #[inline(always)]
     pub fn drive(&mut self, output: bool, now: Time) -> bool {
         let level = if self.shaper.is_some() { self.shape(output, now) } else { output };
@@ -70,8 +70,8 @@ impl FrontEnd {
         level
     }
 
-    /// Whether an avalanche at `now` may be seen: where there is a shaper, if it makes the output rise, which was
-    /// high or not before, and is not lost.
+    /// Returns whether an avalanche at `now` can be seen on `tdc_stop`. With a shaper, it must make the SPADs'
+    /// output, which was `was_high`, rise outside of the gap.
     pub fn shows(&self, was_high: bool, now: Time) -> bool {
         self.shaper.as_ref().is_none_or(|shaper| !was_high && shaper.takes(now))
     }

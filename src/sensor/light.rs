@@ -1,8 +1,8 @@
-//! When the next avalanche comes: from optics, from a photon list, or never.
+//! Source of avalanches: simulated optics, a photon list, or none.
 //!
-//! Optics draws one time an avalanche from the cumulative hazard of the shot. A shot begins with
-//! its laser edge; what an armed diode was waiting for is then drawn anew, which is exact, because
-//! photons before and after an instant are independent.
+//! Simulated optics draws one time per avalanche from the cumulative hazard of the shot. A shot begins with its laser
+//! edge; the pending avalanche is then drawn again, which is exact because photons before and after an instant are
+//! independent.
 
 use std::sync::Arc;
 
@@ -16,26 +16,26 @@ use crate::optics::hazard::{Cause, Hazard};
 use super::photon_list::Given;
 use super::streams::{Source, exponential, normal, seek, stream, uniform};
 
-/// What reaches the detector.
+/// Light that reaches the detector.
 #[derive(Clone, Debug)]
 pub enum Light {
     /// Laser, ambient light and dark counts.
     Optics(Box<Optics>),
-    /// Given photons.
+    /// A photon list.
     List(Given),
-    /// Nothing, ever.
+    /// No avalanches at all.
     None,
 }
 
 impl Light {
-    /// A new frame begins: its streams are taken up with the next shot.
+    /// Begins a frame; its random streams start with the next shot.
     pub fn begin_frame(&mut self, frame: u64) {
         if let Light::Optics(optics) = self {
             optics.begin_frame(frame);
         }
     }
 
-    /// A shot begins at `now`, with the laser or in the dark.
+    /// Begins a shot at `now`, with or without a laser pulse.
     #[inline(always)]
     pub fn begin_shot(&mut self, now: Time, laser: bool) {
         match self {
@@ -45,7 +45,7 @@ impl Light {
         }
     }
 
-    /// The first avalanche of the diodes that are armed at `now`: one in `share` of all [1].
+    /// Draws the time of the first avalanche, after `now`, among the SPADs that are armed: one in `share` of all [1].
     #[inline(always)]
     pub fn next_avalanche(&mut self, now: Time, share: f64) -> Time {
         match self {
@@ -55,7 +55,7 @@ impl Light {
         }
     }
 
-    /// What came at `at` is used up.
+    /// Consumes the avalanche at `at`.
     pub fn take(&mut self, at: Time) {
         match self {
             Light::Optics(optics) => optics.taken = Some((at, optics.reached)),
@@ -66,7 +66,7 @@ impl Light {
         }
     }
 
-    /// The part of the rate at `at` that comes without any light [1].
+    /// Returns the fraction of the avalanche rate at `at` that is dark counts [1].
     pub fn dark_part(&self, at: Time) -> f64 {
         match self {
             Light::Optics(optics) => optics.dark_part(at),
@@ -74,7 +74,7 @@ impl Light {
         }
     }
 
-    /// Given photons of shots that have not begun.
+    /// Returns the number of listed photons in shots that have not begun.
     pub fn left(&self) -> usize {
         match self {
             Light::List(given) => given.left(),
@@ -82,20 +82,20 @@ impl Light {
         }
     }
 
-    /// Whether it is of a scene that can change.
+    /// Returns whether the scene can change during the run.
     pub fn can_change(&self) -> bool {
         matches!(self, Light::Optics(_))
     }
 
-    /// Has the hazards of another scene from the next draw on; the streams go on where they are.
+    /// Replaces the hazards by those of another scene, from the next draw on. The random streams continue.
     pub fn change(&mut self, other: &Light) {
         if let (Light::Optics(own), Light::Optics(other)) = (self, other) {
             own.hazards = Arc::clone(&other.hazards);
         }
     }
 
-    /// What set off the avalanche at `at`, in the present shot, of a diode of whose rate `dark` comes without any light,
-    /// if that is another part than of all; unknown for given photons.
+    /// Draws the cause of the avalanche at `at` in the present shot. `dark` is the dark fraction of the rate of the
+    /// SPAD that fired, if SPADs differ. Returns `None` for listed photons.
     pub fn cause(&mut self, at: Time, dark: Option<f64>) -> Option<Cause> {
         match self {
             Light::Optics(optics) => Some(optics.cause(at, dark)),
@@ -104,37 +104,38 @@ impl Light {
     }
 }
 
-/// Light by the link budget.
+/// Light simulated from the link budget.
 #[derive(Clone, Debug)]
 pub struct Optics {
-    /// Hazard of a shot with the laser, and of one without.
+    /// Hazard of a shot with the laser, and of a shot without.
     hazards: Arc<[Hazard; 2]>,
     seed: u64,
     first: ChaCha8Rng,
     further: ChaCha8Rng,
     causes: ChaCha8Rng,
     pulses: ChaCha8Rng,
-    /// How many deviations the pulse of the present shot is late, and above the mean energy, if shots differ.
+    /// Deviations of the present pulse's time and energy from their means [standard deviations]; `None` if all shots
+    /// are equal.
     pulse: Option<[f64; 2]>,
-    /// Whether the present shot has the laser.
+    /// Whether the present shot has a laser pulse.
     lit: bool,
-    /// Begin of the present shot.
+    /// Start of the present shot.
     origin: Time,
-    /// Shots of this frame, the time before its first one counted as shot 0.
+    /// Number of the present shot in its frame; 0 is the time before the first shot.
     shot: u64,
-    /// Word of the shot's first avalanche, until used.
+    /// Random word of the shot's first avalanche, until it is used.
     word: Option<u64>,
-    /// H at the avalanche that was drawn last [1].
+    /// Cumulative hazard at the last avalanche drawn [1].
     reached: f64,
-    /// The carrier that was taken last, until the next draw: when, and H there.
+    /// Time of the last avalanche that was consumed and the cumulative hazard there, until the next draw.
     taken: Option<(Time, f64)>,
-    /// Further avalanches drawn in this shot, and causes.
+    /// Number of further avalanches, and of causes, drawn in this shot.
     further_drawn: u64,
     causes_drawn: u64,
 }
 
 impl Optics {
-    /// Light with those hazards of a lit and of a dark shot, before the first frame's first shot.
+    /// Creates light with the hazards of a shot with and without laser pulse, before the first frame.
     pub fn new(lit: Hazard, dark: Hazard, seed: u64) -> Self {
         Optics {
             hazards: Arc::new([dark, lit]),
@@ -175,7 +176,7 @@ impl Optics {
         }
     }
 
-    /// Draws the pulse of a shot, whether it is lit or not.
+    /// Draws the time and energy of a shot's pulse, also in a shot without laser.
     #[cold]
     fn draw_pulse(&mut self) {
         seek(&mut self.pulses, self.shot, 0);
@@ -183,13 +184,12 @@ impl Optics {
         self.pulse = self.lit.then_some(drawn);
     }
 
-    /// The hazard of a shot with the laser, or of one without.
+    /// Returns the hazard of a shot with or without laser pulse.
     pub fn hazard(&self, lit: bool) -> &Hazard {
         &self.hazards[lit as usize]
     }
 
-    /// Passes over `shots` shots that have one avalanche at most each: shows the words that draw
-    /// them.
+    /// Skips `shots` shots that have at most one avalanche each, and passes their random words to `take`.
     #[inline]
     pub fn pass(&mut self, shots: u64, mut take: impl FnMut(u64)) {
         (0..shots).for_each(|_| take(self.first.next_u64()));
@@ -210,8 +210,8 @@ impl Optics {
         self.origin.saturating_add(hazard.inverse(self.reached)).max(now)
     }
 
-    /// The same in a shot that differs from the others, or after a carrier that was taken: the next one may
-    /// come at the same instant, as several that the pulse puts before the laser edge do.
+    /// Draws the next avalanche in a shot whose pulse varies, or after a carrier. It may coincide with the last one,
+    /// as with photons that the pulse puts before the laser edge.
     #[cold]
     fn next_of(&mut self, now: Time, further: f64) -> Time {
         let hazard = &self.hazards[self.lit as usize];

@@ -1,8 +1,7 @@
-//! Explicit photons: a CSV file of arrival times, shot by shot.
+//! Photon lists: CSV files with the arrival times of explicit photons.
 //!
-//! Columns `shot` (shots since power-up, from 0) and `arrival_ps` (from the laser edge, with
-//! up to three decimals). Rows go up in `shot`, and within a shot in `arrival_ps`. Lines that begin
-//! with `#` are comments; the seed and the origin of the list belong there.
+//! Columns are `shot` (since power-up, from 0) and `arrival_ps` (from the laser edge, with up to three decimals), in
+//! ascending order. Lines that begin with `#` are comments, which should state the seed and the origin of the list.
 
 use crate::error::Result;
 use crate::files::csv::CsvInput;
@@ -15,7 +14,10 @@ pub struct PhotonList {
 }
 
 impl PhotonList {
-    /// Reads a list; `source` names it in errors.
+    /// Parses a list. Errors name it as `source`.
+    ///
+    /// # Errors
+    /// If a row is invalid or out of order.
     pub fn parse(source: &str, text: &str) -> Result<Self> {
         let mut input = CsvInput::new(source, text, &["shot", "arrival_ps"])?;
         let mut rows: Vec<(u64, Time)> = Vec::new();
@@ -39,13 +41,13 @@ impl PhotonList {
         Ok(PhotonList { rows })
     }
 
-    /// The photons of a shot, in order of time from its laser edge.
+    /// Returns the photons of a shot, with their times from its laser edge, in order.
     pub fn of_shot(&self, shot: u64) -> &[(u64, Time)] {
         let rows = self.from_shot(shot);
         &rows[..rows.partition_point(|row| row.0 <= shot)]
     }
 
-    /// The photons of a shot and of those after it.
+    /// Returns the photons of a shot and of all later shots.
     pub fn from_shot(&self, shot: u64) -> &[(u64, Time)] {
         &self.rows[self.rows.partition_point(|row| row.0 < shot)..]
     }
@@ -54,23 +56,23 @@ impl PhotonList {
 /// Latest arrival, 1 ms [ps].
 const MAX_PS: f64 = 1e9;
 
-/// Given photons, as they come due.
+/// Photons of a list, played back during the run.
 #[derive(Clone, Debug)]
 pub struct Given {
     list: PhotonList,
-    /// Shots begun.
+    /// Number of shots that have begun.
     shots: u64,
-    /// Photons of begun shots that are still to come, the latest first.
+    /// Outstanding photons of shots that have begun, latest first.
     pending: Vec<Time>,
 }
 
 impl Given {
-    /// The photons of a list, none of them due yet.
+    /// Creates the playback of a list.
     pub fn new(list: PhotonList) -> Self {
         Given { list, shots: 0, pending: Vec::new() }
     }
 
-    /// A shot begins at `now`: its photons become due.
+    /// Begins a shot at `now`, which adds its photons.
     pub fn begin_shot(&mut self, now: Time) {
         let photons = self.list.of_shot(self.shots).iter();
         self.pending.extend(photons.map(|(_, arrival)| now.saturating_add(*arrival)));
@@ -78,7 +80,7 @@ impl Given {
         self.shots += 1;
     }
 
-    /// The first photon at or after `now`; those before it are lost.
+    /// Returns the time of the first photon at or after `now`, and discards earlier ones.
     pub fn next_photon(&mut self, now: Time) -> Time {
         while self.pending.last().is_some_and(|&photon| photon < now) {
             self.pending.pop();
@@ -86,7 +88,7 @@ impl Given {
         self.pending.last().copied().unwrap_or(Time::NEVER)
     }
 
-    /// Photons of shots that have not begun.
+    /// Returns the number of photons in shots that have not begun.
     pub fn left(&self) -> usize {
         self.list.from_shot(self.shots).len()
     }

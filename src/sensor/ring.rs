@@ -1,7 +1,7 @@
-//! A ring oscillator that calibrates the TDC: edges that know nothing of the clock.
+//! Ring oscillator that calibrates the TDC with edges uncorrelated with the clock.
 //!
-//! It runs only while it is asked for, and begins at any place of its period. Each half of a period is long or short
-//! by a normal time, and these add up.
+//! It runs only on request, and starts at a random phase. Each half period has a normally distributed deviation, and
+//! deviations accumulate.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -10,21 +10,22 @@ use crate::kernel::Time;
 
 use super::streams::{Source, normal, stream, uniform};
 
-/// Half of its period, and by how much it varies.
+/// Period and jitter of the ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// Half of a period.
+    /// Half period.
     pub half: Time,
-    /// Deviation of one half [fs].
+    /// Standard deviation of a half period [fs].
     pub jitter_fs: f64,
 }
 
-/// Deviations of a random walk that it covers: one to either side.
+/// Range of accumulated jitter that counts as covered, to either side [standard deviations].
 const COVERED: f64 = 2.0;
 
 impl Params {
-    /// The widest stretch of a clock's period into which none of so many rises comes, because the ring keeps step
-    /// with the clock; nothing if it is no wider than `finest`.
+    /// Returns the widest interval of the clock period that none of the ring's first `rises` rising edges hits,
+    /// because its period is nearly a rational multiple of the clock's. Returns `None` if it is not wider than
+    /// `finest`.
     pub fn in_step(&self, period: Time, rises: u64, finest: Time) -> Option<Time> {
         let [own, period] = [2 * self.half.fs(), period.fs()];
         let walk = COVERED * self.jitter_fs * (2.0 * rises as f64).sqrt();
@@ -45,7 +46,7 @@ impl Params {
 pub struct Ring {
     params: Option<Params>,
     seed: u64,
-    /// Times that it has begun to run.
+    /// Number of starts.
     runs: u64,
     words: ChaCha8Rng,
     level: bool,
@@ -53,30 +54,30 @@ pub struct Ring {
 }
 
 impl Ring {
-    /// At rest; without parameters it never runs.
+    /// Creates a stopped ring. Without parameters it never runs.
     pub fn new(params: Option<Params>, seed: u64) -> Self {
         let words = stream(seed, Source::Ring, 0);
         Ring { params, seed, runs: 0, words, level: false, next: Time::NEVER }
     }
 
-    /// Whether it runs.
+    /// Returns whether the ring runs.
     #[inline(always)]
     pub fn is_on(&self) -> bool {
         self.next != Time::NEVER
     }
 
-    /// Its level: low while it does not run.
+    /// Returns the ring's output, which is low while it is stopped.
     pub fn level(&self) -> bool {
         self.level
     }
 
-    /// When its level changes next.
+    /// Returns the time of the next edge.
     #[inline(always)]
     pub fn next_event(&self) -> Time {
         self.next
     }
 
-    /// Begins or ends to run.
+    /// Starts or stops the ring.
     pub fn switch(&mut self, on: bool, now: Time) {
         self.level = false;
         let Some(params) = self.params.filter(|_| on) else {
@@ -89,7 +90,7 @@ impl Ring {
         self.next = now + Time::from_fs(wait.round() as u64 + 1);
     }
 
-    /// The level changes.
+    /// Toggles the output.
     pub fn event(&mut self) {
         let Some(params) = self.params else { return };
         self.level = !self.level;

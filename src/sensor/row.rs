@@ -1,10 +1,10 @@
-//! The diodes of a row one by one, where it matters which of them fires: afterpulses, crosstalk, dark rates
-//! that differ, and a dead time that starts again.
+//! SPADs of a row tracked individually, which is required for afterpulsing, crosstalk, unequal dark rates and
+//! paralysable dead time.
 //!
-//! Carriers (photons, and those of the dark) come to all diodes together, and each picks its diode, so that one
-//! that comes to a diode at rest is lost: that is exact for any rates. An avalanche traps a carrier with some
-//! chance, and it comes back after an exponential time as a carrier of that diode; traps of a second kind may
-//! have another mean time. An avalanche sets off each neighbour with some chance too, at the same instant.
+//! Photons and dark carriers arrive for the row as a whole, and each picks a SPAD; a carrier that picks a SPAD that
+//! is not armed is lost, which is exact for any rates. An avalanche traps a carrier with a given probability, and the
+//! carrier is released in the same SPAD after an exponential time; a second kind of trap may have another mean
+//! lifetime. With another probability, an avalanche fires each neighbour at the same instant.
 
 use std::ops::Range;
 
@@ -12,41 +12,41 @@ use crate::kernel::Time;
 
 use super::streams::{Source, Stretches, exponential, uniform};
 
-/// What the diodes of a row do beside firing.
+/// Effects that require SPADs to be tracked individually.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
-    /// Chance that an avalanche traps a carrier [1].
+    /// Probability that an avalanche traps a carrier [1].
     pub afterpulse_probability: f64,
-    /// Mean time until that is released [fs].
+    /// Mean lifetime of a trapped carrier [fs].
     pub afterpulse_fs: f64,
-    /// The same in a trap of the second kind [fs].
+    /// Mean lifetime in a trap of the second kind [fs].
     pub afterpulse_second_fs: f64,
-    /// Part of the trapped carriers that are in one [1].
+    /// Fraction of the trapped carriers that are in traps of the second kind [1].
     pub afterpulse_second_share: f64,
-    /// Whether a carrier within the dead time of MODE 1 starts it again.
+    /// Whether a carrier within the dead time of MODE 1 restarts it.
     pub paralysable: bool,
-    /// Chance that an avalanche sets off a neighbour [1].
+    /// Probability that an avalanche fires a neighbour [1].
     pub crosstalk_probability: f64,
-    /// Dark rate of each diode, if they differ, to a common factor [1].
+    /// Relative dark rate of each SPAD, if they differ [1].
     pub dark_rates: Vec<f64>,
-    /// Those whose OR is `tdc_stop`, where a whole row is followed; otherwise all.
+    /// SPADs whose OR is `tdc_stop`; `None` for all.
     pub on_tdc: Option<Range<usize>>,
 }
 
 impl Effects {
-    /// The kinds of traps: what part of the trapped carriers they have, and the mean time there [1, fs].
+    /// Returns the fraction of trapped carriers and the mean lifetime for each kind of trap [1, fs].
     pub fn traps(&self) -> [(f64, f64); 2] {
         let share = self.afterpulse_second_share;
         [(1.0 - share, self.afterpulse_fs), (share, self.afterpulse_second_fs)]
     }
 
-    /// The longest mean time of a trap that there is [fs].
+    /// Returns the longest mean lifetime of the kinds of trap in use [fs].
     pub fn longest_trap_fs(&self) -> f64 {
         let there = self.traps().into_iter().filter(|(share, _)| *share > 0.0);
         there.map(|(_, mean_fs)| mean_fs).fold(0.0, f64::max)
     }
 
-    /// Chance that an avalanche traps a carrier which is released after so long or later [1].
+    /// Returns the probability that an avalanche traps a carrier that is released after at least `fs` [1].
     pub fn released_after(&self, fs: f64) -> f64 {
         let late = |(share, mean_fs): (f64, f64)| match share > 0.0 {
             true => share * libm::exp(-fs / mean_fs),
@@ -55,7 +55,7 @@ impl Effects {
         self.afterpulse_probability * self.traps().map(late).iter().sum::<f64>()
     }
 
-    /// Whether that many diodes do nothing but fire, all of them alike and on the TDC.
+    /// Returns whether `count` SPADs have none of the effects, so that they need not be tracked.
     pub fn are_none(&self, count: usize) -> bool {
         if self.on_tdc.is_some() {
             return false;
@@ -65,15 +65,15 @@ impl Effects {
     }
 }
 
-/// The row.
+/// SPADs of a row.
 #[derive(Clone, Debug)]
 pub struct Row {
     effects: Effects,
-    /// Those on the TDC.
+    /// SPADs connected to the TDC.
     on_tdc: Range<usize>,
-    /// When the dead time of each ends that has fired.
+    /// End of each SPAD's dead time, if it has fired.
     dead: Vec<Option<Time>>,
-    /// Trapped carriers, the next one to be released last: when, and in which diode.
+    /// Release time and SPAD of each trapped carrier, next one last.
     trapped: Vec<(Time, usize)>,
     afterpulses: Stretches,
     neighbours: Stretches,
@@ -81,7 +81,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// That many diodes, armed.
+    /// Creates `count` armed SPADs.
     pub fn new(count: usize, effects: Effects, seed: u64) -> Self {
         let stretches = |source| Stretches::new(seed, source);
         Row {
@@ -95,17 +95,17 @@ impl Row {
         }
     }
 
-    /// What they do.
+    /// Returns the effects.
     pub fn effects(&self) -> &Effects {
         &self.effects
     }
 
-    /// A new frame begins.
+    /// Begins a frame.
     pub fn begin_frame(&mut self, frame: u64) {
         self.streams().into_iter().for_each(|stream| stream.begin_frame(frame));
     }
 
-    /// A shot begins.
+    /// Begins a shot.
     pub fn begin_shot(&mut self) {
         self.streams().into_iter().for_each(Stretches::begin_shot);
     }
@@ -114,36 +114,36 @@ impl Row {
         [&mut self.afterpulses, &mut self.neighbours, &mut self.diodes]
     }
 
-    /// All are armed; what is trapped stays so.
+    /// Arms all SPADs. Trapped carriers remain.
     pub fn arm_all(&mut self) {
         self.dead.fill(None);
     }
 
-    /// The quench mode changes: no dead time ends before `now`.
+    /// Extends all dead times to at least `now`, when the quench mode changes.
     pub fn not_before(&mut self, now: Time) {
         self.dead.iter_mut().flatten().for_each(|until| *until = now.max(*until));
     }
 
-    /// The dead times that are not over, the first to end first.
+    /// Returns the ends of the present dead times, in ascending order.
     pub fn fired(&self) -> impl Iterator<Item = Time> {
         let mut fired: Vec<_> = self.dead.iter().flatten().copied().collect();
         fired.sort_unstable();
         fired.into_iter()
     }
 
-    /// How many have fired, that are not on the TDC.
+    /// Returns the number of fired SPADs that are not connected to the TDC.
     pub fn unwired(&self) -> usize {
         let others = self.dead.iter().enumerate().filter(|(place, _)| !self.on_tdc.contains(place));
         others.filter(|(_, dead)| dead.is_some()).count()
     }
 
-    /// The outputs that are high, a bit each.
+    /// Returns the outputs, one bit per SPAD.
     pub fn outputs(&self) -> u64 {
         let bit = |(place, dead): (usize, &Option<Time>)| u64::from(dead.is_some()) << place;
         self.dead.iter().take(u64::BITS as usize).enumerate().map(bit).sum()
     }
 
-    /// The part of the rate that a diode has in the dark, where `dark` of all diodes' rate is that of the dark [1].
+    /// Returns the dark fraction of a SPAD's rate, where `dark` is that of the whole row [1].
     pub fn dark_part(&self, diode: usize, dark: f64) -> f64 {
         let rates = &self.effects.dark_rates;
         let Some(own) = rates.get(diode) else { return dark };
@@ -152,24 +152,24 @@ impl Row {
         if own > 0.0 { own / (own + light) } else { 0.0 }
     }
 
-    /// When the next trapped carrier is released.
+    /// Returns the time at which the next trapped carrier is released.
     pub fn release(&self) -> Time {
         self.trapped.last().map_or(Time::NEVER, |(at, _)| *at)
     }
 
-    /// The dead time of those that end it at `now` is over.
+    /// Rearms the SPADs whose dead time ends at `now`.
     pub fn recover(&mut self, now: Time) {
         for until in &mut self.dead {
             *until = until.filter(|until| *until > now);
         }
     }
 
-    /// Releases the next trapped carrier, and says in which diode.
+    /// Releases the next trapped carrier, and returns its SPAD.
     pub fn released(&mut self) -> Option<usize> {
         self.trapped.pop().map(|(_, diode)| diode)
     }
 
-    /// The diode that a carrier comes to, where `dark` of the rate is that of the dark [1].
+    /// Draws the SPAD of a carrier, where `dark` is the dark fraction of the rate [1].
     pub fn pick(&mut self, dark: f64) -> usize {
         let count = self.dead.len();
         if count == 1 {
@@ -188,8 +188,8 @@ impl Row {
         found.unwrap_or(count - 1)
     }
 
-    /// A carrier in a diode at `now`; whether there is an avalanche of one on the TDC. `again` if it starts a dead time
-    /// again.
+    /// Processes a carrier in a SPAD at `now`, and returns whether a SPAD connected to the TDC fires. `again` selects
+    /// whether the carrier restarts a dead time.
     pub fn carrier(&mut self, diode: usize, now: Time, dead_time: Time, again: bool) -> bool {
         let until = now.saturating_add(dead_time);
         let mut coming = vec![diode];
@@ -209,7 +209,7 @@ impl Row {
         fires
     }
 
-    /// An avalanche at `now` may trap a carrier.
+    /// Draws whether an avalanche at `now` traps a carrier.
     fn trap(&mut self, diode: usize, now: Time) {
         let chance = self.effects.afterpulse_probability;
         if chance == 0.0 {
@@ -228,7 +228,7 @@ impl Row {
         }
     }
 
-    /// It may set its neighbours off.
+    /// Draws whether an avalanche fires its neighbours.
     fn light_neighbours(&mut self, diode: usize, coming: &mut Vec<usize>) {
         let chance = self.effects.crosstalk_probability;
         if chance == 0.0 {

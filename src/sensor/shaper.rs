@@ -1,17 +1,18 @@
-//! A monostable between the diodes and the wire to the FPGA: each rise of their output gives a pulse of one width.
+//! Pulse shaper between the SPADs and `tdc_stop`: a monostable that turns each rising edge into a pulse of fixed
+//! width.
 //!
-//! It cannot be triggered again: a rise within a pulse is lost, and so is one within the gap after it. It
-//! stands in front of the FPGA and knows nothing of `spad_rst`, which clears the diodes: a pulse ends by itself. Without a
-//! width the pulse is as long as the output is high, and only the gap is left.
+//! It is not retriggerable: rising edges within a pulse or within the gap after it are lost. It is in front of the
+//! FPGA and independent of `spad_rst`, which clears the SPADs: a pulse ends by itself. Without a width the pulse
+//! follows the SPADs' output, and only the gap applies.
 
 use crate::kernel::Time;
 
-/// What it makes of a rise.
+/// Pulse width and gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// Width of the pulse; none: as long as the output of the diodes is high.
+    /// Width of the pulse; `None`: the pulse follows the SPADs' output.
     pub width: Option<Time>,
-    /// How long it cannot rise again after the pulse.
+    /// Time after a pulse during which the output cannot rise again.
     pub gap: Time,
 }
 
@@ -19,38 +20,38 @@ pub struct Params {
 #[derive(Clone, Debug)]
 pub struct Shaper {
     params: Params,
-    /// Output of the diodes.
+    /// Output of the SPADs.
     input: bool,
     level: bool,
-    /// When the pulse under way falls by itself.
+    /// End of the present pulse.
     falls: Time,
-    /// When the gap after the last pulse ends.
+    /// End of the gap after the last pulse.
     rests_until: Time,
 }
 
 impl Shaper {
-    /// At rest.
+    /// Creates an idle shaper.
     pub fn new(params: Params) -> Self {
         let (falls, rests_until) = (Time::NEVER, Time::ZERO);
         Shaper { params, input: false, level: false, falls, rests_until }
     }
 
-    /// Its output.
+    /// Returns the output.
     pub fn level(&self) -> bool {
         self.level
     }
 
-    /// When it falls by itself.
+    /// Returns the time at which the output falls by itself.
     pub fn next_event(&self) -> Time {
         self.falls
     }
 
-    /// Does what is due at [`Shaper::next_event`].
+    /// Processes the event at [`Shaper::next_event`].
     pub fn event(&mut self) {
         self.fall(self.falls);
     }
 
-    /// The output of the diodes is `input` from `now` on. A rise at the very end of the gap is none that is lost.
+    /// Sets the SPADs' output from `now` on. A rising edge exactly at the end of the gap is not lost.
     pub fn follow(&mut self, input: bool, now: Time) {
         if self.falls <= now {
             self.event();
@@ -64,7 +65,7 @@ impl Shaper {
         }
     }
 
-    /// Whether a rise at `now` gives a pulse.
+    /// Returns whether a rising edge at `now` triggers a pulse.
     pub fn takes(&self, now: Time) -> bool {
         match self.level {
             true => self.falls.saturating_add(self.params.gap) <= now,
@@ -86,7 +87,7 @@ mod tests {
         Shaper::new(Params { width: width_ns.map(Time::from_ns), gap: Time::from_ns(gap_ns) })
     }
 
-    /// When its level changes [ns], while the diodes' output changes at those times.
+    /// Returns the times at which the output changes if the SPADs' output changes at the given times [ns].
     fn changes(mut shaper: Shaper, inputs_ns: &[u64]) -> Vec<u64> {
         let mut inputs = inputs_ns.iter().map(|ns| Time::from_ns(*ns)).peekable();
         let (mut found, mut input) = (Vec::new(), false);

@@ -1,59 +1,59 @@
-//! The single-photon avalanche diodes on the TDC and their front end, the source of `tdc_stop`.
+//! The SPADs on the TDC and their front end, which drive `tdc_stop`.
 //!
-//! While `spad_rst` is high none can fire; when that falls all are armed. After an avalanche a
-//! diode's output stays high until the next `spad_rst` (MODE 0, active reset) or until its dead time
-//! has passed, when it is armed again (MODE 1, passive quenching). `tdc_stop` is high while any output
-//! is (thesis Fig. 4.3). In MODE 0 nobody sees the avalanches after a first one, so they are left out:
-//! where MODE 1 begins behind it, all diodes but that one are taken as armed. Of a whole row, of which some are on the TDC
-//! and others are not, each is followed to the end of the shot.
+//! While `spad_rst` is high no SPAD can fire; its falling edge arms all. After an avalanche the output of a SPAD
+//! stays high until the next `spad_rst` (MODE 0, active reset), or until its dead time has passed and it is armed
+//! again (MODE 1, passive quenching). `tdc_stop` is the OR of the outputs (thesis Fig. 4.3). In MODE 0 avalanches
+//! after the first one have no effect and are not simulated; if the mode changes to MODE 1 during a shot, all SPADs
+//! but the one that fired count as armed. If outputs that are not connected to the TDC are simulated too, every SPAD
+//! is tracked to the end of the shot.
 //!
-//! What diodes do beside that, and which of them, is the matter of a [`Row`].
+//! A [`Row`] tracks SPADs individually for the effects that require it.
 
 use crate::kernel::Time;
 
 use super::light::Light;
 use super::row::{Effects, Row};
 
-/// What a diode does at an instant.
+/// An event in a SPAD.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
     /// An avalanche.
     Avalanche,
-    /// One that a trapped carrier sets off.
+    /// An avalanche due to a trapped carrier.
     Afterpulse,
-    /// The dead time of one has passed.
+    /// End of a dead time.
     Recovery,
-    /// A carrier came to a diode at rest, or to another one while `tdc_stop` was high.
+    /// A carrier in a SPAD that is not armed, or an avalanche while `tdc_stop` was high.
     Unseen,
 }
 
-/// Diodes of one row. An avalanche is drawn for all armed ones together ([`Spads::share`]).
+/// SPADs of one row. An avalanche is drawn for all armed ones together ([`Spads::share`]).
 #[derive(Clone, Debug)]
 pub struct Spads {
-    /// How many there are, one or more.
+    /// Number of SPADs, at least one.
     count: usize,
-    /// Held by `spad_rst`.
+    /// Whether `spad_rst` is high.
     is_off: bool,
     passive: bool,
     dead_time: Time,
-    /// When the dead time of each that has fired ends, the oldest first.
+    /// Ends of the present dead times, in ascending order.
     fired: Vec<Time>,
-    /// How many of those are not on the TDC.
+    /// Number of fired SPADs that are not connected to the TDC.
     unwired: usize,
-    /// The part of the last avalanche's rate that came without any light, where diodes differ in it [1].
+    /// Dark fraction of the rate of the SPAD that fired last, if SPADs differ [1].
     dark_part: Option<f64>,
-    /// The next avalanche of one that is armed; never until it has been drawn.
+    /// Time of the next avalanche of an armed SPAD; never until it is drawn.
     avalanche: Time,
-    /// The next avalanche, recovery or release.
+    /// Time of the next avalanche, recovery or release.
     next: Time,
-    /// So many have fired that nobody sees the next avalanche.
+    /// Number of fired SPADs from which a further avalanche has no effect.
     most: usize,
-    /// The diodes one by one, where they do more than fire.
+    /// Individually tracked SPADs, if an effect requires it.
     row: Option<Box<Row>>,
 }
 
 impl Spads {
-    /// That many diodes, armed from power-up, the first avalanche at `first`.
+    /// Creates `count` SPADs that are armed from power-up, with the first avalanche at `first`.
     pub fn new(count: usize, dead_time: Time, first: Time) -> Self {
         Spads {
             count,
@@ -70,7 +70,7 @@ impl Spads {
         }
     }
 
-    /// The same with what they do beside firing.
+    /// Adds effects that require individual tracking, if there are any.
     pub fn with_effects(mut self, effects: Effects, seed: u64) -> Self {
         if !effects.are_none(self.count) {
             self.row = Some(Box::new(Row::new(self.count, effects, seed)));
@@ -79,14 +79,14 @@ impl Spads {
         self
     }
 
-    /// The diodes one by one, if they do more than fire.
+    /// Returns the individually tracked SPADs, if an effect requires them.
     #[inline(always)]
     pub fn row(&mut self) -> Option<&mut Row> {
         self.row.as_deref_mut()
     }
 
-    /// How many may fire before nobody sees what comes. A trap is filled by avalanches that
-    /// nobody sees, and a dead time starts again in a diode at rest.
+    /// Returns the number of fired SPADs from which a further avalanche has no effect. With afterpulsing or
+    /// paralysable dead time, every avalanche matters.
     fn most(&self) -> usize {
         match &self.row {
             Some(row) if self.passive && row.effects().paralysable => usize::MAX,
@@ -97,14 +97,14 @@ impl Spads {
         }
     }
 
-    /// When one next does something by itself.
+    /// Returns the time of the next event.
     #[inline(always)]
     pub fn next_event(&self) -> Time {
         self.next
     }
 
-    /// Does what is due at [`Spads::next_event`]. If diodes wait for an avalanche then, [`Spads::arm`]
-    /// has to follow.
+    /// Processes the event at [`Spads::next_event`]. If an avalanche must then be drawn, a call of [`Spads::arm`]
+    /// must follow.
     pub fn event(&mut self, light: &mut Light) -> Event {
         if self.row.is_some() {
             return self.event_of_row(light);
@@ -121,7 +121,7 @@ impl Spads {
         if recovers { Event::Recovery } else { Event::Avalanche }
     }
 
-    /// The same where the diodes are told apart.
+    /// Processes the next event of individually tracked SPADs.
     #[cold]
     fn event_of_row(&mut self, light: &mut Light) -> Event {
         let (now, was_high) = (self.next, self.output());
@@ -154,35 +154,35 @@ impl Spads {
         if fires { seen } else { Event::Unseen }
     }
 
-    /// Whether `tdc_stop` is high.
+    /// Returns the level of `tdc_stop`.
     #[inline(always)]
     pub fn output(&self) -> bool {
         self.fired.len() > self.unwired
     }
 
-    /// The outputs that are high, a bit each, where the diodes are told apart.
+    /// Returns the outputs of individually tracked SPADs, one bit each.
     pub fn outputs(&self) -> u64 {
         self.row.as_ref().map_or(0, |row| row.outputs())
     }
 
-    /// The part of the last avalanche's rate that came without any light, where diodes differ in it [1].
+    /// Returns the dark fraction of the rate of the SPAD that fired last, if SPADs differ [1].
     pub fn dark_part(&self) -> Option<f64> {
         self.dark_part
     }
 
-    /// Whether an avalanche of an armed diode would be seen, or matters otherwise.
+    /// Returns whether an avalanche of an armed SPAD would have an effect.
     #[inline(always)]
     pub fn is_armed(&self) -> bool {
         !self.is_off && self.fired.len() < self.most
     }
 
-    /// Whether one would be seen and has not been drawn.
+    /// Returns whether an avalanche would have an effect and has not been drawn.
     #[inline(always)]
     pub fn waits(&self) -> bool {
         self.avalanche == Time::NEVER && self.is_armed()
     }
 
-    /// How much less often one of those that are armed fires than one of all would [1].
+    /// Returns all SPADs over armed SPADs: the factor on the mean waiting time [1].
     #[inline(always)]
     pub fn share(&self) -> f64 {
         if self.row.is_some() {
@@ -191,19 +191,19 @@ impl Spads {
         self.count as f64 / (self.count - self.fired.len()) as f64
     }
 
-    /// Whether `spad_rst` holds the diodes.
+    /// Returns whether `spad_rst` is high.
     #[inline(always)]
     pub fn is_off(&self) -> bool {
         self.is_off
     }
 
-    /// Whether outputs recover by themselves.
+    /// Returns whether the quench mode is passive (MODE 1).
     #[inline(always)]
     pub fn is_passive(&self) -> bool {
         self.passive
     }
 
-    /// The next avalanche of those that are armed will be at `next`.
+    /// Sets the time of the next avalanche among the armed SPADs.
     #[inline(always)]
     pub fn arm(&mut self, next: Time) {
         self.avalanche = next;
@@ -213,21 +213,21 @@ impl Spads {
         }
     }
 
-    /// All are ready to fire, the first at `next`.
+    /// Arms all SPADs, with the first avalanche at `next`.
     pub fn arm_all(&mut self, next: Time) {
         self.is_off = false;
         self.forget();
         self.arm(next);
     }
 
-    /// `spad_rst` rises.
+    /// Processes the rising edge of `spad_rst`.
     pub fn hold(&mut self) {
         self.is_off = true;
         self.forget();
         self.arm(Time::NEVER);
     }
 
-    /// None has fired.
+    /// Clears all outputs.
     #[inline(always)]
     fn forget(&mut self) {
         self.fired.clear();
@@ -237,8 +237,8 @@ impl Spads {
         }
     }
 
-    /// The quench mode changes at `now`. An output that has been high for longer than the dead
-    /// time falls as MODE 1 begins. If diodes wait for an avalanche then, [`Spads::arm`] has to follow.
+    /// Changes the quench mode at `now`. When MODE 1 begins, outputs that have been high for longer than the dead
+    /// time fall. If an avalanche must then be drawn, a call of [`Spads::arm`] must follow.
     pub fn set_passive(&mut self, passive: bool, now: Time) {
         self.passive = passive;
         self.most = self.most();

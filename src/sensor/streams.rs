@@ -1,56 +1,56 @@
-//! Random numbers: one stream for each noise source and frame, all from one seed.
+//! Random number streams: one per noise source and frame, all derived from one seed.
 //!
-//! A source takes a fixed number of words for each shot, so that a draw that is not used moves
-//! nothing, and no source, frame or thread moves another.
+//! A source uses a fixed number of words per shot, so that unused draws, other sources, frames and threads do not
+//! affect it.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use crate::kernel::pulse::normal_quantile;
 
-/// What a stream is for.
+/// Purpose of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Source {
-    /// First avalanche of each shot, one word a shot.
+    /// First avalanche of each shot, one word per shot.
     Avalanche = 1,
-    /// Further avalanches of a shot; each shot has its own stretch.
+    /// Further avalanches of a shot, from the shot's own section of the stream.
     FurtherAvalanches = 2,
-    /// What set an avalanche off; each shot has its own stretch.
+    /// Causes of avalanches, from the shot's own section of the stream.
     Cause = 3,
-    /// Jitter of the PLL, one word an edge of `clk_laser` since power-up.
+    /// Jitter of the PLL, one word per edge of `clk_laser` since power-up.
     Jitter = 4,
-    /// Stimulus of the golden vectors; the frame's place is the block's.
+    /// Stimulus of the golden vectors; the frame number is that of the block.
     Stimulus = 5,
-    /// Histogram of a frame in one draw; as many words as it takes.
+    /// Histogram of a frame in one draw, with any number of words.
     Histogram = 6,
-    /// Histogram of a dataset's row in one draw; the frame's place is the row number's.
+    /// Histogram of a dataset's row in one draw; the frame number is that of the row.
     Dataset = 7,
-    /// Which scenes a dataset has; the frame's place is that of a distance and a round.
+    /// Scenes of a dataset; the frame number is that of a distance and a round.
     Scene = 8,
-    /// A dark and a lit histogram for a dataset's row, in this order; the frame's place is the row
-    /// number's.
+    /// A dark and a lit histogram for a dataset's row, in this order; the frame number is that of the row.
     DatasetPair = 9,
-    /// How late and how strong the laser pulse of a shot is; each shot has its own stretch.
+    /// Time and energy of the laser pulse, from the shot's own section of the stream.
     LaserPulse = 10,
-    /// Whether an avalanche traps a carrier, and for how long; each shot has its own stretch.
+    /// Trapping of carriers and their release times, from the shot's own section of the stream.
     Afterpulse = 11,
-    /// Whether an avalanche sets off a neighbour; each shot has its own stretch.
+    /// Crosstalk to neighbours, from the shot's own section of the stream.
     Crosstalk = 12,
-    /// Which diode of a row a carrier comes to; each shot has its own stretch.
+    /// Choice of the SPAD of each carrier, from the shot's own section of the stream.
     Diode = 13,
-    /// Hits of a code-density test of the TDC; the frame's place is the test's.
+    /// Hits of a code-density test of the TDC; the frame number is that of the test.
     CodeDensity = 14,
-    /// Edges of the ring oscillator; the frame's place is the run's.
+    /// Edges of the ring oscillator; the frame number is that of the run.
     Ring = 15,
-    /// When within its set-up window each register of the chain samples; the place in the stream is the edge's time.
+    /// Sampling instants of the chain's registers within their set-up window; the position in the stream is the
+    /// edge's time.
     SetupWindow = 16,
 }
 
-/// Words of 32 bits that a shot may take from its stretch.
+/// Length of a shot's section of a stream [32-bit words].
 const STRETCH: u128 = 1 << 32;
 
-/// The stream of a source in a frame.
+/// Creates the stream of a source in a frame.
 pub fn stream(seed: u64, source: Source, frame: u64) -> ChaCha8Rng {
     let mut key = *b"........tofsim random streams v1";
     key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -59,42 +59,42 @@ pub fn stream(seed: u64, source: Source, frame: u64) -> ChaCha8Rng {
     rng
 }
 
-/// Moves a stream to the stretch of a shot, and in it to the `nth` word of 64 bits.
+/// Moves a stream to a shot's section, and within it to the `nth` 64-bit word.
 pub fn seek(stream: &mut ChaCha8Rng, shot: u64, nth: u64) {
     stream.set_word_pos(shot as u128 * STRETCH + 2 * nth as u128);
 }
 
-/// A source that takes any number of words in each shot, from the shot's own stretch.
+/// Stream of a source that uses a variable number of words per shot, from the shot's own section.
 #[derive(Clone, Debug)]
 pub struct Stretches {
     seed: u64,
     source: Source,
     words: ChaCha8Rng,
-    /// Shots of this frame, the time before its first one counted as shot 0.
+    /// Number of the present shot in its frame; 0 is the time before the first shot.
     shot: u64,
-    /// Whether the stream stands in the shot's stretch.
+    /// Whether the stream is positioned in the shot's section.
     is_there: bool,
 }
 
 impl Stretches {
-    /// Before the first shot of the first frame.
+    /// Creates the stream before the first frame.
     pub fn new(seed: u64, source: Source) -> Self {
         Stretches { seed, source, words: stream(seed, source, 0), shot: 0, is_there: true }
     }
 
-    /// A frame begins.
+    /// Begins a frame.
     pub fn begin_frame(&mut self, frame: u64) {
         (self.words, self.shot) = (stream(self.seed, self.source, frame), 0);
         self.is_there = true;
     }
 
-    /// A shot begins.
+    /// Begins a shot.
     pub fn begin_shot(&mut self) {
         self.shot += 1;
         self.is_there = false;
     }
 
-    /// The shot's next word.
+    /// Returns the next word of the shot.
     pub fn next_u64(&mut self) -> u64 {
         if !self.is_there {
             seek(&mut self.words, self.shot, 0);
@@ -104,20 +104,20 @@ impl Stretches {
     }
 }
 
-/// A number between 0 and 1 from a word: its upper 52 bits choose the middle of one of 2^52 equal
-/// parts, which is exact in an `f64` and never 0 or 1.
+/// Converts a word to a uniform number between 0 and 1: its upper 52 bits select the midpoint of one of 2^52 equal
+/// intervals, which is exact in an `f64` and never 0 or 1.
 #[inline]
 pub fn uniform(word: u64) -> f64 {
     ((word >> 12) as f64 + 0.5) * (1.0 / (1u64 << 52) as f64)
 }
 
-/// An exponential draw of mean 1 from a word.
+/// Converts a word to an exponentially distributed number of mean 1.
 #[inline]
 pub fn exponential(word: u64) -> f64 {
     -libm::log(uniform(word))
 }
 
-/// A normal draw of deviation 1 from a word.
+/// Converts a word to a normally distributed number of standard deviation 1.
 pub fn normal(word: u64) -> f64 {
     normal_quantile(uniform(word))
 }

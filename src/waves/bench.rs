@@ -1,4 +1,4 @@
-//! A firmware driven by hand, for the tests of this folder.
+//! Hand-driven firmware for the tests of this folder.
 
 use std::sync::Arc;
 
@@ -14,15 +14,15 @@ use crate::kernel::{S, Time, U};
 
 use super::writer::Waves;
 
-/// Shots in a frame.
+/// Shots per frame.
 pub(super) const SHOTS: u32 = 12;
 
-/// A chain without bubbles, small ROMs, short frames.
+/// Parameters with a bubble-free chain, small ROMs and short frames.
 pub(super) fn params() -> Params {
     with_delays(&[11_500; TAPS])
 }
 
-/// The same with a chain of those delays [fs].
+/// Parameters with a chain of the given delays [fs], small ROMs and short frames.
 pub(super) fn with_delays(taps: &[i64]) -> Params {
     let delays = Delays::new(Time::from_fs(2_230_000), taps).unwrap();
     let weight = |row: usize, neuron: usize| match neuron < NEURONS {
@@ -65,9 +65,9 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
     }
 }
 
-/// The firmware with a SPAD that fires some time after each laser pulse.
+/// Firmware whose SPAD fires a fixed time after each laser pulse.
 pub(super) struct Bench {
-    /// The firmware as it is now.
+    /// Current state of the firmware.
     pub(super) top: TofTop,
     params: Params,
     line: StopLine,
@@ -77,7 +77,7 @@ pub(super) struct Bench {
 }
 
 impl Bench {
-    /// At power-up, locked, the laser at its fastest.
+    /// Creates the firmware at power-up, with the PLL locked and the highest laser frequency.
     pub(super) fn new(params: Params) -> Self {
         let pins = Pins { laser_freq: U::new(3), laser_en: true, dsp_en: true, ..Pins::default() };
         let mut top = TofTop::new(pins, &params);
@@ -86,12 +86,12 @@ impl Bench {
         Bench { top, params, line, cycle: 0, shot: 0, photon: Time::NEVER }
     }
 
-    /// The edge that the next cycle begins with.
+    /// Returns the time of the next cycle's first edge.
     pub(super) fn now(&self) -> Time {
         Time::from_ns(8 * self.cycle)
     }
 
-    /// One cycle of `clk_sys`; `see` is shown every instant at which something may have changed.
+    /// Runs one cycle of `clk_sys`, and calls `see` at every instant at which a signal may have changed.
     pub(super) fn cycle(&mut self, see: &mut impl FnMut(Time, &TofTop)) {
         let start = self.now();
         for quarter in 0..4 {
@@ -126,7 +126,7 @@ impl Bench {
         self.top.pins.tdc_stop = self.line.level();
     }
 
-    /// Cycles of `clk_sys`, sampled by each of `waves`.
+    /// Runs cycles of `clk_sys`, sampled by each of `waves`.
     pub(super) fn run(&mut self, cycles: u64, waves: &mut [Waves]) {
         for _ in 0..cycles {
             self.cycle(&mut |now, top| {

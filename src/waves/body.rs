@@ -1,35 +1,41 @@
-//! What a format of waveform files has to write.
+//! Interface that a waveform format implements.
 
 use std::io;
 
 use crate::error::Result;
 use crate::kernel::signals::Sink;
 
-/// What a time step is.
+/// Kind of a time step.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Step {
-    /// The first one, at time 0: every signal.
+    /// The first step, at time 0: every signal.
     Start,
-    /// A window begins: every signal.
+    /// The start of a window: every signal.
     Open,
-    /// Some signals change.
+    /// A change of some signals.
     Change,
-    /// Levels of clocks change, and nothing else.
+    /// A change of clock levels only.
     Clocks,
-    /// A window ends: every signal is unknown.
+    /// The end of a window: every signal becomes unknown.
     Close,
 }
 
-/// A file format, given the values of one time step after the other.
+/// A waveform format, which receives the values of one time step after the other.
 pub(super) trait Body: Sink {
-    /// What the end of a step has to know of its begin.
+    /// State that is kept from the start of a step to its end.
     type Begun;
-    /// Begins a step; `at` is never earlier than the step before [ps]. Its values come next.
+    /// Begins a step at `at`, not earlier than the previous step [ps]. The values follow.
     fn begin(&mut self, at: u64, step: Step) -> Self::Begun;
-    /// Ends a step, which is left out if nothing came.
+    /// Ends a step. A step without values is not written.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
     fn end(&mut self, begun: Self::Begun) -> io::Result<()>;
-    /// All signals unknown; for use in a step.
+    /// Sets all signals to unknown; called within a step.
     fn unknown(&mut self);
-    /// Puts the finished file, which ends at `at`, in place [ps].
+    /// Ends the file at `at` [ps], and moves it to its final path.
+    ///
+    /// # Errors
+    /// If the file cannot be written or renamed.
     fn finish(self, at: u64) -> Result<()>;
 }

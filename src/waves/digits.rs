@@ -1,4 +1,4 @@
-//! Digits of numbers, most significant first, and the bits of taps.
+//! Digits of numbers, most significant first, and bits of taps.
 
 use bitvec::prelude::*;
 
@@ -6,7 +6,7 @@ use crate::firmware::tdc_decoder::{Decoder, Encoder};
 use crate::kernel::thermometer::CAPACITY;
 use crate::kernel::{Thermometer, ones_width, partial_highest, partial_ones};
 
-/// The binary digits of a byte, the highest first.
+/// Returns the binary digits of a byte, most significant first.
 #[inline(always)]
 pub(super) fn eight(byte: u8) -> [u8; 8] {
     // Nine apart, eight copies of the byte do not meet; bit 7 of place k is the byte's bit 7 - k.
@@ -14,7 +14,7 @@ pub(super) fn eight(byte: u8) -> [u8; 8] {
     (copies >> 7 & 0x0101_0101_0101_0101 | 0x3030_3030_3030_3030).to_le_bytes()
 }
 
-/// The three decimal digits of a number below 1000, and a line end.
+/// Returns the three decimal digits of a number below 1000, and a line feed.
 #[inline(always)]
 pub(super) fn three(number: u64) -> [u8; 4] {
     let [hundreds, tens, ones] =
@@ -22,30 +22,30 @@ pub(super) fn three(number: u64) -> [u8; 4] {
     [hundreds, tens, ones, b'\n']
 }
 
-/// The taps of a delay line in their physical places.
+/// Converter between a thermometer code and the taps in physical order.
 #[derive(Clone, Debug, Default)]
 pub struct TapDigits {
-    /// The physical tap at each place in the order of arrival; none if that is the same order.
+    /// Physical tap at each position in order of arrival; empty if the orders are equal.
     order: Vec<u16>,
-    /// In the order of arrival, as many as there are.
+    /// All taps, in order of arrival.
     arrived: BitVec<u64>,
-    /// In their physical places, if those are others.
+    /// All taps in physical order, if it differs from the order of arrival.
     taps: BitVec<u64>,
-    /// What the decoder makes of groups of taps.
+    /// The decoder's codes of groups of taps.
     counts: BitVec<u64>,
     decoder: Decoder,
 }
 
-/// Bits in words, the first one lowest.
+/// Bits in words, least significant first.
 #[derive(Clone, Copy, Debug)]
 pub struct Bits<'a> {
     pub words: &'a [u64],
-    /// How many there are.
+    /// Number of bits.
     pub width: usize,
 }
 
 impl TapDigits {
-    /// For lines whose taps such a decoder reads.
+    /// Creates a converter for a delay line with the given decoder.
     pub fn new(encoder: &Encoder) -> Self {
         let (order, decoder) = (encoder.order(), encoder.decoder());
         let arrived = bitvec![u64, Lsb0; 0; order.len()];
@@ -54,7 +54,7 @@ impl TapDigits {
         TapDigits { taps, order, arrived, counts: BitVec::new(), decoder }
     }
 
-    /// The taps, physical tap 0 first, or what the decoder makes of each `group` of them.
+    /// Returns the taps, physical tap 0 first, or the decoder's code of each `group` of taps.
     pub fn bits(&mut self, value: &Thermometer, group: usize) -> Bits<'_> {
         let count = self.arrived.len();
         value.expand(&mut self.arrived);
@@ -77,8 +77,8 @@ impl TapDigits {
         Bits { words: self.counts.as_raw_slice(), width }
     }
 
-    /// The taps that have the bits of those words, physical tap 0 lowest in the first one and no bit beyond the last tap;
-    /// none where their level changes more often than that of a chain in the model can.
+    /// Converts bits, physical tap 0 first and without bits beyond the last tap, to a thermometer code. Returns
+    /// `None` if the level changes more often along the taps than any modelled chain allows.
     pub fn taps(&mut self, words: impl Iterator<Item = u64>) -> Option<Thermometer> {
         let into = if self.order.is_empty() { &mut self.arrived } else { &mut self.taps };
         into.as_raw_mut_slice().iter_mut().zip(words).for_each(|(into, word)| *into = word);
@@ -125,12 +125,12 @@ mod tests {
         assert_eq!(shown, [(3, 0, 6), (4, 0, 6), (3, 0, 6)]);
     }
 
-    /// The words of bits, the first one lowest.
+    /// Packs bits into words, least significant first.
     fn packed(bits: impl IntoIterator<Item = bool>) -> Vec<u64> {
         bits.into_iter().collect::<BitVec<u64>>().into_vec()
     }
 
-    /// Physical tap 0 last.
+    /// Formats the taps as text, physical tap 0 last.
     fn text(digits: &mut TapDigits, taps: &Thermometer) -> String {
         let Bits { words, width } = digits.bits(taps, 1);
         (0..width)

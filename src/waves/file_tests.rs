@@ -1,4 +1,4 @@
-//! How waveform files come to be: windows, times, provenance, disks that are full.
+//! Tests of waveform files as such: windows, times, provenance, full disks.
 
 use std::fs;
 use std::io;

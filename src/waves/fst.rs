@@ -1,8 +1,8 @@
-//! FST files, as GTKWave's `block_format.txt` describes them.
+//! FST files, as described in GTKWave's `block_format.txt`.
 //!
-//! They have no place for comments, so the provenance is in the version string, as far as it fits, and
-//! as a whole in a block at the end that readers pass over; nor for state names, which a file beside
-//! the waveform gives (see [`super::write_views`]).
+//! The format has no comments, so the provenance is in the version string as far as it fits, and in full in a block
+//! at the end of the file that readers skip. It has no state names either; a separate file next to the waveform holds
+//! them (see [`super::write_views`]).
 
 use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -34,14 +34,14 @@ pub(super) struct Fst {
     path: PathBuf,
     provenance: String,
     changes: Changes<OutputFile>,
-    /// Place in the file's order by id; what is not selected is `None`.
+    /// Index of each id's signal in the file; `None` if it is not selected.
     signals: Vec<Option<usize>>,
     taps: TapDigits,
-    /// The taps as the file has them.
+    /// Buffer for the taps as written to the file.
     bytes: Vec<u8>,
-    /// Time of this step, as long as nothing has changed at it [ps].
+    /// Time of the current step, until its first change is written [ps].
     pending: Option<u64>,
-    /// The first error of this step.
+    /// First error of the current step.
     fault: Option<io::Error>,
 }
 
@@ -74,7 +74,7 @@ impl Fst {
         })
     }
 
-    /// Something changes.
+    /// Writes the time of the step, if this is its first change.
     #[inline]
     fn time_step(&mut self) {
         if let Some(at) = self.pending.take()

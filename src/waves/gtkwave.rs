@@ -1,4 +1,4 @@
-//! Save files of GTKWave (checked with 3.3.118).
+//! GTKWave save files (checked with version 3.3.118).
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use crate::kernel::signals::SignalFormat;
 use super::layout::{Group, ShownSignal};
 use super::marks::Marks;
 
-/// Trace flags, as the save file has them in hexadecimal.
+/// Trace flags, which a save file holds in hexadecimal.
 mod flag {
     pub(super) const HEXADECIMAL: u64 = 0x2;
     pub(super) const DECIMAL: u64 = 0x4;
@@ -28,20 +28,20 @@ mod flag {
     pub(super) const FIXED_POINT: u64 = 0x40000000;
 }
 
-/// Window [pixels].
+/// Size of the window [pixels].
 const SIZE: (u32, u32) = (1600, 900);
-/// Width of the columns of scopes and of names and values [pixels].
+/// Widths of the column of scopes, and of that of names and values [pixels].
 const COLUMNS: (u32, u32) = (180, 320);
-/// What frames and scroll bars take beside them [pixels].
+/// Width of frames and scroll bars [pixels].
 const FRAMES: u32 = 110;
-/// Pixels in which a zoom of -n shows 2^n units of time.
+/// Width that shows 2^n units of time at a zoom of -n [pixels].
 const ZOOM_PIXELS: f64 = 200.0;
-/// Rows that a curve takes beside its first.
+/// Rows of a curve in addition to its first one.
 const CURVE_ROWS: usize = 2;
-/// Named markers that the format has.
+/// Largest number of named markers.
 const MARKERS: usize = 26;
 
-/// The save file for the waveform `wave`, whose names files begin with `stem`.
+/// Formats the save file for the waveform `wave`, whose files of state names begin with `stem`.
 pub(super) fn save_file(wave: &str, stem: &str, groups: &[Group<'_>], marks: &Marks) -> String {
     let mut text = String::new();
     let mut lines = Lines { text: &mut text, stem };
@@ -58,12 +58,12 @@ pub(super) fn save_file(wave: &str, stem: &str, groups: &[Group<'_>], marks: &Ma
     text
 }
 
-/// The file that names the states of `row`.
+/// Returns the name of the file that holds the state names of `row`.
 pub(super) fn names_file(stem: &str, row: &ShownSignal<'_>) -> String {
     format!("{stem}.{}.txt", row.name)
 }
 
-/// Its contents: each code as GTKWave prints it in binary, and its name.
+/// Formats a file of state names: each code in binary as GTKWave displays it, and its name.
 pub(super) fn names(states: &[&str], width: usize) -> String {
     states.iter().enumerate().map(|(code, state)| format!("{code:0width$b} {state}\n")).collect()
 }
@@ -142,7 +142,7 @@ impl Lines<'_> {
     }
 }
 
-/// The name by which GTKWave knows a signal.
+/// Returns GTKWave's name of a signal.
 fn full_name(entry: &Entry) -> String {
     match entry.signal.width {
         1 => entry.path(),
@@ -150,7 +150,7 @@ fn full_name(entry: &Entry) -> String {
     }
 }
 
-/// GTKWave's number for the zoom that shows `span` units of time in so many pixels.
+/// Computes GTKWave's zoom value that shows `span` units of time in `pixels`.
 pub fn zoom(span: u64, pixels: u32) -> f64 {
     -(span.max(1) as f64 * ZOOM_PIXELS / f64::from(pixels)).log2()
 }

@@ -1,29 +1,29 @@
-//! What a viewer shows first, and in which order: along the flow of data.
+//! Initial layout of the signals in a viewer, along the data flow.
 
 use std::collections::BTreeSet;
 
 use crate::hierarchy::Entry;
 
-/// Signals under one heading.
+/// Signals below one heading.
 pub(super) struct Group<'a> {
-    /// The heading.
+    /// Text of the heading.
     pub(super) name: &'static str,
-    /// Whether only the heading is shown at first.
+    /// Whether the group is collapsed at first.
     pub(super) closed: bool,
     pub(super) rows: Vec<ShownSignal<'a>>,
 }
 
-/// One signal.
+/// A signal as a viewer shows it.
 pub(super) struct ShownSignal<'a> {
     pub(super) entry: &'a Entry,
-    /// Its path below the top.
+    /// Path below the top.
     pub(super) name: String,
-    /// Whether it is shown as a curve as well.
+    /// Whether to show the signal as a curve as well.
     pub(super) curve: bool,
 }
 
-/// Headings, and below each the signals: paths below the top, `*` at the end for any number, or those
-/// whose [`View`](crate::kernel::signals::View) has the heading, in the order of the modules.
+/// Headings and their signals, in the order of the modules: paths below the top, where a final `*` matches any
+/// suffix, or all signals whose [`View`](crate::kernel::signals::View) has the heading.
 const FLOW: &[(&str, &[&str])] = &[
     ("Clocks and reset", &["clk_sys", "clk_laser", "rst_dsp"]),
     ("Control", &["mode", "laser_freq", "laser_en", VIEWED]),
@@ -45,18 +45,18 @@ const FLOW: &[(&str, &[&str])] = &[
     ("Likelihood", &[VIEWED]),
     ("Histogram, word by word", &["histogram_builder.ram_*"]),
 ];
-/// Stands for the signals whose view has the heading.
+/// Placeholder for the signals whose view has the heading.
 const VIEWED: &str = "";
-/// Heading of what is left.
+/// Heading of the remaining signals.
 const OTHER: &str = "Other signals";
-/// Signals of the top whose shape over time says something.
+/// Signals of the top that are best shown as curves.
 const CURVES: [&str; 2] = ["hist_count", "depth"];
-/// Signals under a heading beyond which it is shown closed, where space is short.
+/// Number of signals above which a group is collapsed if space is short.
 const FEW: usize = 7;
-/// Signals that a screen has room for.
+/// Number of signals that fit on a screen.
 const SCREEN: usize = 24;
 
-/// The written signals under their headings; each value once, under its first name.
+/// Groups the written signals by heading. Each value appears once, by its first name.
 pub(super) fn groups(entries: &[Entry]) -> Vec<Group<'_>> {
     let mut shown = BTreeSet::new();
     let mut groups: Vec<Group<'_>> = Vec::new();

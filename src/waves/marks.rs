@@ -1,24 +1,24 @@
-//! Where to look in a waveform.
+//! Markers and initial view of a waveform.
 
 use crate::kernel::Time;
 
-/// Instants to mark and to show first.
+/// Times to mark, and the time range to show at first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Marks {
-    /// First laser edge in a written window.
+    /// First laser edge within a window.
     pub laser_edge: Option<Time>,
-    /// First edge of the SPAD's output after it.
+    /// First edge of the SPAD's output after the laser edge.
     pub spad_edge: Option<Time>,
-    /// End of an estimation in a written window.
+    /// End of an estimation within a window.
     pub algo_done: Option<Time>,
-    /// Begin of what is shown at first.
+    /// Start of the time range to show.
     pub from: Time,
-    /// End of what is shown at first.
+    /// End of the time range to show.
     pub to: Time,
 }
 
 impl Marks {
-    /// The marks that are known, with their names.
+    /// Returns the known marks with their names.
     pub(super) fn named(&self) -> Vec<(&'static str, Time)> {
         let marks =
             [("laser", self.laser_edge), ("SPAD", self.spad_edge), ("done", self.algo_done)];

@@ -1,4 +1,4 @@
-//! Waveforms written in tests, read back with a library that is not ours.
+//! Test helpers that write waveforms and read them with the independent library `wellen`.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use super::bench::{Bench, SHOTS};
 use super::writer::{WaveFormat, Waves};
 
 pub(super) const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];
-/// A frame and a little more [cycles of clk_sys].
+/// Slightly more than the length of a frame [cycles of clk_sys].
 pub(super) const FRAME: u64 = 256 + 6 * SHOTS as u64 + 16 + 268 + 20;
 
 pub(super) fn extension(format: WaveFormat) -> &'static str {
@@ -22,13 +22,13 @@ pub(super) fn extension(format: WaveFormat) -> &'static str {
     }
 }
 
-/// Begins a file with some provenance.
+/// Creates a waveform file with some provenance.
 pub(super) fn create(path: &Path, format: WaveFormat, entries: &[Entry], params: &Params) -> Waves {
     let provenance = ["scenario kc705".to_owned(), "seed 1".to_owned()];
     Waves::create(path, format, entries, &params.tdc.decoder.encoder, &provenance).unwrap()
 }
 
-/// The run that most tests look at: from 0 on, or only two windows of it.
+/// Records the run that most tests examine, from time 0 on or in two windows.
 pub(super) fn record(directory: &Path, windows: bool, params: Params) -> Vec<PathBuf> {
     let entries = [entries(&params), ram_entries(&Default::default())].concat();
     let paths = FORMATS.map(|format| directory.join("run").with_extension(extension(format)));
@@ -54,10 +54,10 @@ pub(super) fn record(directory: &Path, windows: bool, params: Params) -> Vec<Pat
     paths.to_vec()
 }
 
-/// Path, width and changes of each signal: time [ps] and digits, the last ones at that time.
+/// Path, width and changes of each signal: time [ps] and digits, where the last entry of a time applies.
 pub(super) type Contents = BTreeMap<String, (u32, Vec<(u64, String)>)>;
 
-/// All that a file holds.
+/// Reads all signals of a file.
 pub(super) fn contents(wave: &mut Waveform) -> Contents {
     let variables: Vec<_> = wave.hierarchy().all_vars().collect();
     let references: Vec<_> = variables.iter().map(|&var| var.deref_in(wave).signal_ref()).collect();
@@ -79,9 +79,9 @@ pub(super) fn contents(wave: &mut Waveform) -> Contents {
     contents
 }
 
-/// Looks a variable up.
+/// Lookup of a variable.
 pub(super) trait DerefIn {
-    /// The variable in `wave`.
+    /// Returns the variable in `wave`.
     fn deref_in(self, wave: &Waveform) -> &wellen::Var;
 }
 
@@ -91,7 +91,7 @@ impl DerefIn for wellen::VarRef {
     }
 }
 
-/// Says where two files differ first, not all that they hold.
+/// Asserts that two files are equal, and reports only the first difference.
 pub(super) fn assert_same(one: &Contents, other: &Contents) {
     assert!(one.keys().eq(other.keys()));
     for (path, (width, changes)) in one {
@@ -102,7 +102,7 @@ pub(super) fn assert_same(one: &Contents, other: &Contents) {
     }
 }
 
-/// The value at a time [ps].
+/// Returns the value at a time [ps].
 pub(super) fn at(changes: &[(u64, String)], time: u64) -> &str {
     let after = changes.partition_point(|change| change.0 <= time);
     &changes[after - 1].1

@@ -1,18 +1,18 @@
-//! The nesting of scopes that a header spells out.
+//! Nesting of scopes in a waveform's header.
 
 use crate::hierarchy::Entry;
 
-/// One element of a header's hierarchy.
+/// An element of a header's hierarchy.
 pub(super) enum Element<'a> {
-    /// A scope inside the one open now.
+    /// Start of a scope within the current one.
     Enter(&'a str),
-    /// The end of the scope open now.
+    /// End of the current scope.
     Leave,
-    /// A signal of the scope open now.
+    /// Signal in the current scope.
     Signal(&'a Entry),
 }
 
-/// The hierarchy of `entries`, in which the signals of a scope stand together.
+/// Lists the elements of the hierarchy of `entries`, in which the signals of a scope are adjacent.
 pub(super) fn elements(entries: &[Entry]) -> Vec<Element<'_>> {
     let mut elements = Vec::new();
     let mut open: Vec<&str> = Vec::new();

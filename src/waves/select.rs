@@ -1,20 +1,23 @@
-//! Which signals a waveform holds.
+//! Selection of the signals in a waveform.
 
 use globset::{Glob, GlobMatcher};
 
 use crate::error::{Input, Result};
 use crate::hierarchy::Entry;
 
-/// The option that gives the globs.
+/// Name of the option for the globs.
 const OPTION: &str = "--signals";
-/// Names offered in place of a glob that matches nothing.
+/// Number of names suggested for a glob without a match.
 const OFFERED: usize = 3;
 
-/// The entries whose names match one of `globs`, or without globs all but the words of the RAM.
+/// Selects the entries that match any of `globs`; without globs, all entries but the RAM's words.
 ///
-/// A glob is matched against the dotted path, the path below the top, and the bare name; `*`
-/// crosses dots. A word of the RAM is matched only by a glob whose last part begins with `ram`, so
-/// that `*` or `histogram_builder.*` does not bring 256 of them.
+/// A glob is matched against the dotted path, the path below the top, and the bare name; `*` crosses dots. The RAM's
+/// words match only globs whose last part begins with `ram`, so that `*` or `histogram_builder.*` does not select
+/// them.
+///
+/// # Errors
+/// If a glob is invalid or matches nothing.
 pub fn select(entries: Vec<Entry>, ram: Vec<Entry>, globs: &[String]) -> Result<Vec<Entry>> {
     if globs.is_empty() {
         return Ok(entries);
@@ -41,7 +44,7 @@ pub fn select(entries: Vec<Entry>, ram: Vec<Entry>, globs: &[String]) -> Result<
     Ok(pairs.filter(|(_, chosen)| *chosen).map(|(candidate, _)| candidate).collect())
 }
 
-/// All entries, the RAM's words at the end of their scope, or nowhere if that is absent.
+/// Inserts the RAM's words at the end of their scope, if that scope is present.
 fn with_ram(mut entries: Vec<Entry>, ram: Vec<Entry>) -> Vec<Entry> {
     let home = ram.first().map(|word| &word.scope);
     if let Some(last) = entries.iter().rposition(|entry| Some(&entry.scope) == home) {
@@ -58,12 +61,12 @@ fn compile(glob: &str) -> Result<GlobMatcher> {
     Ok(compiled.compile_matcher())
 }
 
-/// What a user may call a signal: its path, the path below the top, its bare name.
+/// Returns the names by which a user can select an entry: its path, the path below the top, and the bare name.
 fn names(entry: &Entry) -> [String; 3] {
     [entry.path(), entry.below_top(), entry.signal.name.clone()]
 }
 
-/// The paths below the top most like `glob`.
+/// Returns the paths below the top that are most similar to `glob`.
 fn nearest(glob: &str, candidates: &[Entry]) -> String {
     let plain: String = glob.chars().filter(|c| !"*?[]{}".contains(*c)).collect();
     let score = |candidate: &Entry| {

@@ -1,4 +1,4 @@
-//! A waveform of what was expected beside what was got, and set-ups of viewers for it.
+//! Waveforms that show expected and actual signals side by side, and viewer setups for them.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -8,32 +8,32 @@ use vcd::{IdCode, TimescaleUnit, Writer};
 
 pub use vcd::Value;
 
-/// The scopes of the two sides.
+/// Names of the scopes of the two sides.
 pub const SIDES: [&str; 2] = ["expected", "got"];
 
-/// What is in the waveform.
+/// Structure of the waveform.
 #[derive(Clone, Debug)]
 pub struct Layout<'a> {
-    /// Name and version of the program, if the header says them.
+    /// Name and version of the program, to be written to the header.
     pub version: Option<&'a str>,
-    /// The scope that has everything.
+    /// Name of the outermost scope.
     pub top: &'a str,
-    /// A bit above the other scopes.
+    /// Name of a bit declared before the inner scopes.
     pub first: Option<&'a str>,
-    /// A bit below them.
+    /// Name of a bit declared after the inner scopes.
     pub last: Option<&'a str>,
 }
 
-/// A scope with its signals: names and widths [bits].
+/// A scope with the names and widths of its signals [bits].
 pub type Scope<'a> = (&'a str, Vec<(String, u32)>);
 
-/// The waveform, being written.
+/// Writer of a side-by-side waveform.
 #[derive(Debug)]
 pub struct SideBySide<W> {
     out: W,
-    /// Of each scope's signals.
+    /// Identifier codes of each scope's signals.
     codes: Vec<Vec<IdCode>>,
-    /// Of the bit beside the scopes.
+    /// Identifier code of the bit outside the inner scopes.
     bit: IdCode,
 }
 
@@ -41,7 +41,7 @@ impl<W: Write> SideBySide<W> {
     /// Writes the header.
     ///
     /// # Errors
-    /// When `out` cannot be written, as everywhere here.
+    /// If `out` cannot be written.
     pub fn begin(mut out: W, layout: &Layout, scopes: &[Scope]) -> io::Result<Self> {
         let mut vcd = Writer::new(&mut out);
         if let Some(version) = layout.version {
@@ -65,34 +65,34 @@ impl<W: Write> SideBySide<W> {
         Ok(SideBySide { out, codes, bit: bit.unwrap_or(IdCode::FIRST) })
     }
 
-    /// Changes that follow are at this time [ps].
+    /// Sets the time of the changes that follow [ps].
     ///
     /// # Errors
-    /// See [`begin`](Self::begin).
+    /// If the output cannot be written.
     pub fn time(&mut self, ps: u64) -> io::Result<()> {
         Writer::new(&mut self.out).timestamp(ps)
     }
 
-    /// The bit beside the scopes changes.
+    /// Writes a change of the bit outside the inner scopes.
     ///
     /// # Errors
-    /// See [`begin`](Self::begin).
+    /// If the output cannot be written.
     pub fn bit(&mut self, level: bool) -> io::Result<()> {
         Writer::new(&mut self.out).change_scalar(self.bit, level)
     }
 
-    /// A signal of one bit changes.
+    /// Writes a change of a one-bit signal.
     ///
     /// # Errors
-    /// See [`begin`](Self::begin).
+    /// If the output cannot be written.
     pub fn scalar(&mut self, scope: usize, signal: usize, level: Value) -> io::Result<()> {
         Writer::new(&mut self.out).change_scalar(self.codes[scope][signal], level)
     }
 
-    /// A signal changes; its bits, the highest first.
+    /// Writes a change of a vector; bits are given most significant first.
     ///
     /// # Errors
-    /// See [`begin`](Self::begin).
+    /// If the output cannot be written.
     pub fn vector(
         &mut self,
         scope: usize,
@@ -102,67 +102,67 @@ impl<W: Write> SideBySide<W> {
         Writer::new(&mut self.out).change_vector(self.codes[scope][signal], bits)
     }
 
-    /// What it writes to.
+    /// Returns the output.
     pub fn out(&self) -> &W {
         &self.out
     }
 
-    /// The same, at the end.
+    /// Unwraps the output.
     pub fn into_out(self) -> W {
         self.out
     }
 }
 
-/// GTKWave's flags of a signal that is shown in hexadecimal digits.
+/// GTKWave's flags for a signal in hexadecimal.
 pub const HEXADECIMAL: &str = "22";
-/// The same in binary ones.
+/// GTKWave's flags for a signal in binary.
 pub const BINARY: &str = "28";
 
-/// A signal that a viewer shows.
+/// A signal as a viewer shows it.
 #[derive(Clone, Debug)]
 pub struct Shown<'a> {
     /// GTKWave's flags.
     pub flags: &'static str,
-    /// GTKWave's number of a colour, if it has one.
+    /// GTKWave's colour number, if any.
     pub colour: Option<u32>,
-    /// What GTKWave calls it.
+    /// Label in GTKWave.
     pub label: String,
-    /// Its scope.
+    /// Name of its scope.
     pub scope: &'a str,
-    /// Its name there.
+    /// Name in its scope.
     pub name: String,
-    /// Its width [bits].
+    /// Width [bits].
     pub width: u32,
 }
 
-/// The range that GTKWave has after a vector's name.
+/// Returns the bit range that GTKWave appends to a vector's name.
 pub fn range(width: u32) -> String {
     if width > 1 { format!("[{}:0]", width - 1) } else { String::new() }
 }
 
-/// What a viewer shows at first.
+/// Initial view of a viewer.
 #[derive(Clone, Debug)]
 pub struct View<'a> {
-    /// The scope that has everything, and the bit in it.
+    /// Name of the outermost scope, and of the bit in it.
     pub top: [&'a str; 2],
-    /// GTKWave's colour of that bit.
+    /// GTKWave's colour number of that bit.
     pub colour: Option<u32>,
-    /// Where the window begins [ps].
+    /// Start of the visible time range [ps].
     pub from: u64,
-    /// GTKWave's number for the zoom.
+    /// GTKWave's zoom value.
     pub zoom: String,
     /// Height of the window [pixels].
     pub height: u32,
-    /// Widths of the columns of scopes and of names, if they are set [pixels].
+    /// Widths of the columns of scopes and names, if set [pixels].
     pub columns: Option<[u32; 2]>,
-    /// The first difference [ps].
+    /// Time of the first difference [ps].
     pub marker: Option<u64>,
-    /// Signals in order.
+    /// Signals, in display order.
     pub signals: Vec<Shown<'a>>,
 }
 
 impl View<'_> {
-    /// GTKWave's save file for the waveform called `wave`, beside it and with its stem.
+    /// Formats GTKWave's save file for the waveform `wave`, which has the same stem and folder.
     pub fn gtkwave(&self, wave: &str) -> String {
         let View { top: [top, bit], from, zoom, height, .. } = self;
         let marker = self.marker.map_or("-1".to_owned(), |at| at.to_string());
@@ -187,7 +187,7 @@ impl View<'_> {
         text
     }
 
-    /// Surfer's command file.
+    /// Formats Surfer's command file.
     pub fn surfer(&self) -> String {
         let [top, bit] = self.top;
         let mut text = format!("variable_add {top}.{bit}\n");

@@ -1,6 +1,6 @@
-//! Command files of Surfer, after the documentation of its version 0.7; not tried with the program.
+//! Surfer command files, written from the documentation of version 0.7 and not tried with the program.
 //!
-//! Surfer takes state names from a VCD itself; for an FST file they are in a mapping beside it.
+//! Surfer reads state names from a VCD itself; for an FST file, a mapping next to it holds them.
 
 use crate::kernel::signals::SignalFormat;
 
@@ -8,10 +8,10 @@ use super::layout::{Group, ShownSignal};
 use super::marks::Marks;
 use super::writer::WaveFormat;
 
-/// Folder of mappings, in the folder where Surfer is started.
+/// Folder of mappings, relative to the folder in which Surfer is started.
 pub(super) const MAPPINGS: &str = ".surfer/mappings";
 
-/// The command file: a heading and its signals, group by group, then the marks.
+/// Formats the command file: the heading and the signals of each group, then the marks.
 pub(super) fn commands(format: WaveFormat, groups: &[Group<'_>], marks: &Marks) -> String {
     let mut text = String::new();
     let mut place = 0;
@@ -34,7 +34,7 @@ pub(super) fn commands(format: WaveFormat, groups: &[Group<'_>], marks: &Marks) 
     text + &format!("cursor_set {}\n", marks.laser_edge.unwrap_or(marks.from).ps())
 }
 
-/// Name of the mapping for the states of `row`, and of its file.
+/// Returns the name of the mapping for the states of `row`, which is also the name of its file.
 pub(super) fn mapping_name(row: &ShownSignal<'_>) -> String {
     row.name.replace('.', "_")
 }
@@ -55,7 +55,7 @@ fn shown_as(format: WaveFormat, row: &ShownSignal<'_>) -> Option<String> {
     }
 }
 
-/// An item's place as Surfer spells it: hexadecimal digits, with the letters a to p.
+/// Formats the index of an item as Surfer does: hexadecimal digits, written with the letters a to p.
 fn letters(place: usize) -> String {
     let digit = |c: char| c.to_digit(16).map_or('a', |value| (b'a' + value as u8) as char);
     format!("{place:x}").chars().map(digit).collect()

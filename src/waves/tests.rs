@@ -1,4 +1,4 @@
-//! What waveforms hold: every signal, with the values that the firmware had.
+//! Tests of the contents of waveforms: every signal, with the values of the firmware.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,7 +1,6 @@
-//! VCD files: the header by the crate `vcd`, the body by hand, for speed.
+//! VCD files. The header is written by the crate `vcd`, and the body by hand for speed.
 //!
-//! The state names of state machines go in as `$attrbegin` lines, an extension that Surfer reads
-//! and GTKWave skips.
+//! State names are written as `$attrbegin` lines, an extension that Surfer reads and GTKWave ignores.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -27,20 +26,20 @@ use text::{Tail, Text};
 /// A VCD file being written.
 pub(super) struct Vcd {
     file: OutputFile,
-    /// What is not in the file yet.
+    /// Text that has not been written to the file yet.
     text: Text,
-    /// By id; what is not selected has width 0 and an empty tail.
+    /// Signal of each id; one that is not selected has width 0 and an empty tail.
     signals: Box<[Signal; IDS]>,
     taps: TapDigits,
-    /// Last time written; at first one that never comes [ps].
+    /// Last time written; at first a time that never occurs [ps].
     stamped: u64,
 }
 
 #[derive(Clone, Copy, Default)]
 struct Signal {
-    /// A space if it is a vector, the identifier code, the end of the line.
+    /// End of a value line: a space if the signal is a vector, the identifier code, and a line feed.
     tail: Tail,
-    /// [bits].
+    /// Width [bits].
     width: u32,
 }
 
@@ -82,7 +81,7 @@ impl Sink for Vcd {
 }
 
 impl Body for Vcd {
-    /// The text's length before the step and before its values, and when it is.
+    /// Length of the text before the step and before its values, its time and its kind.
     type Begun = (usize, usize, u64, Step);
 
     #[inline(always)]
@@ -189,7 +188,7 @@ fn header(
     vcd.enddefinitions()
 }
 
-/// The different sets of states, each with a name and the width of its codes.
+/// Returns the distinct sets of states, each with a name and the width of its codes.
 fn state_tables(entries: &[Entry]) -> Vec<(String, &'static [&'static str], usize)> {
     let mut tables: Vec<(String, &[&str], usize)> = Vec::new();
     for entry in entries {

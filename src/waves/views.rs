@@ -1,8 +1,7 @@
-//! Set-ups of viewers, beside a waveform: open it and see the signals in order, named and scaled.
+//! Viewer setups next to a waveform, which show the signals in order, with names and scales.
 //!
-//! `X.gtkw` for GTKWave (`gtkwave X.gtkw`), with a file of names for each state machine, and
-//! `X.sucl` for Surfer (`surfer --command-file X.sucl X.vcd`). Files refer to each other by name
-//! only, so a folder can be moved.
+//! `X.gtkw` is for GTKWave (`gtkwave X.gtkw`), with a file of names for each state machine; `X.sucl` is for Surfer
+//! (`surfer --command-file X.sucl X.vcd`). Files refer to each other by name only, so that a folder can be moved.
 
 use std::fs;
 use std::io::Write;
@@ -18,8 +17,11 @@ use super::marks::Marks;
 use super::writer::WaveFormat;
 use super::{gtkwave, surfer};
 
-/// Writes the set-ups for the waveform at `wave_path`, which holds `entries`, and returns their
-/// paths. A waveform that went to a device or a pipe has none.
+/// Writes the viewer setups for the waveform at `wave_path`, which contains `entries`, and returns their paths. No
+/// setups are written for a waveform on a device or a pipe.
+///
+/// # Errors
+/// If a file cannot be written.
 pub fn write_views(
     wave_path: &Path,
     format: WaveFormat,

@@ -1,4 +1,4 @@
-//! A waveform file being written, in windows.
+//! Writer of a waveform file in windows.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -14,26 +14,26 @@ use super::body::{Body, Step};
 use super::fst::Fst;
 use super::vcd::Vcd;
 
-/// A format of waveform files.
+/// File format of a waveform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WaveFormat {
-    /// Value change dump: text, read by everything.
+    /// Value change dump: text, read by every tool.
     Vcd,
-    /// GTKWave's binary format, some twenty times smaller.
+    /// GTKWave's binary format, about twenty times smaller.
     Fst,
 }
 
-/// A waveform file being written. Dropped before its run has ended, it leaves no trace.
+/// A waveform file under construction. If it is dropped before the run has ended, no file remains.
 pub struct Waves {
     path: PathBuf,
     writer: Writer,
     state: State,
-    /// What the file shows, since the first window.
+    /// Signals in the file, with their last written values, from the first window on.
     shown: Box<Part>,
     row: Row,
     /// Time of the last call [ps].
     last: u64,
-    /// The first error of writing.
+    /// First write error.
     pub(super) failed: Option<io::Error>,
 }
 
@@ -44,18 +44,22 @@ enum Writer {
 
 #[derive(Clone, Copy, PartialEq)]
 enum State {
-    /// No window has begun.
+    /// Before the first window.
     Blank,
-    /// In a window.
+    /// Within a window.
     Open,
-    /// The window has ended, at this time [ps]; its end is not written yet, because the next
-    /// window may begin there.
+    /// After a window that ended at this time [ps]. Its end is not written yet, because the next window may start at
+    /// the same time.
     Ended(u64),
 }
 
 impl Waves {
-    /// Begins a file of `entries`; [`Setup::waves`](crate::Setup::waves) chooses them by name. `order` is the physical tap at each place in the order of
-    /// arrival; `provenance` says where the file comes from, a line each.
+    /// Creates a file with the signals `entries`, which [`Setup::waves`](crate::Setup::waves) selects by name.
+    /// `order` is the physical tap at each position in order of arrival; `provenance` describes the origin of the
+    /// file, in one or more lines.
+    ///
+    /// # Errors
+    /// If the file cannot be created.
     #[doc(hidden)]
     pub fn create(
         path: &Path,
@@ -77,9 +81,9 @@ impl Waves {
         Ok(Waves { path, writer, state, shown, row, last: 0, failed: None })
     }
 
-    /// A window begins: every signal is shown as it is now. Within a window, only what has changed.
+    /// Starts a window, and writes the present value of every signal; later calls write changes only.
     ///
-    /// An error of writing, here and in the calls below, is kept for [`Waves::check`].
+    /// Write errors in this and the following methods are kept for [`Waves::check`].
     pub(crate) fn begin(&mut self, now: Time, top: &TofTop) {
         let at = self.at(now);
         match self.state {
@@ -97,8 +101,8 @@ impl Waves {
         self.mark(at, step, Some(top));
     }
 
-    /// Shows what has changed since the last call; outside windows nothing. Within a window this
-    /// has to be called at every edge of `clk_laser` and at every change between them.
+    /// Writes all changes since the last call; does nothing outside windows. Within a window it must be called at
+    /// every edge of `clk_laser` and at every change between edges.
     #[inline]
     pub(crate) fn sample(&mut self, now: Time, top: &TofTop) {
         if self.state == State::Open {
@@ -107,13 +111,13 @@ impl Waves {
         }
     }
 
-    /// The outputs of the row of SPADs as the coming steps show them, a bit each.
+    /// Sets the outputs of the SPAD row for the following steps, one bit each.
     #[inline]
     pub(crate) fn outputs(&mut self, outputs: u64) {
         self.row.now = outputs;
     }
 
-    /// The same where only levels of clocks have changed.
+    /// Writes changes at an instant when only clock levels can change.
     #[inline]
     pub(crate) fn tick(&mut self, now: Time, top: &TofTop) {
         if self.state == State::Open {
@@ -122,7 +126,7 @@ impl Waves {
         }
     }
 
-    /// A window ends: from now on every signal is unknown.
+    /// Ends a window; every signal becomes unknown.
     pub(crate) fn end(&mut self, now: Time) {
         let at = self.at(now);
         if self.state == State::Open {
@@ -130,7 +134,10 @@ impl Waves {
         }
     }
 
-    /// The first error of writing so far.
+    /// Returns the first write error so far.
+    ///
+    /// # Errors
+    /// The first write error.
     #[inline]
     pub(crate) fn check(&self) -> Result<()> {
         let Some(error) = &self.failed else { return Ok(()) };
@@ -138,7 +145,10 @@ impl Waves {
         Err(Error::io(&self.path, "write")(error))
     }
 
-    /// The run has ended: puts the file in place.
+    /// Ends the file at the end of the run, and moves it to its final path.
+    ///
+    /// # Errors
+    /// If the file could not be written.
     pub(crate) fn finish(mut self, end: Time) -> Result<()> {
         let at = self.at(end);
         match self.state {
@@ -153,7 +163,7 @@ impl Waves {
         }
     }
 
-    /// Time as the file has it, which never goes back [ps].
+    /// Converts a time to the file's unit, and makes it monotonic [ps].
     #[inline(always)]
     fn at(&mut self, now: Time) -> u64 {
         self.last = now.ps().max(self.last);

@@ -1,5 +1,5 @@
-//! What comparing two large VCDs costs, beside reading both with `wellen` and as many threads:
-//! `cargo bench --bench compare [-- MEGABYTES]`. Prints both times of each round and the median ratio.
+//! Benchmark of comparing two large VCD files, relative to reading both with `wellen` in as many threads: `cargo
+//! bench --bench compare [-- MEGABYTES]`. It prints both times of each round and the median ratio.
 
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Write};
@@ -12,12 +12,12 @@ use wellen::stream::Filter;
 use tofsim_captures::compare::{Options, compare};
 use tofsim_captures::source::Source;
 
-/// Size of each file, if not told [MB].
+/// Default size of each file [MB].
 const SIZE: u64 = 200;
 const ROUNDS: usize = 5;
 
-/// A VCD of clocks, wires and buses of which some change at each step; the last value of the second
-/// file is another.
+/// Writes a VCD of clocks, wires and buses, of which some change at each step. `last` is the final value of one
+/// signal.
 fn write(path: &Path, megabytes: u64, last: u64) -> std::io::Result<()> {
     let mut file = BufWriter::new(File::create(path)?);
     writeln!(file, "$timescale 1ps $end\n$scope module top $end")?;
@@ -51,7 +51,7 @@ fn write(path: &Path, megabytes: u64, last: u64) -> std::io::Result<()> {
     file.flush()
 }
 
-/// Time to stream both files, each in a thread.
+/// Measures the time to stream both files, each in a thread.
 fn wellen(paths: [&Path; 2]) -> Duration {
     let begun = Instant::now();
     std::thread::scope(|scope| {

@@ -1,10 +1,10 @@
-//! What a capture costs: `cargo bench --bench ila`. Frames without an analyser and frames with 64
-//! probes into 131,072 samples take turns, so that both see the same machine.
+//! Benchmark of a capture: `cargo bench --bench ila`. Frames without an analyser alternate with frames with 64 probes
+//! and 131,072 samples, so that both see the same machine load.
 //!
-//! The probes are what one would watch the whole chain with: all control signals, states, counts
-//! and addresses, the code on its way to the histogram, the words of the histogram around the
-//! target, and the depth; 319 bits, from nearly every module. The trigger is in mid-frame, half of
-//! the samples before it. Armed at once, the analyser looks at every cycle up to it.
+//! The probes cover the whole chain: control signals, states, counts, addresses, the code on its way to the
+//! histogram, histogram words around the target, and the depth; 319 bits from nearly every module. The trigger is in
+//! the middle of the frame, with half of the samples before it. If it is armed from the start, the analyser evaluates
+//! every cycle up to the trigger.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -15,7 +15,7 @@ use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, capture};
 
-/// Modules, and their signals that are probed.
+/// Modules with their probed signals.
 const PROBES: &[(&str, &str)] = &[
     ("", "rst tdc_stop mode laser_freq laser_en dsp_en dsp_rst"),
     ("", "rst_dsp tdc_code tdc_valid count"),
@@ -35,10 +35,10 @@ const PROBES: &[(&str, &str)] = &[
     ("depth_estimator.forward2", "depth"),
 ];
 
-/// Laser rates, and when the analyser is armed [us].
+/// Laser rate, and arming time of the analyser [us].
 const CASES: &[(u64, u64)] = &[(3, 0), (0, 0), (0, 2_450)];
 
-/// Pairs of frames.
+/// Number of pairs of frames.
 const PAIRS: usize = 41;
 
 fn set_up(arm_at_us: u64) -> AnalyserSetup {
@@ -55,15 +55,15 @@ fn set_up(arm_at_us: u64) -> AnalyserSetup {
     AnalyserSetup::parse("bench", "bench.toml", &text).expect("the set-up is right")
 }
 
-/// A frame without an analyser and one with it.
+/// Times of a frame without an analyser and of one with it.
 struct Pair {
-    /// Time of the first [ms].
+    /// Time of the frame without analyser [ms].
     without: f64,
-    /// Time of the second up to `finish` [ms].
+    /// Time of the frame with analyser, without `finish` [ms].
     with: f64,
     /// Time of `finish` [ms].
     finish: f64,
-    /// Samples that the analyser looked at.
+    /// Number of samples that the analyser evaluated.
     looks: u64,
 }
 

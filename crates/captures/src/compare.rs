@@ -1,7 +1,7 @@
-//! Compares any two of waveforms, captures and simulations.
+//! Comparison of any two waveforms, captures and simulations.
 //!
-//! Signals come together by name or by a map ([`map`]), samples by an alignment; both sides are
-//! read as streams, in bounded memory, as often as that needs.
+//! Signals are matched by name or by a map ([`map`]), and samples by an alignment. Both sides are read as streams in
+//! bounded memory, as many times as necessary.
 
 mod align;
 mod beats;
@@ -52,42 +52,42 @@ use differences::Differences;
 use matching::matching;
 use plan::{Plan, Terms};
 
-/// How two sources are compared.
+/// Options of a comparison.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// What belongs together by intention.
+    /// Explicit matching of names and values.
     pub map: SignalMap,
-    /// Which signals are looked at.
+    /// Selection of the signals to compare.
     pub choice: SignalChoice,
-    /// Clock of a waveform's samples, instead of the map's.
+    /// Sampling clock of a waveform; overrides the map's.
     pub clock: Option<SampleClock>,
-    /// How the sides are brought together, instead of as the map says.
+    /// Alignment of the sides; overrides the map's.
     pub align: Option<Align>,
-    /// What a waveform triggers on, instead of the map's.
+    /// Trigger condition for a waveform; overrides the map's.
     pub trigger: Option<Condition>,
-    /// Under which condition samples were stored, instead of the map's.
+    /// Condition under which samples were stored; overrides the map's.
     pub qualified_by: Option<Condition>,
-    /// Signal of a capture that counts the clock, instead of the map's.
+    /// Signal of a capture that counts clock cycles; overrides the map's.
     pub time_from: Option<String>,
-    /// Time before which nothing is looked at, instead of the map's.
+    /// Start of the comparison; overrides the map's.
     pub after: Option<Time>,
-    /// Time from which on nothing is.
+    /// End of the comparison.
     pub until: Option<Time>,
-    /// What an unknown bit is the same as.
+    /// Treatment of unknown bits.
     pub unknowns: Unknowns,
-    /// Every signal needs a partner.
+    /// Whether a signal without a partner is a difference.
     pub all: bool,
-    /// When a bus accepts a word, instead of the map's: then the words are compared, and not when they
-    /// come.
+    /// Condition under which a bus accepts a word; overrides the map's. The accepted words are then compared,
+    /// regardless of their times.
     pub beats: Option<Condition>,
-    /// Where both sides go as one waveform.
+    /// Path for a waveform of both sides.
     pub waves: Option<PathBuf>,
 }
 
-/// Compares two sources: what the first has is expected, what the second has was got.
+/// Compares two sources: the first is the reference, the second is under test.
 ///
 /// # Errors
-/// When they cannot be read, nothing belongs together, or it is not clear which samples do.
+/// If a source cannot be read, no signals match, or the alignment is ambiguous.
 pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> {
     let resolved = states::resolve([a, b], &options.map, &options.choice)?;
     let sources = resolved.sources.as_ref().map_or([a, b], |[a, b]| [a, b]);
@@ -145,7 +145,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     Ok(result)
 }
 
-/// When a bus accepts a word, if beats are compared.
+/// Returns the condition under which a bus accepts a word, if beats are compared.
 fn beats_condition(options: &Options) -> Result<Option<Condition>> {
     let text = options.map.beats.as_ref();
     match &options.beats {
@@ -176,10 +176,10 @@ fn by_beats(
     Ok(result)
 }
 
-/// That nothing was asked for that beats do not have.
+/// Checks that no option was given that does not apply to beats.
 ///
 /// # Errors
-/// When it was; the error names the option.
+/// The first such option.
 fn without_order(options: &Options) -> Result<()> {
     let meant = |option: &str, reason: &str| {
         Err(Input::new(option, format!("cannot go with --beats: {reason}")).into())
@@ -198,7 +198,7 @@ fn without_order(options: &Options) -> Result<()> {
     }
 }
 
-/// Puts what was counted into the result, and what else is to be said.
+/// Stores the counts and remarks in the result.
 fn conclude(plan: &Plan, differences: &Differences, all: bool, result: &mut Comparison) {
     result.pairs = differences.results(result.compared);
     remarks::add(plan, &differences.counts, all, result);
@@ -226,9 +226,8 @@ fn terms(options: &Options) -> Result<Terms> {
     })
 }
 
-/// How the sides are brought together, if not told: captures by their triggers, a capture and a
-/// waveform by the trigger's condition or else by correlation, window by window if there are several,
-/// waveforms by time.
+/// Chooses the default alignment: by trigger for two captures; by trigger condition or else by correlation for a
+/// capture and a waveform, per window if there are several; and by time for two waveforms.
 fn align(sources: [&Source; 2], options: &Options, terms: &Terms) -> Result<Align> {
     if let Some(align) = &options.align {
         return Ok(align.clone());

@@ -1,9 +1,7 @@
-//! Conditions over signals, as a trigger or a qualifier has them:
-//! `state == 5 && (other rising || bus[7:4] != 0b1x0x)`.
+//! Conditions over signals, for triggers and qualifiers: `state == 5 && (other rising || bus[7:4] != 0b1x0x)`.
 //!
-//! Names may hold dots, slashes, digits and brackets, or anything in double quotes. A bare name is
-//! a one-bit signal that has to be 1. `!` takes the comparison behind it, `&&` (`and`) binds
-//! tighter than `||` (`or`).
+//! Names may contain dots, slashes, digits and brackets, or any characters in double quotes. A bare name is a one-bit
+//! signal that must be 1. `!` applies to the comparison that follows it; `&&` (`and`) binds tighter than `||` (`or`).
 
 mod bound;
 mod literal;
@@ -21,7 +19,7 @@ use tofsim::error::{Error, Input, Result};
 /// Widest signal of a condition [bits].
 pub const WIDEST: u32 = 128;
 
-/// A condition as it was written.
+/// A parsed condition.
 #[derive(Clone, Debug)]
 pub struct Condition {
     source: String,
@@ -30,26 +28,25 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// Reads a condition from `text`; `source` is the option or the key it was given with.
+    /// Parses a condition; errors name `source`, the option or key of the text.
     ///
     /// # Errors
-    /// When it is no condition; the error has the column in the text.
+    /// If the text is not a condition; with the column.
     pub fn parse(source: &str, text: &str) -> Result<Self> {
         let (node, leaves) = parse::parse(source, text)?;
         Ok(Condition { source: source.to_owned(), node, leaves })
     }
 
-    /// The names in it, without slices.
+    /// Returns the names in the condition, without slices.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.leaves.iter().map(|leaf| slice(&leaf.name).map_or(&leaf.name[..], |(name, ..)| name))
     }
 
-    /// Ties the names to places. `find` is asked for each name as it is written, then, where that
-    /// fails, without its slice.
+    /// Binds the names to signals. `find` is called with each name as written and, if that fails, without its slice.
     ///
     /// # Errors
-    /// Those of `find`, with the column if they have no place; a slice beyond the signal, a value
-    /// that does not fit, an edge of more than one bit, bits beyond [`WIDEST`].
+    /// Those of `find`, with the column if they have no position; a slice outside of the signal, a value that does
+    /// not fit, an edge of a multi-bit signal, or more than [`WIDEST`] bits.
     pub fn bind(&self, find: &mut dyn FnMut(&str) -> Result<Place>) -> Result<Bound> {
         let watched = self.leaves.iter().map(|leaf| self.watch(leaf, find));
         Ok(Bound::new(self.node.clone(), watched.collect::<Result<_>>()?))
@@ -82,7 +79,7 @@ impl Condition {
         Ok(bound::Watched::new(place.index, low, width, signed, &leaf.test))
     }
 
-    /// Where a test's bits are: the signal, the lowest bit, and how many.
+    /// Finds the bits of a test: the signal, the lowest bit, and the width.
     fn find(
         &self,
         leaf: &Leaf,
@@ -116,7 +113,7 @@ impl Condition {
         Input::new(&self.source, expected).at(1, column).value(value).into()
     }
 
-    /// An error of `find`, at the name's column.
+    /// Adds the column of a name to an error of `find`.
     fn placed(&self, error: Error, leaf: &Leaf) -> Error {
         match error {
             Error::Input(input) if input.place.is_none() => {
@@ -128,7 +125,7 @@ impl Condition {
     }
 }
 
-/// Name, highest and lowest bit of `name[7:4]` or `name[3]`.
+/// Splits `name[7:4]` or `name[3]` into name, highest and lowest bit.
 pub(crate) fn slice(text: &str) -> Option<(&str, u32, u32)> {
     let (name, range) = text.strip_suffix(']')?.rsplit_once('[')?;
     let (high, low) = range.split_once(':').unwrap_or((range, range));

@@ -1,5 +1,5 @@
-//! The logic analyser: captures a running simulation as Vivado's ILA captures the board, and reads
-//! and writes Vivado's files.
+//! The logic analyser: captures signals of a simulation as Vivado's ILA does on the board, and reads and writes
+//! Vivado's file formats.
 
 pub mod builtin;
 pub mod capture;

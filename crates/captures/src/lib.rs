@@ -1,8 +1,8 @@
-//! What a board saw, beside the simulation.
+//! Captures of the board, in relation to the simulation.
 //!
-//! A logic analyser in a run and Vivado's files ([`ila`]), any waveform as a stream of changes
-//! ([`source`]), conditions over signals ([`condition`]), the comparison of two of them
-//! ([`compare`]), and a run again from what a capture shows of it ([`replay`]).
+//! The crate has a logic analyser for simulations and Vivado's file formats ([`ila`]), waveforms as streams of
+//! changes ([`source`]), conditions over signals ([`condition`]), the comparison of two waveforms ([`compare`]), and
+//! the replay of a capture's inputs ([`replay`]).
 
 pub mod compare;
 pub mod condition;

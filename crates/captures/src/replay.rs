@@ -1,5 +1,5 @@
-//! A run again from what a capture shows of its inputs: photons, codes or a histogram in the place of
-//! light, and the control signals.
+//! Replay of a capture: a run with the inputs that the capture shows, which are photons, codes or a histogram in
+//! place of light, and the control signals.
 
 mod histogram;
 mod kind;
@@ -22,69 +22,68 @@ pub use kind::ReplayKind;
 use observed::{Observed, observe};
 use timebase::Timebase;
 
-/// What a capture is read by.
+/// Options for reading a capture.
 #[derive(Clone, Debug, Default)]
 pub struct ReplayOptions {
-    /// What belongs together by intention.
+    /// Explicit matching of names.
     pub map: SignalMap,
-    /// The analyser's clock, instead of the map's.
+    /// Clock of the analyser; overrides the map's.
     pub clock: Option<SampleClock>,
-    /// Not every edge of the clock has a sample.
+    /// Whether samples were stored only under a condition, so that clock edges may lack a sample.
     pub qualified: bool,
-    /// What stands in for the light, instead of the most faithful that the capture shows.
+    /// Stimulus that replaces the light; by default the most accurate one that the capture shows.
     pub kind: Option<ReplayKind>,
 }
 
-/// What a capture shows of a run's inputs.
+/// Inputs of a run, recovered from a capture.
 #[derive(Clone, Debug)]
 pub struct Replay {
-    /// What stands in for the light.
+    /// Stimulus that replaces the light.
     pub kind: ReplayKind,
-    /// The list as CSV.
+    /// Stimulus file, as CSV.
     pub list: String,
-    /// How many photons, codes or words it has.
+    /// Number of photons, codes or histogram bins in it.
     pub entries: u64,
-    /// What the capture does not show, and what was taken instead.
+    /// Notes on inputs that the capture does not show, with the values assumed.
     pub notes: Vec<String>,
     observed: Option<Observed>,
 }
 
-/// Where a capture lies in the simulation of what it shows.
+/// Position of a capture in the simulation that replays it.
 #[derive(Clone, Debug, Default)]
 pub struct Located {
-    /// Samples by which the capture is later than the simulation, where that is one number.
+    /// Offset of the capture relative to the simulation, if it is constant [samples].
     pub offset: Option<i64>,
     /// Changes of the control signals.
     pub changes: Vec<Control>,
 }
 
 impl Replay {
-    /// Shots that the capture shows.
+    /// Returns the number of shots in the capture.
     pub fn shots(&self) -> u64 {
         self.observed.as_ref().map_or(0, |observed| observed.shots.len() as u64)
     }
 
-    /// Shots of a frame, if the capture shows them.
+    /// Returns the number of shots per frame, if the capture shows it.
     pub fn shots_per_frame(&self) -> Option<u64> {
         self.observed.as_ref()?.per_frame
     }
 
-    /// Cycles between two shots, if the capture shows them [cycles of clk_sys].
+    /// Returns the shot period, if the capture shows it [cycles of clk_sys].
     pub fn period(&self) -> Option<u64> {
         self.observed.as_ref()?.period
     }
 
-    /// The control signals as the capture begins, as far as it shows them.
+    /// Returns the control signals at the start of the capture, as far as it shows them.
     pub fn begin(&self) -> Control {
         self.observed.as_ref().map(|observed| observed.pins.begin()).unwrap_or_default()
     }
 
-    /// Finds where the capture lies in `setup`, which has the list and what the control signals are at
-    /// its begin, and with that when these change.
+    /// Locates the capture in the simulation of `setup`, which has the recovered stimulus and the initial control
+    /// signals, and derives the times at which these change.
     ///
     /// # Errors
-    /// When the simulation does not come to the capture's first shot, or the capture does not say when
-    /// a control signal changes.
+    /// If the simulation does not reach the capture's first shot, or the time of a change cannot be determined.
     pub fn locate(&self, setup: &Setup) -> Result<Located> {
         let Some(observed) = &self.observed else { return Ok(Located::default()) };
         let (timebase, shot) = (&observed.timebase, &observed.shots[0]);
@@ -114,10 +113,10 @@ impl Replay {
     }
 }
 
-/// Reads from a capture what a run of `setup` needs to be the same.
+/// Recovers the inputs of a run from a capture of it.
 ///
 /// # Errors
-/// When the capture cannot be read, or does not show enough; the error says what to probe.
+/// If the capture cannot be read or does not show enough; the error lists the signals to probe.
 pub fn replay(capture: &Source, setup: &Setup, options: &ReplayOptions) -> Result<Replay> {
     if !capture.is_capture() {
         let expected = "expected a capture of a logic analyser";
@@ -138,7 +137,7 @@ pub fn replay(capture: &Source, setup: &Setup, options: &ReplayOptions) -> Resul
     Err(fault.unwrap_or_else(|| Input::new(&capture.name, expected).into()))
 }
 
-/// A replay of that kind, `None` if nothing of it is probed.
+/// Recovers a stimulus of one kind; `None` if none of its signals are probed.
 fn of_kind(
     capture: &Source,
     setup: &Setup,
@@ -178,7 +177,7 @@ fn of_kind(
     Ok(Some(Replay { kind, list, entries, notes, observed: Some(observed) }))
 }
 
-/// The histogram from the sums of the hidden layer, by the weights of the scenario's network.
+/// Recovers the histogram from the sums of the hidden layer, with the weights of the scenario's network.
 fn from_sums(
     capture: &Source,
     setup: &Setup,

@@ -1,5 +1,5 @@
-//! What can be compared: waveforms, captures of logic analysers and simulations, each read as a
-//! stream of changes in bounded memory.
+//! Inputs of a comparison: waveforms, captures of logic analysers and simulations, all read as streams of changes in
+//! bounded memory.
 
 mod bytes;
 mod capture;
@@ -41,16 +41,16 @@ pub use tick::Tick;
 pub(crate) use translated::Translation;
 
 impl Source {
-    /// Looks at a file; what it holds decides its format. `radix` is that of values in a file that
-    /// does not say.
+    /// Opens a file, whose contents determine its format. `radix` applies to files that do not state the radix of
+    /// their values.
     ///
     /// # Errors
-    /// When it cannot be read or is none of the formats.
+    /// If it cannot be read or has none of the formats.
     pub fn file(path: &Path, radix: Option<Radix>) -> Result<Source> {
         Ok(detect::open(path, radix)?.distinguish())
     }
 
-    /// A simulation of so many frames or, without a number, of as much as is asked for, up to
+    /// Creates a source that simulates `frames` frames or, without a number, as many as are read, up to
     /// [`LONGEST_SIMULATION`].
     pub fn simulation(setup: Setup, frames: Option<u64>) -> Source {
         simulation::source(setup, frames)

@@ -1,5 +1,5 @@
-//! FST files, of ours and of `vcd2fst`: sound ones are read whatever their bytes look like, damaged ones
-//! are refused where they are damaged.
+//! Tests of FST files written by tofsim and by `vcd2fst`: valid files are read in every form, and damaged ones are
+//! refused with the position of the damage.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,10 +14,10 @@ use tofsim_captures::source::Source;
 
 use crate::common;
 
-/// The forms in which `vcd2fst` packs changes, and the file as a whole.
+/// Options of `vcd2fst` for each way to compress changes, and the file as a whole.
 const FORMS: [&[&str]; 4] = [&["-Z"], &["-F"], &["-4"], &["-4", "-c"]];
 
-/// Writes a run of that seed as `name`, in either format.
+/// Writes a run with the given seed as `name`, in the format of its extension.
 fn simulated(folder: &Path, name: &str, seed: u64) -> PathBuf {
     let path = folder.join(name);
     let seed = format!("seed={seed}");
@@ -32,7 +32,7 @@ fn simulated(folder: &Path, name: &str, seed: u64) -> PathBuf {
     path
 }
 
-/// The same VCD by `vcd2fst`.
+/// Converts a VCD with `vcd2fst`.
 fn converted(vcd: &Path, form: &[&str]) -> PathBuf {
     let fst = vcd.with_extension("twin.fst");
     let done = Command::new("vcd2fst").args(form).arg(vcd).arg(&fst).output();
@@ -71,7 +71,7 @@ fn bytes_that_look_like_the_time_stamps_of_a_vcd_are_none() {
     assert!(compared(&path, &path).unwrap().is_same());
 }
 
-/// The blocks of a file: place and length.
+/// Returns position and length of each block of a file.
 fn blocks(bytes: &[u8]) -> Vec<(usize, usize)> {
     let mut blocks = Vec::new();
     let mut begin = 0;

@@ -1,7 +1,7 @@
-//! Any bytes are an input or an error, never a panic, a hang, or much memory.
+//! Fuzz tests: arbitrary bytes are an input or an error, and never cause a panic, a hang, or a large allocation.
 //!
-//! The cases are always the same, `PROPTEST_CASES` of them; with `TOFSIM_FUZZ_SECONDS` every test
-//! goes on for that long with others.
+//! The cases are always the same, `PROPTEST_CASES` of them; with `TOFSIM_FUZZ_SECONDS` every test continues for that
+//! long with other cases.
 
 mod captures;
 mod edit;

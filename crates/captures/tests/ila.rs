@@ -1,4 +1,4 @@
-//! What the tests of the logic analyser's files share.
+//! Helpers of the tests of the logic analyser's files.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
 pub mod fixtures;
@@ -23,7 +23,7 @@ pub fn read(path: &Path, radix: Option<Radix>) -> Result<(Opened, Vec<CaptureRow
     Ok((opened, rows))
 }
 
-/// The same from bytes, as `capture` in a directory of their own, which errors leave out.
+/// Opens bytes as a file named `capture` and reads all its rows; errors omit the temporary directory.
 pub fn read_bytes(
     bytes: &[u8],
     radix: Option<Radix>,
@@ -35,7 +35,7 @@ pub fn read_bytes(
     read(&path, radix).map_err(|error| error.to_string().replace(&place, ""))
 }
 
-/// An archive of some entries.
+/// Creates an archive of the given entries.
 pub fn archive(entries: &[(&str, &[u8])]) -> Vec<u8> {
     let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
     for (name, content) in entries {

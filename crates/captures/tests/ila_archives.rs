@@ -1,11 +1,11 @@
-//! Archives as Vivado writes them, and what is wrong with others.
+//! Tests of archives as written by Vivado, and of faulty ones.
 
 use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Column, Opened};
 
 use crate::ila::fixtures::{archive_but, bytes, views_but};
 use crate::ila::{archive, read_bytes};
 
-/// What is said about an archive with other entries.
+/// Returns the error for an archive with some entries replaced.
 fn archive_fault(but: &[(&str, &[u8])]) -> String {
     read_bytes(&archive_but(but), None).err().unwrap_or("fine".into())
 }
@@ -36,13 +36,13 @@ fn an_archive_without_a_dump_is_read_from_its_csv() {
     assert_eq!(opened.columns, csv.columns);
 }
 
-/// The values of all rows, by the name of the column.
+/// Returns the values of a column in all rows.
 fn by_name(opened: &Opened, rows: &[CaptureRow], name: &str) -> Vec<u64> {
     let column = opened.columns.iter().find(|column| column.name == name).unwrap();
     rows.iter().map(|row| row.value[column.word]).collect()
 }
 
-/// An archive's values as the CSV has them, and the notes, which have to be of these words.
+/// Asserts that an archive with some entries replaced has the CSV's values, with notes that contain `words`.
 fn falls_back(but: &[(&str, &[u8])], words: &[&str]) {
     let (opened, rows) = read_bytes(&archive_but(but), None).unwrap();
     let (_, whole) = read_bytes(&archive_but(&[]), None).unwrap();

@@ -1,4 +1,4 @@
-//! The virtual logic analyser, from set-up to capture.
+//! Tests of the logic analyser in a simulation, from configuration to capture.
 
 use bitvec::prelude::*;
 
@@ -9,7 +9,7 @@ use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, sampl
 
 use crate::common::{self, empty, setup};
 
-/// What an analyser has after so many frames, and when it triggered.
+/// Returns the capture after some frames, and the times of its triggers.
 fn capture(setup: &Setup, text: &str, frames: u64) -> (Capture, Vec<Time>) {
     let set_up = AnalyserSetup::parse("t", "t.toml", text).unwrap();
     let mut analyser = Analyser::new(&AnalyserPlan::new(&set_up, setup).unwrap(), setup);
@@ -18,14 +18,14 @@ fn capture(setup: &Setup, text: &str, frames: u64) -> (Capture, Vec<Time>) {
     (analyser.finish(), triggers)
 }
 
-/// The values of a probe.
+/// Returns the values of a probe.
 fn values(capture: &Capture, name: &str) -> Vec<u64> {
     let probe = capture.probes.iter().position(|probe| probe.name == name).expect(name);
     let place = capture.places().nth(probe).unwrap();
     (0..capture.samples()).map(|s| capture.sample(s)[place.clone()].load_le()).collect()
 }
 
-/// Samples at which a value is 1 and was not before.
+/// Returns the samples at which a value becomes 1.
 fn rises(values: &[u64]) -> Vec<usize> {
     (1..values.len()).filter(|&k| values[k] == 1 && values[k - 1] == 0).collect()
 }
@@ -219,7 +219,7 @@ fn input_stages_shift_everything_by_so_many_edges() {
     assert_eq!(at[0], short().pll().clk_sys.rise(0));
 }
 
-/// Probes on about `count` signals of a design, a different choice for each `seed`.
+/// Returns a configuration with about `count` signals of a design, depending on `seed`.
 fn some_probes(setup: &Setup, count: usize, seed: usize) -> String {
     let mut entries = tofsim::hierarchy::entries(&setup.params);
     entries.extend(tofsim::hierarchy::ram_entries(&setup.params.histogram));

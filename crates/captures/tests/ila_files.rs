@@ -1,4 +1,4 @@
-//! Captures as real tools write them, and what is wrong with others.
+//! Tests of captures as written by real tools, and of faulty ones.
 
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Column, Opened};
@@ -6,7 +6,7 @@ use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Column, Opened};
 use crate::ila::fixtures::{bytes, fixture};
 use crate::ila::{read, read_bytes};
 
-/// The values of a column.
+/// Returns the values of a column.
 fn values(opened: &Opened, rows: &[CaptureRow], name: &str) -> Vec<u64> {
     let column = opened.columns.iter().find(|column| column.name == name).unwrap();
     rows.iter().map(|row| row.value[column.word]).collect()
@@ -20,13 +20,13 @@ fn radices(opened: &Opened) -> Vec<Option<Radix>> {
     opened.columns.iter().map(|column| column.radix).collect()
 }
 
-/// What is said about a CSV of one or two probes.
+/// Returns the error for a CSV of one or two probes.
 fn fault(probes: &str, rows: &str) -> String {
     let head = format!("Sample in Buffer,Sample in Window,TRIGGER,{probes}\n{rows}");
     read_bytes(head.as_bytes(), None).err().unwrap_or("fine".into())
 }
 
-/// The same with a radix.
+/// Returns the error for a CSV of one probe in a given radix.
 fn fault_in(radix: &str, probe: &str, rows: &str) -> String {
     fault(probe, &format!("Radix - UNSIGNED,UNSIGNED,UNSIGNED,{radix}\n{rows}"))
 }

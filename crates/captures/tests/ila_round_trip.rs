@@ -1,4 +1,4 @@
-//! What is written is read again: the same bits, marks and names.
+//! Tests that captures are read as they were written: the same bits, marks and names.
 
 use std::io::Cursor;
 
@@ -19,7 +19,7 @@ fn probe(name: usize, width: u32, lsb: u32, radix: Radix) -> Probe {
     Probe { name, width, lsb, vector: width > 1 || lsb % 2 == 1, radix }
 }
 
-/// Samples in windows of `depth`, the last perhaps partial; bits from `words`, over and over.
+/// Creates samples in windows of `depth`, the last of which may be partial, with bits that repeat `words`.
 fn capture(probes: Vec<Probe>, samples: usize, depth: usize, words: &[u64]) -> Capture {
     let mut capture = Capture::new(probes);
     let unused = capture.stride * 64 - capture.width();
@@ -37,7 +37,7 @@ fn capture(probes: Vec<Probe>, samples: usize, depth: usize, words: &[u64]) -> C
     capture
 }
 
-/// The bits of a probe in a row, lowest first.
+/// Returns the bits of a probe in a row, least significant first.
 fn bits(words: &[u64], low: usize, width: u32) -> Vec<bool> {
     (low..low + width as usize).map(|bit| words[bit / 64] >> (bit % 64) & 1 == 1).collect()
 }
@@ -84,7 +84,7 @@ fn archive(capture: &Capture) -> Vec<u8> {
     out.into_inner()
 }
 
-/// Through CSV and archive, the latter also without its CSV and without its dump.
+/// Writes and reads a capture as CSV and as archive, the latter also without its CSV and without its dump.
 fn check(capture: &Capture) {
     let (opened, rows) = ila::read_bytes(&csv(capture, true), None).unwrap();
     assert_eq!(opened.form, CaptureForm::Csv);

@@ -1,4 +1,4 @@
-//! Captures that went through a spreadsheet, or through somebody's hands.
+//! Tests of captures that were saved by a spreadsheet or edited by hand.
 
 use tofsim_captures::source::{Source, SourceFormat};
 
@@ -9,7 +9,7 @@ fn text(name: &str) -> String {
     String::from_utf8(bytes(name)).unwrap()
 }
 
-/// That a file is read as the one of that name, with these words in a note.
+/// Asserts that a file has the contents of another, with a note that contains `note`.
 fn reads_as(name: &str, other: &str, note: &str) {
     let (own, rows) = read_bytes(&bytes(name), None).unwrap();
     let (opened, read) = read_bytes(other.as_bytes(), None).unwrap();

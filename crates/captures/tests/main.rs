@@ -1,4 +1,4 @@
-//! Captures, as files and from a running simulation.
+//! Tests of captures, as files and from a running simulation.
 
 #[path = "../../../tests/common.rs"]
 mod common;

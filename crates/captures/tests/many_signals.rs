@@ -1,4 +1,4 @@
-//! Waveforms of many signals, which take time in proportion.
+//! Tests that the time for waveforms with many signals is proportional to their number.
 
 use std::fmt::Write;
 use std::fs;
@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 use tofsim_captures::compare::{Options, compare};
 use tofsim_captures::source::Source;
 
-/// Signals of each file: whatever goes by pairs of them takes minutes.
+/// Number of signals per file; quadratic algorithms would take minutes.
 const SIGNALS: usize = 100_000;
 
-/// A VCD of bits below `top`, the names as `name` gives them; all are `last` in the end.
+/// Writes a VCD of bits below `top`, with names given by `name`; all have the value `last` in the end.
 fn wave(folder: &Path, top: &str, name: impl Fn(usize) -> String, last: u8) -> PathBuf {
     let path = folder.join(format!("{top}_{last}.vcd"));
     let mut text = format!("$timescale 1ns $end\n$scope module {top} $end\n");
@@ -27,7 +27,7 @@ fn wave(folder: &Path, top: &str, name: impl Fn(usize) -> String, last: u8) -> P
     path
 }
 
-/// Compares, in time; how many pairs there are and how many differ.
+/// Compares two files with a time limit, and returns the number of pairs and of those that differ.
 fn compared(a: &Path, b: &Path) -> (usize, usize) {
     let begun = Instant::now();
     let [a, b] = [a, b].map(|path| Source::file(path, None).unwrap());

@@ -1,4 +1,4 @@
-//! Columns of words, alone and among numbers, compared with words and with bits.
+//! Tests of columns of words, alone and among numbers, compared with words and with bits.
 
 use std::fs;
 use std::path::Path;
@@ -12,14 +12,14 @@ use crate::ila::fixtures::{bytes, views_but};
 const HEAD: &str = "Sample in Buffer,Sample in Window,TRIGGER,n[3:0],state[1:0]\n\
     Radix - UNSIGNED,UNSIGNED,UNSIGNED,HEX,HEX\n";
 
-/// Samples with those states.
+/// Creates a CSV with the given states as samples.
 fn table(states: &[&str]) -> Vec<u8> {
     let rows = states.iter().enumerate();
     let rows = rows.map(|(k, state)| format!("{k},{k},{},{k},{state}\n", u8::from(k == 1)));
     format!("{HEAD}{}", rows.collect::<String>()).into_bytes()
 }
 
-/// The same as Vivado's VCD.
+/// Creates the same samples as a Vivado VCD.
 fn vcd(states: &[u8]) -> Vec<u8> {
     let mut text = "$version\n\tVivado v2022.2 (64-bit)\n$end\n$timescale\n\t1ps\n$end\n\
         $scope module dut $end\n$var reg 4 \" n [3:0] $end\n$var reg 2 & state [1:0] $end\n\

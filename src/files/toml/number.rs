@@ -1,6 +1,6 @@
-//! Numbers as people write them.
+//! Numbers that TOML does not accept as commonly written.
 
-/// As TOML has it, a number that TOML does not take as it stands: `.9`, `5.`, `-.5e3`, `007`.
+/// Converts a number such as `.9`, `5.`, `-.5e3` or `007` to TOML's syntax.
 pub(super) fn number(text: &str) -> Option<String> {
     let is_one = |letter: char| letter.is_ascii_digit() || ".+-eE".contains(letter);
     let number: f64 = text.parse().ok().filter(|_| text.chars().all(is_one))?;

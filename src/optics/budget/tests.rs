@@ -1,4 +1,4 @@
-//! What moves the budget, and what does not.
+//! Tests of the settings that affect the budget, and of those that do not.
 
 use super::*;
 
@@ -48,10 +48,10 @@ fn light_outside_the_field_of_view_is_not_seen() {
     assert!((half / expected - 1.0).abs() < 2e-4, "{half} {expected}");
 }
 
-/// A change of a scenario, by its name.
+/// A named change of a scenario.
 type Change = (&'static str, fn(&mut Scenario));
 
-/// The fitted rate as it is stated for the thesis's optics, factor by factor [1/s].
+/// Computes the fitted rate as stated for the thesis's optics, factor by factor [1/s].
 fn stated_hz(scenario: &Scenario) -> f64 {
     3.968e9 * scenario.ambient.irradiance_w_m2_nm * scenario.target.reflectance / 0.003
         * (scenario.spad.pdp * scenario.spad.fill_factor)

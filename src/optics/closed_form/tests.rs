@@ -1,4 +1,4 @@
-//! Codes against the firmware edge by edge, and probabilities against what a range holds.
+//! Tests of codes against the firmware edge by edge, and of probabilities against the range's content.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -26,7 +26,7 @@ fn uneven() -> Delays {
     Delays::new(Time::from_fs(2_500_000), &delays).unwrap()
 }
 
-/// Code as the firmware finds it: edge by edge, tap by tap.
+/// Determines the code as the firmware does: edge by edge, tap by tap.
 fn sampled(t: Time, p: &tdc::Params) -> Option<u16> {
     let delays = &p.delays;
     let mut line = StopLine::default();

@@ -1,38 +1,38 @@
-//! The broken line that stands for a pulse.
+//! Piecewise linear approximation of a cumulative pulse.
 
 use std::sync::{Arc, LazyLock};
 
 use crate::kernel::pulse::{Pulse, normal_cdf};
 use crate::optics::budget::Budget;
 
-/// Pieces of the broken line of a pulse [1].
+/// Number of segments of a pulse [1].
 const PIECES: usize = 1024;
-/// Pieces of a Gaussian's to a sigma [1].
+/// Number of segments per sigma of a Gaussian [1].
 const PER_SIGMA: usize = 64;
 
-/// The broken line of Phi: its nodes, every 1/64 sigma.
+/// Nodes of Phi, every 1/64 sigma.
 static NORMAL: LazyLock<Arc<[f64]>> = LazyLock::new(|| {
     nodes(|node| normal_cdf((node as f64 - (PIECES / 2) as f64) / PER_SIGMA as f64))
 });
 
-/// The nodes of a broken line whose first is 0 and whose last 1.
+/// Computes the nodes, scaled so that the first is 0 and the last is 1.
 fn nodes(part: impl Fn(usize) -> f64) -> Arc<[f64]> {
     let inner = (1..PIECES).map(part);
     [0.0].into_iter().chain(inner).chain([1.0]).collect()
 }
 
-/// The broken line of a shot's light.
+/// Piecewise linear cumulative light of a shot.
 pub struct Line {
     /// First node, from the laser edge [fs].
     pub start: f64,
-    /// From one to the next [fs].
+    /// Time between nodes [fs].
     pub step: f64,
-    /// The part of the light that has come, at the nodes [1].
+    /// Cumulative fraction of the light at the nodes [1].
     pub parts: Arc<[f64]>,
 }
 
 impl Line {
-    /// Of a scene's light.
+    /// Returns the cumulative light of a scene.
     pub fn of(budget: &Budget) -> Self {
         match &budget.spread {
             None => Line::of_echo(&budget.pulse, budget.mean_arrival.fs() as f64),
@@ -44,7 +44,7 @@ impl Line {
         }
     }
 
-    /// Of one echo: of a Gaussian, every 1/64 sigma; of another, over its length.
+    /// Returns the cumulative light of one echo: every 1/64 sigma of a Gaussian, or over the length of another pulse.
     fn of_echo(pulse: &Pulse, mean: f64) -> Self {
         let [from_ps, until_ps] = pulse.reach_ps();
         let (from, step) = (from_ps * 1e3, (until_ps - from_ps) * 1e3 / PIECES as f64);

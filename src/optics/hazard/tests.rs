@@ -1,4 +1,4 @@
-//! The hazard and its inverse against the exact functions.
+//! Tests of the hazard and its inverse against the exact functions.
 
 use crate::kernel::pulse::{Pulse, Samples, normal_cdf};
 
@@ -14,7 +14,7 @@ fn budget(background_hz: f64, signal: f64, mean_ps: u64, sigma_ps: f64) -> Budge
     }
 }
 
-/// Bright and near, usual, wide and before the laser edge, narrow, dim, without background.
+/// Scenes: bright and near, typical, wide and before the laser edge, narrow, dim, without background.
 const SCENES: [(f64, f64, u64, f64); 7] = [
     (0.952e9, 39.4, 667, 137.0),
     (0.27e9, 0.89, 3336, 137.0),
@@ -42,7 +42,7 @@ fn exact(budget: &Budget, t: Time) -> f64 {
         + budget.signal_per_shot * normal_cdf(sigmas(budget, t))
 }
 
-/// Times within `reach` sigma of the mean, and after the laser edge.
+/// Returns times within `reach` sigma of the mean, and after the laser edge.
 fn times(budget: &Budget, reach: f64) -> impl Iterator<Item = Time> {
     let (mean_ps, sigma_ps) = (budget.mean_arrival.ps() as f64, budget.pulse.sigma_ps());
     (0..10_007)

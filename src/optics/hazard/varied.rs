@@ -1,9 +1,9 @@
-//! A shot whose laser pulse is late, or stronger than the mean.
+//! A shot whose laser pulse deviates from the mean in time and energy.
 //!
-//! H of such a shot is N t + e S F(t - mu - d), with the part e of the mean energy and the delay d: the broken
-//! line of F is the same, and only its nodes are worked out for each shot. What holds for shots of all kinds
-//! is a mean over both, by the trapezoidal rule over six deviations, which for a normal weight errs by less
-//! than 1e-10.
+//! H of such a shot is N t + e S F(t - mu - d), with the relative energy e and the delay d: F is the same piecewise
+//! linear function, and only the nodes that a query needs are computed. Probabilities over all shots are averaged
+//! over both deviations by the trapezoidal rule over six standard deviations, whose error for a normal weight is
+//! below 1e-10.
 
 use crate::kernel::Time;
 
@@ -11,24 +11,24 @@ use crate::optics::variation::Variation;
 
 use super::{Cause, Hazard};
 
-/// How far a mean over shots goes, either side [standard deviations].
+/// Half width of the integration range [standard deviations].
 const REACH: i32 = 6;
-/// Its steps to a standard deviation.
+/// Number of integration steps per standard deviation.
 const STEPS: i32 = 4;
 
 /// The avalanche process of one such shot.
 #[derive(Clone, Copy, Debug)]
 pub struct Varied<'a> {
     hazard: &'a Hazard,
-    /// S of this shot [1].
+    /// Signal S of this shot [1].
     signal: f64,
-    /// How late the pulse is [fs].
+    /// Delay of the pulse relative to the mean [fs].
     late: f64,
 }
 
 impl Hazard {
-    /// A shot whose pulse is so many standard deviations late, and above the mean energy; there is no
-    /// energy below zero.
+    /// Returns the process of a shot whose time and energy deviate by the given numbers of standard deviations; the
+    /// energy is at least zero.
     pub fn varied(&self, [timing, energy]: [f64; 2]) -> Varied<'_> {
         let Variation { timing_ps, energy: spread } = self.variation;
         Varied {
@@ -38,7 +38,8 @@ impl Hazard {
         }
     }
 
-    /// Chance that a detector armed at the laser edge does not fire before `t`, in the mean over shots [1].
+    /// Returns the probability that a detector armed at the laser edge does not fire before `t`, averaged over shots
+    /// [1].
     pub fn none_before(&self, t: Time) -> f64 {
         match self.variation.is_none() {
             true => libm::exp(-self.at(t)),
@@ -46,20 +47,20 @@ impl Hazard {
         }
     }
 
-    /// Chance that a detector armed at the laser edge fires before `until`, and that a laser photon makes
-    /// it fire, in the mean over shots [1].
+    /// Returns the probability that a detector armed at the laser edge fires before `until` and a laser photon is the
+    /// cause, averaged over shots [1].
     pub fn signal_first(&self, until: Time) -> f64 {
         self.mean(|shot| shot.signal_first(until))
     }
 
-    /// A mean over shots.
+    /// Averages a function over shots.
     pub fn mean(&self, of: impl Fn(&Varied) -> f64) -> f64 {
         let mut mean = 0.0;
         self.each(|weight, shot| mean += weight * of(shot));
         mean
     }
 
-    /// Shows kinds of shots, and what part of all each stands for.
+    /// Passes quadrature nodes of the shots' distribution to `take`, each with its weight.
     pub fn each(&self, mut take: impl FnMut(f64, &Varied)) {
         let Variation { timing_ps, energy } = self.variation;
         let normal = |spread: f64| -> Vec<(f64, f64)> {
@@ -81,22 +82,22 @@ impl Hazard {
 }
 
 impl Varied<'_> {
-    /// When a node of the pulse comes [fs].
+    /// Returns the time of a node of the pulse [fs].
     fn time(&self, node: usize) -> f64 {
         self.hazard.first.time + self.late + node as f64 * self.hazard.step
     }
 
-    /// Pieces of the broken line.
+    /// Returns the number of segments.
     fn pieces(&self) -> usize {
         self.hazard.parts.len().saturating_sub(1)
     }
 
-    /// H at a node.
+    /// Returns H at a node.
     fn node(&self, node: usize) -> f64 {
         self.hazard.background * self.time(node) + self.signal * self.hazard.parts[node]
     }
 
-    /// H just after a time [fs].
+    /// Returns H immediately after a time [fs].
     fn after(&self, time: f64) -> f64 {
         let place = (time - self.time(0)) / self.hazard.step;
         if place < 0.0 || self.signal == 0.0 {
@@ -110,12 +111,12 @@ impl Varied<'_> {
         }
     }
 
-    /// H(t): see [`Hazard::at`].
+    /// Returns H(t), as [`Hazard::at`] does.
     pub fn at(&self, t: Time) -> f64 {
         if t == Time::ZERO { 0.0 } else { self.after(t.fs() as f64) }
     }
 
-    /// The first time with H(t) >= h: see [`Hazard::inverse`].
+    /// Returns the first time with H(t) >= h, as [`Hazard::inverse`] does.
     pub fn inverse(&self, h: f64) -> Time {
         let dark = |h: f64| h * self.hazard.pause;
         if h <= 0.0 {
@@ -144,7 +145,7 @@ impl Varied<'_> {
         Time::from_fs(time as u64)
     }
 
-    /// Rate of laser photons' avalanches at a time [1/fs].
+    /// Returns the rate of signal avalanches at a time [1/fs].
     fn signal_rate(&self, time: f64) -> f64 {
         let place = (time - self.time(0)) / self.hazard.step;
         let node = place as usize;
@@ -154,27 +155,27 @@ impl Varied<'_> {
         }
     }
 
-    /// What caused an avalanche at `t`: see [`Hazard::cause`].
+    /// Draws the cause of an avalanche at `t`, as [`Hazard::cause`] does.
     pub fn cause(&self, t: Time, uniform: f64) -> Cause {
         self.hazard.cause_beside(self.signal_per_fs(t), uniform)
     }
 
-    /// The part of the rate at `t` that comes without any light [1].
+    /// Returns the dark fraction of the rate at `t` [1].
     pub fn dark_part(&self, t: Time) -> f64 {
         self.hazard.dark_beside(self.signal_per_fs(t))
     }
 
-    /// Rate of laser photons' avalanches at `t` [1/fs].
+    /// Returns the rate of signal avalanches at `t` [1/fs].
     fn signal_per_fs(&self, t: Time) -> f64 {
         let signal = self.signal_rate(t.fs() as f64);
         if t == Time::ZERO { signal + self.after(0.0) } else { signal }
     }
 
-    /// Chance that a detector armed at the laser edge fires before `until`, and that a laser photon makes
-    /// it fire [1].
+    /// Returns the probability that a detector armed at the laser edge fires before `until` and a laser photon is the
+    /// cause [1].
     ///
-    /// Over a piece of the broken line both rates are constant, so that the signal's share of the
-    /// avalanches there is its share of the hazard: a sum over the pieces is exact.
+    /// Both rates are constant over a segment, so that the signal's share of the avalanches there equals its share of
+    /// the hazard: the sum over segments is exact.
     pub fn signal_first(&self, until: Time) -> f64 {
         if self.signal == 0.0 || until == Time::ZERO {
             return 0.0;

@@ -1,27 +1,27 @@
-//! Elements of what is seen: cells of rows within a cone around the axis.
+//! Visible surface elements: cells of rows within a cone around the axis.
 
 use std::f64::consts::PI;
 
 use super::outline::{Outline, Span, common, without};
 use super::surface::{Kind, Surface};
 
-/// A cell of what is seen.
+/// A visible surface element.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
     pub kind: Kind,
-    /// Length of the line of sight to it [m].
+    /// Length of the line of sight [m].
     pub sight_m: f64,
-    /// Standard deviation of those to its parts, as if they were spread evenly over sqrt(12) of it [m].
+    /// Standard deviation of the length within the element, for a uniform distribution over sqrt(12) of it [m].
     pub spread_m: f64,
-    /// Cosine of the line of sight to the surface's normal [1].
+    /// Cosine of the angle between line of sight and surface normal [1].
     pub cos: f64,
-    /// Cosine of the line of sight to the axis [1].
+    /// Cosine of the angle between line of sight and axis [1].
     pub axis_cos: f64,
     /// Solid angle [sr].
     pub sr: f64,
 }
 
-/// A cell in the plane one metre before the sensor.
+/// A cell in the plane one metre in front of the sensor.
 pub struct Cell {
     pub u: f64,
     pub v: f64,
@@ -30,7 +30,7 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The element of a surface there.
+    /// Returns the surface element that the cell shows.
     pub fn element(&self, kind: Kind, hit: impl Fn(f64, f64) -> [f64; 2]) -> Element {
         let &Cell { u, v, du, dv } = self;
         let [sight_m, cos] = hit(u, v);
@@ -49,11 +49,11 @@ impl Cell {
     }
 }
 
-/// Shows the elements of a surface inside a cone of that full angle, with so many rows to a band and so many cells to a
-/// span. A band ends where what hides the surface does.
+/// Passes the elements of a surface inside a cone of the given full angle to `take`, with `cells` rows per band and
+/// `cells` cells per span. A band ends where an occluding surface begins or ends.
 ///
-/// Rows are closer towards the ends of a band, where circles have theirs: at the sines of even angles, so that
-/// the sum over them errs with the square of their number, whatever the ends look like.
+/// Rows are denser towards the ends of a band, where circles end: they lie at the sines of equidistant angles, so
+/// that the error of the sum falls with the square of their number for any outline.
 pub fn elements(surface: &Surface, full_angle_deg: f64, cells: u32, mut take: impl FnMut(Element)) {
     let reach = libm::tan((full_angle_deg / 2.0).to_radians());
     let Some(rows) = common(&surface.outline.rows(), &[-reach, reach]) else { return };
@@ -77,7 +77,7 @@ pub fn elements(surface: &Surface, full_angle_deg: f64, cells: u32, mut take: im
     }
 }
 
-/// Rows without an end of what hides the surface among them.
+/// Divides the rows into bands without an end of an occluding surface inside.
 fn bands(surface: &Surface, rows: Span) -> Vec<Span> {
     let hidden = surface.hidden_by.iter().flat_map(Outline::rows);
     let within = hidden.filter(|row| (rows[0]..rows[1]).contains(row));
@@ -86,7 +86,7 @@ fn bands(surface: &Surface, rows: Span) -> Vec<Span> {
     ends.windows(2).map(|pair| [pair[0], pair[1]]).filter(|band| band[0] < band[1]).collect()
 }
 
-/// The parts of a row that are of a surface.
+/// Returns the parts of a row that show the surface.
 fn seen(surface: &Surface, v: f64, cone: &Span) -> Vec<Span> {
     let within = |span: &Span| common(span, cone);
     let mut spans: Vec<_> = surface.outline.spans(v).iter().filter_map(within).collect();

@@ -1,32 +1,32 @@
-//! Outlines as the sensor sees them, in the plane one metre before it: `u` to the right, `v` up.
+//! Outlines as seen from the sensor, in the plane one metre in front of it: `u` to the right, `v` up.
 //!
-//! A point (x, y, z) is seen at (x / z, y / z). A polygon stays one; discs and spheres are seen as the inside of a conic.
-//! Either meets a row of equal `v` in spans of `u` that have a closed form.
+//! A point (x, y, z) is seen at (x / z, y / z). A polygon remains a polygon; discs and spheres appear as the inside
+//! of a conic. Both intersect a row of constant `v` in spans of `u` with a closed form.
 
-/// A part of a row, from and to.
+/// Start and end of a part of a row.
 pub type Span = [f64; 2];
 
 /// A vector, or a point: to the right, up, away from the sensor [m].
 pub type Vector = [f64; 3];
 
-/// Nearer parts of what lies beside or behind the sensor are cut off [m].
+/// Distance within which parts beside or behind the sensor are cut off [m].
 const NEAREST_M: f64 = 1e-6;
 
 pub fn dot(a: &Vector, b: &Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// What lies within it is seen.
+/// Boundary of a visible region.
 #[derive(Clone, Debug)]
 pub enum Outline {
-    /// The corners of a convex polygon, in order.
+    /// Convex polygon, by its corners in order.
     Polygon(Vec<[f64; 2]>),
-    /// Where w' form w <= 0 of w = (u, v, 1), on the side to which `ahead` points.
+    /// Conic w' form w <= 0 with w = (u, v, 1), on the side to which `ahead` points.
     Conic { form: [Vector; 3], ahead: Vector },
 }
 
 impl Outline {
-    /// Of a flat convex polygon; `None` where all of it is behind the sensor.
+    /// Returns the outline of a flat convex polygon; `None` if all of it is behind the sensor.
     pub fn of_corners(corners: &[Vector]) -> Option<Self> {
         let mut ahead = Vec::new();
         for (k, a) in corners.iter().enumerate() {
@@ -43,8 +43,8 @@ impl Outline {
         (ahead.len() > 2).then_some(Outline::Polygon(ahead))
     }
 
-    /// Of a disc by its centre, its normal of length 1 and its radius [m]: the square of the distance from the centre
-    /// to where the line of sight meets the plane, times that of the cosine, has a square form.
+    /// Returns the outline of a disc with the given centre, unit normal and radius [m]. The squared distance from the
+    /// centre to the intersection of a line of sight with the plane, times the squared cosine, is a quadratic form.
     pub fn of_disc(centre: &Vector, normal: &Vector, radius_m: f64) -> Self {
         let plane = dot(centre, normal);
         let square = dot(centre, centre) - radius_m * radius_m;
@@ -57,14 +57,14 @@ impl Outline {
         Outline::Conic { form, ahead }
     }
 
-    /// Of a sphere that is not around the sensor.
+    /// Returns the outline of a sphere that does not contain the sensor.
     pub fn of_sphere(centre: &Vector, radius_m: f64) -> Self {
         let square = dot(centre, centre) - radius_m * radius_m;
         let form = symmetric(|i, j| if i == j { square } else { 0.0 } - centre[i] * centre[j]);
         Outline::Conic { form, ahead: *centre }
     }
 
-    /// The rows that it may have a part in: from and to.
+    /// Returns the range of rows that may intersect the outline.
     pub fn rows(&self) -> Span {
         match self {
             Outline::Polygon(corners) => {
@@ -84,7 +84,7 @@ impl Outline {
         }
     }
 
-    /// Its parts of a row.
+    /// Returns the parts of a row inside the outline.
     pub fn spans(&self, v: f64) -> Vec<Span> {
         match self {
             Outline::Polygon(corners) => {
@@ -122,13 +122,13 @@ impl Outline {
     }
 }
 
-/// What two spans have in common.
+/// Returns the intersection of two spans.
 pub fn common(a: &Span, b: &Span) -> Option<Span> {
     let both = [a[0].max(b[0]), a[1].min(b[1])];
     (both[0] < both[1]).then_some(both)
 }
 
-/// What is left of a span without another.
+/// Returns the parts of a span outside of another.
 pub fn without(span: &Span, other: &Span) -> Vec<Span> {
     let left = [span[0], span[1].min(other[0])];
     let right = [span[0].max(other[1]), span[1]];
@@ -139,7 +139,7 @@ fn symmetric(of: impl Fn(usize, usize) -> f64) -> [Vector; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| of(i, j)))
 }
 
-/// The two roots of a quadratic, in order.
+/// Returns the two roots of a quadratic polynomial, in ascending order.
 fn roots(a: f64, b: f64, c: f64) -> Option<Span> {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant <= 0.0 || a == 0.0 {

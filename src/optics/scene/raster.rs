@@ -1,7 +1,7 @@
-//! A mesh as the sensor sees it: of all triangles in a line of sight the nearest one counts.
+//! Rasterization of a mesh as seen from the sensor: the nearest triangle on each line of sight is visible.
 //!
-//! Laser and sensor share one point, so that what is hidden from one is hidden from the other, and in no shadow that
-//! the other sees. What is smaller than a cell of the raster counts where it lies on the cell's middle.
+//! Laser and sensor share one point, so that each illuminated point is visible and vice versa. Details smaller than a
+//! raster cell count only if they cover the cell's centre.
 
 use crate::scenario::Target;
 use crate::scenario::mesh::Mesh;
@@ -10,17 +10,17 @@ use super::element::{Cell, Element};
 use super::outline::{Vector, common, dot};
 use super::surface::{Body, Kind, Pose};
 
-/// Cells of the raster to one of the keys'.
+/// Number of raster cells per cell of the scenario key.
 const FINER: u32 = 8;
-/// Most of them along a side.
+/// Largest number of raster cells per side.
 const MOST: u32 = 4096;
 
-/// The triangles that face the sensor, where a target stands.
+/// Triangles that face the sensor, at the target's position.
 #[derive(Clone, Debug)]
 pub struct Placed(Vec<[Vector; 3]>);
 
 impl Placed {
-    /// With its nearest point at the distance of the target.
+    /// Places a mesh such that its nearest point is at the target's distance.
     pub fn new(mesh: &Mesh, target: &Target) -> Self {
         let (pose, unit_m) = (Pose::new(target, 0.0), target.mesh_unit_m);
         // The file's z points towards the sensor, which turns what goes counter-clockwise.
@@ -34,7 +34,7 @@ impl Placed {
         Placed(triangles)
     }
 
-    /// Shows its elements inside a cone of that full angle.
+    /// Passes the visible elements inside a cone of the given full angle to `take`.
     pub fn elements(&self, full_angle_deg: f64, cells: u32, mut take: impl FnMut(Element)) {
         let reach = libm::tan((full_angle_deg / 2.0).to_radians());
         let side = (cells * FINER).min(MOST) as usize;
@@ -63,13 +63,13 @@ impl Placed {
     }
 }
 
-/// Points out of the side on which corners go counter-clockwise, of no certain length.
+/// Returns the normal of a triangle on the side from which its corners are counter-clockwise, not normalized.
 fn normal([a, b, c]: &[Vector; 3]) -> Vector {
     let [b, c] = [b, c].map(|corner| [0, 1, 2].map(|axis| corner[axis] - a[axis]));
     [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]]
 }
 
-/// Even cells over a part of what is seen.
+/// A grid of equal cells over a part of the view.
 struct Raster {
     us: [f64; 2],
     vs: [f64; 2],
@@ -85,8 +85,8 @@ impl Raster {
         Cell { u, v: middle(self.vs[0], dv, place / self.side), du, dv }
     }
 
-    /// For each cell the number of the triangle that is nearest on the line of sight through its middle, from 1; 0 where
-    /// there is none.
+    /// Returns for each cell the number, from 1, of the nearest triangle on the line of sight through its centre; 0
+    /// if there is none.
     fn nearest(&self, triangles: &[[Vector; 3]]) -> Vec<u32> {
         let mut found = vec![(f64::INFINITY, 0); self.side * self.side];
         for (number, triangle) in triangles.iter().enumerate() {
@@ -119,7 +119,7 @@ impl Raster {
     }
 }
 
-/// Whether a point is inside a triangle or on its edge.
+/// Returns whether a point is inside a triangle or on its edge.
 fn holds(corners: &[[f64; 2]; 3], u: f64, v: f64) -> bool {
     let side = |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0]);
     let [a, b, c] = *corners;

@@ -1,47 +1,48 @@
-//! The surfaces of a target, as the sensor sees them.
+//! Surfaces of a target as seen from the sensor.
 
 use crate::scenario::{Shape, Target};
 
 use super::outline::{Outline, Vector, dot};
 
-/// A plane that is seen so much from its edge sends nothing back [m].
+/// Distance from the sensor below which a plane is seen edge-on and returns no light [m].
 const EDGE_ON_M: f64 = 1e-9;
 
-/// What becomes of light on a surface.
+/// Kind of reflection on a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It is diffused by Lambert's law.
+    /// Diffuse reflection by Lambert's law.
     Diffuse,
-    /// It goes back to where it comes from.
+    /// Retroreflection.
     Retro,
 }
 
-/// A surface, and what is before parts of it.
+/// A surface, and the outlines that hide parts of it.
 #[derive(Clone, Debug)]
 pub struct Surface {
     pub kind: Kind,
     pub outline: Outline,
     pub body: Body,
-    /// What lies in there is not of this surface, or hidden.
+    /// Outlines within which the surface is hidden or absent.
     pub hidden_by: Vec<Outline>,
 }
 
-/// Where a line of sight ends.
+/// Geometry at which a line of sight ends.
 #[derive(Clone, Copy, Debug)]
 pub enum Body {
-    /// On a plane: the distance from it, and its normal of length 1.
+    /// A plane, by its distance and unit normal.
     Plane { from_m: f64, normal: Vector },
-    /// On the near side of a sphere.
+    /// The near side of a sphere.
     Sphere { centre: Vector, radius_m: f64 },
 }
 
 impl Body {
-    /// The plane through a point.
+    /// Creates the plane through a point.
     pub fn plane(point: &Vector, normal: Vector) -> Self {
         Body::Plane { from_m: dot(point, &normal), normal }
     }
 
-    /// Length of a line of sight through (u, v, 1) [m], and the cosine of its angle to the surface's normal [1].
+    /// Returns the length of the line of sight through (u, v, 1) [m], and the cosine of its angle to the surface's
+    /// normal [1].
     pub fn hit(&self, u: f64, v: f64) -> [f64; 2] {
         let sight = [u, v, 1.0];
         let length = dot(&sight, &sight).sqrt();
@@ -60,7 +61,8 @@ impl Body {
     }
 }
 
-/// Turns and moves what is given as seen from the middle of a target: x to the right, y up, z away from the sensor.
+/// Rotation and translation of a target, from coordinates relative to its centre: x to the right, y up, z away from
+/// the sensor.
 pub struct Pose {
     yaw: [f64; 2],
     tilt: [f64; 2],
@@ -68,7 +70,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Of a target whose middle is at a distance [m].
+    /// Creates the pose of a target whose centre is at a distance [m].
     pub fn new(target: &Target, distance_m: f64) -> Self {
         let sincos = |deg: f64| [libm::sin(deg.to_radians()), libm::cos(deg.to_radians())];
         Pose {
@@ -78,7 +80,7 @@ impl Pose {
         }
     }
 
-    /// A direction, turned.
+    /// Rotates a direction.
     pub fn turned(&self, [x, y, z]: &Vector) -> Vector {
         let [sin, cos] = self.yaw;
         let (x, z) = (cos * x - sin * z, sin * x + cos * z);
@@ -86,14 +88,14 @@ impl Pose {
         [x, cos * y - sin * z, sin * y + cos * z]
     }
 
-    /// A point, turned and moved.
+    /// Rotates and translates a point.
     pub fn placed(&self, point: &Vector) -> Vector {
         let turned = self.turned(point);
         [0, 1, 2].map(|axis| turned[axis] + self.moved[axis])
     }
 }
 
-/// The surfaces of a target that has a form of its own; none of a mesh.
+/// Returns the surfaces of a target; none for a mesh.
 pub fn surfaces(target: &Target) -> Vec<Surface> {
     let pose = Pose::new(target, target.distance_m);
     let (x, y) = (target.length_m / 2.0, target.width_m / 2.0);
@@ -127,7 +129,7 @@ pub fn surfaces(target: &Target) -> Vec<Surface> {
     around.chain(patch.clone()).collect()
 }
 
-/// A flat rectangle, as seen from the middle of the target [m].
+/// A flat rectangle, relative to the target's centre [m].
 struct Panel<'a> {
     pose: &'a Pose,
     x: [f64; 2],
@@ -136,7 +138,7 @@ struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    /// `None` where there is nothing of it to be seen.
+    /// Returns the rectangle as a surface; `None` if it is not visible.
     fn surface(&self, kind: Kind) -> Option<Surface> {
         let ([left, right], [low, high]) = (self.x, self.y);
         let corners = [[left, low], [right, low], [right, high], [left, high]];
@@ -166,7 +168,7 @@ fn sphere(target: &Target) -> Option<Surface> {
     Some(Surface { kind: Kind::Diffuse, outline, body, hidden_by: vec![] })
 }
 
-/// Of two parallel panels the one that is nearer hides the other one.
+/// Orders two parallel panels so that the nearer one hides the other.
 fn nearer_first(one: Option<Surface>, other: Option<Surface>) -> Vec<Surface> {
     let from = |surface: &Surface| match surface.body {
         Body::Plane { from_m, .. } => from_m.abs(),

@@ -1,4 +1,4 @@
-//! What is seen of each shape, against its own integral.
+//! Tests of the visible part of each shape against its own integral.
 
 use crate::scenario::{Shape, Target};
 
@@ -20,7 +20,7 @@ fn assert_close(found: f64, expected: f64, relative: f64) {
     assert!(error.abs() < relative, "{found} for {expected}, error {error:e}");
 }
 
-/// A sum over even steps from 0 to an end, by Simpson's rule.
+/// Integrates from 0 to `end` by Simpson's rule.
 fn integral(end: f64, of: impl Fn(f64) -> f64) -> f64 {
     let (steps, step) = (20_000, end / 20_000.0);
     let weight = |k: u32| match k {
@@ -32,7 +32,7 @@ fn integral(end: f64, of: impl Fn(f64) -> f64) -> f64 {
     (0..=steps).map(|k| weight(k) * of(f64::from(k) * step)).sum::<f64>() * step / 3.0
 }
 
-/// The cone of the laser, half of it.
+/// Half angle of the laser's cone.
 fn half() -> f64 {
     10.5f64.to_radians()
 }
@@ -199,7 +199,7 @@ fn a_step_has_a_part_at_each_distance_and_the_near_one_hides_the_far_one() {
     assert_close(left.diffuse.sum() - near(&left), part(0.8) - angle_sr(0.8, 0.03), 1e-3);
 }
 
-/// Of cos^2 / r^4 dA over a strip of a plane at one metre, which is 1 / (1 + u^2 + v^2)^3.
+/// Integrates cos^2 / r^4 dA over a strip of a plane at one metre, which is 1 / (1 + u^2 + v^2)^3.
 fn integral_of_strip(u: f64, v_end: f64) -> f64 {
     let steps = 200;
     let of = |k: u32| {

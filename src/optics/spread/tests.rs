@@ -1,4 +1,4 @@
-//! Light over time, against what is exact.
+//! Tests of light over time against exact results.
 
 use std::f64::consts::PI;
 
@@ -25,7 +25,7 @@ fn budget(change: impl FnOnce(&mut Scenario)) -> Budget {
     Budget::new(&scenario, Pulse::Gaussian { sigma_ps: scenario.laser.pulse_sigma_ps })
 }
 
-/// A budget of the laser's light alone, of which one photon comes back.
+/// A budget of laser light only, with one returned photon.
 fn alone(budget: &Budget) -> Budget {
     let all = budget.laser_per_shot();
     Budget {
@@ -86,7 +86,8 @@ fn a_slope_of_distances_comes_as_the_integral_over_the_pulse_does() {
     }
 }
 
-/// The lidar equation over a cone whose lines of sight end on a plane across the axis, or nowhere.
+/// Evaluates the lidar equation over a cone whose lines of sight end on a plane perpendicular to the axis, or
+/// nowhere.
 fn closed_backscatter(air: &Air, plane_m: Option<f64>, end_m: f64) -> f64 {
     let half = 10.5f64.to_radians();
     let along = |until_m: f64| {

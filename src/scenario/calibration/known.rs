@@ -1,18 +1,19 @@
-//! The chain that a calibration takes its hits to come through.
+//! The chain that a calibration implies.
 //!
-//! Who reckons with the bins (an estimator) knows of a chain what its calibration found, and no more. A file has for
-//! each `n` the middle of the ages that give it. Those of a code density follow one another without a gap: then each
-//! interval ends as far behind its middle as it begins before it, and all follow from where the first one begins,
-//! at tap 0. Ages that do not add up so are taken to change from one `n` to the next half-way.
+//! Estimators know the chain's bins only through the calibration. A calibration file lists, for each ones count `n`,
+//! the midpoint of the ages that produce it. A code-density test gives contiguous intervals, so each interval ends as
+//! far after its midpoint as it starts before it, and all of them follow from the start of the first one, at tap 0.
+//! If the midpoints are not consistent with contiguous intervals, the boundaries are taken half-way between
+//! neighbouring ages.
 
 use crate::firmware::carry_chain::Delays;
 use crate::kernel::Time;
 
-/// By how much an interval may end before it begins, for the digits of a file [ps].
+/// Largest overlap of neighbouring intervals that is attributed to rounding in the file [ps].
 const ROUNDING_PS: f64 = 0.1;
 
-/// A chain in order with tap `n` reached where `n - 1` ends, from the age for each `n` [ps] and when tap 0 is
-/// reached. `None` without ages of a chain.
+/// Builds an ordered chain whose tap `n` is reached where interval `n - 1` ends, from the age for each `n` [ps] and
+/// the time at which tap 0 is reached. Returns `None` if the ages do not describe a chain.
 pub fn chain(ages_ps: &[f64], tap_0: Time) -> Option<Delays> {
     let tap_0_ps = tap_0.fs() as f64 * 1e-3;
     // No hit is as young.
@@ -23,7 +24,7 @@ pub fn chain(ages_ps: &[f64], tap_0: Time) -> Option<Delays> {
     Delays::new(Time::from_fs(u64::try_from(*ends.first()?).ok()?), &widths)
 }
 
-/// Where each interval ends if all follow one another from `begin_ps` on [ps].
+/// Returns the end of each interval, if contiguous intervals from `begin_ps` have the given midpoints [ps].
 fn intervals(ages_ps: &[f64], begin_ps: f64) -> Option<Vec<f64>> {
     let mut begin = begin_ps;
     let ends = ages_ps.iter().map(|age| {
@@ -34,7 +35,8 @@ fn intervals(ages_ps: &[f64], begin_ps: f64) -> Option<Vec<f64>> {
     ends.collect()
 }
 
-/// Where each ends if they change half-way; of ages out of order, the highest before [ps].
+/// Returns the half-way boundaries between neighbouring ages; ages that decrease are raised to the previous maximum
+/// [ps].
 fn halfway(ages_ps: &[f64]) -> Vec<f64> {
     let mut last = 0.0;
     let mut ends: Vec<_> = ages_ps
@@ -61,7 +63,7 @@ mod tests {
         Delays::new(Time::from_ns(2), &delays).unwrap()
     }
 
-    /// The middle of each interval of ages, to the digits of a file.
+    /// Midpoint of each interval of ages, rounded as in a calibration file.
     fn middles(delays: &Delays) -> Vec<f64> {
         let middle = |n: usize| match n {
             0 => 1.0,

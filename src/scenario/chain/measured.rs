@@ -1,23 +1,24 @@
-//! A chain from what was measured of it: delays of taps, or the counts of a code-density test.
+//! Measured chains: tap delays, or the counts of a code-density test.
 
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
 use crate::firmware::carry_chain::LENGTHS;
 use crate::kernel::Time;
 
-/// Columns of a file of delays.
+/// Columns of a delay file.
 const DELAYS: [&str; 2] = ["tap", "delay_ps"];
-/// Columns of a file of counts.
+/// Columns of a count file.
 const COUNTS: [&str; 2] = ["n", "count"];
 /// Longest delay of a tap [ps].
 const LONGEST_PS: f64 = 1e5;
-/// Largest count, so that sums and products of counts are exact.
+/// Largest count; sums and products of counts are then exact.
 const MOST: u64 = 1 << 32;
 
-/// The delay of each tap [ps].
+/// Parses the delay of each tap [ps].
 ///
 /// # Errors
-/// When a row is not the next tap's, a delay is negative or no number, or there are not as many as a chain has.
+/// If taps are not numbered consecutively, a delay is negative or not a number, or the number of taps is out of
+/// range.
 pub fn delays_ps(source: &str, text: &str) -> Result<Vec<f64>> {
     let mut delays = Vec::new();
     let mut input = CsvInput::new(source, text, &DELAYS)?;
@@ -32,11 +33,11 @@ pub fn delays_ps(source: &str, text: &str) -> Result<Vec<f64>> {
     Ok(delays)
 }
 
-/// The counts of a code-density test by the number of ones, from 0 on.
+/// Parses the hit counts of a code-density test, indexed by ones count from 0.
 ///
 /// # Errors
-/// When a row is not the next one, a count is no whole number, or there are not as many as a chain has, and
-/// one; or when all are zero.
+/// If ones counts are not consecutive, a count is not a whole number, their number does not fit a chain, or all
+/// counts are zero.
 pub fn counts(source: &str, text: &str) -> Result<Vec<u64>> {
     let mut counts = Vec::new();
     let mut input = CsvInput::new(source, text, &COUNTS)?;
@@ -57,8 +58,8 @@ pub fn counts(source: &str, text: &str) -> Result<Vec<u64>> {
     Ok(counts)
 }
 
-/// The delays of taps that give such counts where hits are spread evenly over a period: a count's part of all is
-/// its part of the period. Taps past the last that was hit are not known, and are left out [ps].
+/// Computes tap delays from the counts of a code-density test with hits uniform over `period`: each delay is the
+/// period times its share of the hits. Taps beyond the last one that was hit are unknown and left out [ps].
 pub fn delays_of_counts_ps(counts: &[u64], period: Time) -> Vec<f64> {
     let last = counts.iter().rposition(|&count| count > 0).unwrap_or(0);
     let all: u128 = counts.iter().map(|&count| u128::from(count)).sum::<u128>().max(1);
@@ -74,7 +75,7 @@ pub fn delays_of_counts_ps(counts: &[u64], period: Time) -> Vec<f64> {
     delays.collect()
 }
 
-/// That the row is the next one, and not one too many.
+/// Checks that a row has the next number, and that the list is not too long.
 fn in_turn(input: &CsvInput, next: usize, most: usize) -> Result<()> {
     if next == most {
         return Err(input.fault(0, format!("expected {most} rows at most")).into());

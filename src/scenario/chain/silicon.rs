@@ -1,4 +1,4 @@
-//! Delays as silicon has them, drawn from a seed of their own.
+//! Random model of the tap delays of a carry chain in silicon, with its own seed.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -10,10 +10,10 @@ use crate::files::toml::Checked;
 
 /// Taps of a CARRY4 (UG474).
 const TAPS_OF_SLICE: usize = 4;
-/// How far the parts of a slice may be from one in sum [1].
+/// Tolerance on the sum of a slice's weights, which should be one [1].
 const ROUNDING: f64 = 1e-3;
 
-/// What the random numbers of a chain are for; each has a stream of its own.
+/// Purpose of a random stream; each has its own.
 #[derive(Clone, Copy)]
 enum Draw {
     Slices = 1,
@@ -21,32 +21,32 @@ enum Draw {
     Parts = 3,
 }
 
-/// Delays as silicon has them: slices of unequal length, four unequal taps in each, borders of clock
-/// regions, and the skew of the clock. Each is off by default, and the taps are then all alike.
+/// Random model of a chain in silicon: slices of unequal delay, four unequal taps per slice, clock region borders,
+/// and clock skew. Each effect is off by default, which makes all taps equal.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Silicon {
-    /// CARRY4 in the chain, of four taps each.
+    /// Number of CARRY4 in the chain, of four taps each.
     #[schemars(range(min = 4, max = 500), extend("unit" = "CARRY4", "source" = "hardware.md 2: 169 cover 8 ns"))]
     pub slices: usize,
     /// Mean delay of a CARRY4 from carry in to carry out.
     #[schemars(range(min = 1.0, max = 1000.0), extend("unit" = "ps", "source" = "Kintex-7 -2, slow corner: 47 to 48"))]
     pub slice_ps: f64,
-    /// Standard deviation of the CARRY4s' delays over their mean; they are log-normal.
+    /// Relative standard deviation of the CARRY4 delays, which are log-normal.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 0.5), extend("unit" = "1", "source" = "measured: 0.21 (7 series) to 0.27 (Spartan-6)"))]
     pub slice_spread: f64,
-    /// Correlation of the delays of neighbouring CARRY4s, which falls off as a power with their distance.
+    /// Correlation between the delays of neighbouring CARRY4; it decays as a power of their distance.
     #[serde(default)]
     #[schemars(range(min = -0.5, max = 0.9), extend("unit" = "1", "source" = "measured: -0.30 (7 series), -0.17 to 0.08 (Spartan-6)"))]
     pub slice_correlation: f64,
-    /// Parts of a CARRY4's delay from one of its taps to the next that is reached; their sum is one.
+    /// Fractions of a CARRY4's delay from each of its taps to the next one reached; their sum is one.
     #[serde(default = "alike")]
     #[schemars(length(min = 4, max = 4), inner(range(min = 0.0, max = 1.0)))]
     #[schemars(extend("unit" = "1", "source" = "measured: 69, 6, 65, 3 hits by tap (7 series)"))]
     pub weights: Vec<f64>,
-    /// How far these parts are from that in each CARRY4: standard deviation over mean of each before their sum
-    /// is made one again; log-normal.
+    /// Relative standard deviation of these fractions from one CARRY4 to another, before they are normalized;
+    /// log-normal.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "DNL of 1.06 LSB rms (7 series), beside slice_spread"))]
     pub weight_spread: f64,
@@ -55,19 +55,19 @@ pub struct Silicon {
     #[schemars(length(min = 4, max = 4), inner(range(min = 0, max = 3)))]
     #[schemars(extend("unit" = "CO", "source" = "prjxray: CO3 < CO1 < CO2 < CO0"))]
     pub co_order: Vec<usize>,
-    /// Taps from one border of a clock region to the next; 0 for none.
+    /// Number of taps between borders of clock regions; 0 for none.
     #[serde(default)]
     #[schemars(range(min = 0, max = 2000), extend("unit" = "tap", "source" = "UG474: 50 CLB rows, 200"))]
     pub border_every: usize,
-    /// Delay on top where the chain crosses a border.
+    /// Additional delay at each border of a clock region.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "ps", "source" = "measured: no more than a half of a slice (7 series)"))]
     pub border_ps: f64,
-    /// How far the clock's arrival at a tap's register is from the mean, Gaussian.
+    /// Standard deviation of the clock's arrival time at a tap's register, Gaussian.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0), extend("unit" = "ps rms", "source" = "choice: docs/model.md"))]
     pub skew_ps: f64,
-    /// Seed of what is drawn: another seed is another place on the chip.
+    /// Seed of the random delays; another seed models another location on the chip.
     #[serde(default)]
     #[schemars(extend("unit" = "1", "source" = "choice"))]
     pub seed: u64,
@@ -82,10 +82,10 @@ fn in_order() -> Vec<usize> {
 }
 
 impl Silicon {
-    /// Delay before tap 0, beside the chain's offset, and the delay of each tap [ps].
+    /// Computes the delay before tap 0, in addition to the chain's offset, and the delay of each tap [ps].
     ///
     /// # Errors
-    /// When the weights are no parts of one, or the order names an output twice.
+    /// If the weights do not add up to one, or the order does not list each output once.
     pub fn delays_ps(&self, checked: &Checked) -> Result<(f64, Vec<f64>)> {
         let sum: f64 = self.weights.iter().sum();
         if (sum - 1.0).abs() > ROUNDING {
@@ -118,7 +118,7 @@ impl Silicon {
         Ok((moved(0), (0..taps).map(delay).collect()))
     }
 
-    /// Delay of each CARRY4 [ps].
+    /// Draws the delay of each CARRY4 [ps].
     fn slices_ps(&self) -> Vec<f64> {
         // A log-normal delay of that mean and spread, from a Gaussian with a correlation that becomes theirs.
         let variance = libm::log1p(self.slice_spread * self.slice_spread);
@@ -137,7 +137,7 @@ impl Silicon {
         delays.collect()
     }
 
-    /// Parts of each CARRY4's delay.
+    /// Draws the fractions of each CARRY4's delay.
     fn parts(&self) -> Vec<Vec<f64>> {
         let sigma = libm::log1p(self.weight_spread * self.weight_spread).sqrt();
         let draws = self.gaussian(Draw::Parts, TAPS_OF_SLICE * self.slices);
@@ -150,13 +150,14 @@ impl Silicon {
         slices.collect()
     }
 
-    /// Skew of each tap's clock [ps].
+    /// Draws the clock skew of each tap [ps].
     fn skews_ps(&self) -> Vec<f64> {
         let draws = self.gaussian(Draw::Skew, TAPS_OF_SLICE * self.slices);
         draws.into_iter().map(|draw| self.skew_ps * draw).collect()
     }
 
-    /// Standard Gaussian draws, by Box and Muller: one effect more or less leaves the others as they are.
+    /// Draws standard Gaussian numbers by the Box-Muller transform, from a stream of their own, so that enabling one
+    /// effect does not change the others.
     fn gaussian(&self, what: Draw, count: usize) -> Vec<f64> {
         let mut key = *b"........tofsim carry chain v1...";
         key[..8].copy_from_slice(&self.seed.to_le_bytes());

@@ -1,14 +1,15 @@
-//! How long a chain is beside the period of its clock.
+//! Length limits of a chain, relative to the clock period.
 
 use crate::firmware::carry_chain::Delays;
 use crate::kernel::Time;
 
-/// Periods of `clk_sys` in which the last tap must be reached: the fall that `spad_rst` makes must have left
-/// the chain when the first edge after the laser edge samples the next rise, and the decoder's ages reach
-/// so far.
+/// Number of `clk_sys` periods within which the last tap must be reached: the falling edge due to `spad_rst` must
+/// have left the chain when the first edge after the laser edge samples the next rising edge, and the decoder's ages
+/// extend no further.
 const LONGEST: u64 = 2;
 
-/// Of a chain whose last tap is not reached within two periods of the clock: what would do.
+/// Checks that the last tap is reached within two clock periods; if not, returns a message that suggests a clock
+/// frequency.
 pub fn too_long(delays: &Delays, cycle: Time) -> Option<String> {
     let (longest, most) = (delays.longest(), Time::from_fs(LONGEST * cycle.fs()));
     if longest <= most {
@@ -22,11 +23,11 @@ pub fn too_long(delays: &Delays, cycle: Time) -> Option<String> {
     ))
 }
 
-/// Of a chain that takes less than a period of the clock from tap 0 to the end of the last tap: what would do.
+/// Checks that the chain covers a clock period, from tap 0 to the end of the last tap; if not, returns a message that
+/// suggests a delay factor or a clock frequency.
 ///
-/// A hit is seen at the first edge after it reaches tap 0, at an age of up to a period more than tap 0's.
-/// What is older then than the chain is long has run through all taps, and the edge does not tell by how
-/// much.
+/// A hit is sampled at the first edge after it reaches tap 0, so its age reaches up to one period more than that of
+/// tap 0. A hit older than the chain's length has passed all taps, and its age cannot be resolved.
 pub fn too_short(delays: &Delays, cycle: Time) -> Option<String> {
     let (taps, span) = (delays.taps(), delays.span());
     if span >= cycle {

@@ -1,4 +1,4 @@
-//! Chain files: what they come to, and what is refused.
+//! Tests of chain files: their delays, and which files are refused.
 
 use std::path::PathBuf;
 

@@ -1,19 +1,19 @@
-//! How the delays of a chain go with its conditions over time.
+//! Scale factor of a chain's delays over time.
 
 use crate::kernel::Time;
 
-/// How much faster or slower than its [`Delays`] a chain is, over time.
+/// Scale factor of a chain's [`Delays`] as a piecewise linear function of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pace(Vec<(Time, f64)>);
 
 impl Pace {
-    /// Of points in the order of their times: how many times as long as the chain's each delay is then. Between
-    /// two points it is linear, before the first and after the last it stands still.
+    /// Creates the function from points in order of time, each with a scale factor. It is linear between points, and
+    /// constant before the first and after the last.
     pub fn new(points: Vec<(Time, f64)>) -> Self {
         Pace(points)
     }
 
-    /// How many times as long each delay is at `now`.
+    /// Returns the scale factor at `now` [1].
     pub fn at(&self, now: Time) -> f64 {
         let after = self.0.partition_point(|(at, _)| *at <= now);
         let Some(&(then, from)) = after.checked_sub(1).and_then(|before| self.0.get(before)) else {

@@ -1,4 +1,4 @@
-//! Temperature and supply over time.
+//! Profiles of temperature and supply over time.
 
 use std::ops::RangeInclusive;
 
@@ -7,13 +7,13 @@ use serde::Serialize;
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
 
-/// Temperatures that a commercial part is made for (DS182), as the keys have it [degC].
+/// Temperature range of a commercial part (DS182), the same as for the keys [degC].
 pub const DIE_C: RangeInclusive<f64> = 0.0..=85.0;
-/// What the supply may be off its nominal voltage by (DS182), as the keys have it [mV].
+/// Tolerance of the supply voltage (DS182), the same as for the keys [mV].
 pub const SUPPLY_MV: RangeInclusive<f64> = -30.0..=30.0;
 /// Columns of a profile's file.
 const HEADER: [&str; 3] = ["time_s", "temperature_c", "supply_mv"];
-/// Most moments of a profile.
+/// Largest number of rows of a profile.
 const MOST: usize = 100_000;
 
 /// Conditions of the die at one time.
@@ -23,16 +23,16 @@ pub struct Moment {
     pub time_s: f64,
     /// Temperature of the die [degC].
     pub temperature_c: f64,
-    /// Supply of the fabric less its nominal voltage [mV].
+    /// Deviation of the fabric's supply from its nominal voltage [mV].
     pub supply_mv: f64,
 }
 
-/// Moments in the order of their times, one at least.
+/// Conditions in order of time, at least one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile(Vec<Moment>);
 
 impl Profile {
-    /// An even ramp of the temperature, with so many moments, two at least.
+    /// Creates a linear temperature ramp of `moments` points, at least two.
     pub fn ramp(from_c: f64, to_c: f64, duration_s: f64, moments: usize, supply_mv: f64) -> Self {
         let steps = moments.max(2) - 1;
         let at = |k: usize| {
@@ -43,11 +43,11 @@ impl Profile {
         Profile((0..=steps).map(at).collect())
     }
 
-    /// From CSV with the columns `time_s`, `temperature_c` and `supply_mv`.
+    /// Parses CSV with the columns `time_s`, `temperature_c` and `supply_mv`.
     ///
     /// # Errors
-    /// Naming line and column of what is no number, of a time that is not after the one before, and of what a
-    /// part is not made for.
+    /// The line and column of a value that is not a number, of a time that is not later than its predecessor, or of
+    /// conditions outside the part's specification.
     pub fn parse(source: &str, text: &str) -> Result<Self> {
         let mut moments: Vec<Moment> = Vec::new();
         let mut input = CsvInput::new(source, text, &HEADER)?;
@@ -79,12 +79,12 @@ impl Profile {
         Ok(Profile(moments))
     }
 
-    /// All of them.
+    /// Returns the conditions at all listed times.
     pub fn moments(&self) -> &[Moment] {
         &self.0
     }
 
-    /// The conditions at any time, linear between two moments.
+    /// Interpolates the conditions at `time_s`, linearly between two rows.
     pub fn at(&self, time_s: f64) -> Moment {
         let after = self.0.partition_point(|moment| moment.time_s <= time_s);
         let before = self.0[after.max(1) - 1];
@@ -98,7 +98,7 @@ impl Profile {
         }
     }
 
-    /// Least and largest temperature [degC].
+    /// Returns the lowest and highest temperature [degC].
     pub fn temperatures_c(&self) -> [f64; 2] {
         let all = self.0.iter().map(|moment| moment.temperature_c);
         [all.clone().fold(f64::INFINITY, f64::min), all.fold(f64::NEG_INFINITY, f64::max)]

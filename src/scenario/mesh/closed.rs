@@ -1,4 +1,4 @@
-//! Whether triangles are the surface of a body, with its outside outside.
+//! Check that triangles form a closed surface with outward normals.
 
 use std::collections::HashMap;
 
@@ -6,21 +6,20 @@ use crate::error::{Input, Result};
 
 use super::facets::{Facets, Point};
 
-/// Triangles at an edge.
+/// Triangles that share an edge.
 #[derive(Clone, Copy, Default)]
 struct Sides {
-    /// That go along it one way, less those that go the other.
+    /// Triangles that use the edge forwards, minus backwards.
     excess: i32,
     all: u32,
-    /// One of them.
+    /// Index of one of the triangles.
     triangle: usize,
 }
 
-/// Refuses triangles with an edge that as many do not go along one way as the other, and a volume of which the inside
-/// is outside.
+/// Checks that every edge is used equally often in both directions, and that the enclosed volume is positive.
 ///
 /// # Errors
-/// Naming line or triangle, the edge or the volume, and what was expected.
+/// The line or triangle at fault, with the edge or the volume and what was expected.
 pub fn check(source: &str, facets: &Facets) -> Result<()> {
     let mut edges: HashMap<[[u64; 3]; 2], Sides> = HashMap::new();
     let mut volume = 0.0;
@@ -57,14 +56,14 @@ pub fn check(source: &str, facets: &Facets) -> Result<()> {
     Err(Input::new(source, expected).field("volume").value(volume).into())
 }
 
-/// Six times the volume below a triangle, as seen from the origin.
+/// Computes six times the signed volume of the tetrahedron between a triangle and the origin.
 fn signed_volume([a, b, c]: &[Point; 3]) -> f64 {
     a[0] * (b[1] * c[2] - b[2] * c[1])
         + a[1] * (b[2] * c[0] - b[0] * c[2])
         + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
-/// Equal for the same corner, whichever zero it has.
+/// Returns the bits of a corner's coordinates, with negative zero mapped to zero.
 fn key(point: &Point) -> [u64; 3] {
     point.map(|number| (number + 0.0).to_bits())
 }

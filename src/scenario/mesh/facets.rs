@@ -1,35 +1,35 @@
-//! Triangles as a file has them, with their places in it.
+//! Triangles of a mesh file, with their positions in it.
 
 use crate::error::{Input, Result};
 
-/// A point as the file has it: x to the right, y up, z towards the sensor.
+/// A corner in the file's unit: x to the right, y up, z towards the sensor.
 pub type Point = [f64; 3];
 
-/// Most triangles of a mesh.
+/// Largest number of triangles of a mesh.
 const MOST_TRIANGLES: usize = 1_000_000;
 
-/// Furthest that a corner may be from the origin, in the file's unit; the squares of what is further need not be numbers.
+/// Largest coordinate of a corner, in the file's unit; squares of larger numbers might overflow.
 const FURTHEST: f64 = 1e6;
 
-/// What a file has, before it is known to be a surface.
+/// Triangles of a file, not yet checked to form a surface.
 #[derive(Debug, Default)]
 pub struct Facets {
     pub corners: Vec<[Point; 3]>,
-    /// Where in the file each of them is.
+    /// Position of each triangle in the file.
     pub places: Vec<Place>,
 }
 
-/// A place in a file.
+/// A position in a file.
 #[derive(Clone, Copy, Debug)]
 pub enum Place {
-    /// A line of text, from 1.
+    /// Line number of a text file, from 1.
     Line(usize),
-    /// A triangle of a binary file, from 1.
+    /// Triangle number of a binary file, from 1.
     Triangle(usize),
 }
 
 impl Place {
-    /// A fault there.
+    /// Creates an error at this position.
     pub fn fault(self, source: &str, expected: impl std::fmt::Display) -> Input {
         let fault = Input::new(source, expected);
         match self {
@@ -55,18 +55,18 @@ impl Facets {
     }
 }
 
-/// The lines of a text with their numbers, from 1; bytes that are no UTF-8 may stand in names and comments.
+/// Splits a text into lines, numbered from 1. Names and comments that are not UTF-8 are replaced.
 pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.lines().enumerate().map(|(line, text)| (line + 1, text))
 }
 
-/// The words of a line with their columns, from 1.
+/// Splits a line into words, with their columns from 1.
 pub fn words(line: &str) -> impl Iterator<Item = (usize, &str)> {
     let column = |word: &str| word.as_ptr() as usize - line.as_ptr() as usize + 1;
     line.split_ascii_whitespace().map(move |word| (column(word), word))
 }
 
-/// Three numbers in a row.
+/// Parses three numbers as a point.
 pub fn point<'a>(
     source: &str,
     line: usize,

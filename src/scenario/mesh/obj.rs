@@ -1,12 +1,12 @@
-//! Wavefront OBJ: corners (`v`) and the faces between them (`f`); colour, normals, texture and groups are passed over.
+//! Wavefront OBJ: corners (`v`) and faces (`f`). Colours, normals, textures and groups are ignored.
 //!
-//! A face of more than three corners is taken apart from its first one, as convex ones may be.
+//! A face with more than three corners is split into a fan from its first corner, which is correct for convex faces.
 
 use crate::error::{Input, Result};
 
 use super::facets::{Facets, Place, Point, lines, point, words};
 
-/// What a file may have beside, which makes no surface.
+/// Statements that are ignored, because they do not define the surface.
 const PASSED_OVER: [&str; 14] = [
     "vt",
     "vn",
@@ -82,7 +82,7 @@ fn statement(
     Ok(())
 }
 
-/// The corner that `3`, `3/1`, `3//2` or `-1` stands for; a negative number counts from the last one before.
+/// Looks up the corner that `3`, `3/1`, `3//2` or `-1` refers to; negative numbers count back from the last corner.
 fn corner(corners: &[Point], word: &str) -> Option<Point> {
     let number: i64 = word.split('/').next()?.parse().ok()?;
     let index = match number {

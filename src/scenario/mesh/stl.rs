@@ -1,17 +1,17 @@
-//! STL, in ASCII or binary. The normals that a file states are passed over: the turn of the corners says what is
-//! outside, as it does where both are right.
+//! STL, in ASCII or binary. The file's normals are ignored: the orientation of the corners defines the outside, and
+//! agrees with the normals in a valid file.
 
 use crate::error::{Input, Result};
 
 use super::facets::{Facets, Place, Point, lines, point, words};
 
-/// Bytes before the count of a binary file.
+/// Length of the header of a binary file [bytes].
 const HEADER: usize = 80;
-/// Bytes up to its first triangle.
+/// Offset of the first triangle of a binary file [bytes].
 const FIRST: usize = HEADER + 4;
-/// Bytes of a triangle: normal, three corners, and two that mean nothing.
+/// Size of a triangle: normal, three corners and an unused attribute [bytes].
 const TRIANGLE: usize = 50;
-/// Where the corners of a triangle begin.
+/// Offset of the corners in a triangle [bytes].
 const CORNERS: usize = 12;
 
 pub fn parse(source: &str, bytes: &[u8]) -> Result<Facets> {

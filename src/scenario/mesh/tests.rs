@@ -1,8 +1,8 @@
-//! Meshes of each format, and what is refused.
+//! Tests of mesh files: each format, and which files are refused.
 
 use super::*;
 
-/// The quads of a cube of side 2 about the origin, corners counter-clockwise from outside, as lines of an OBJ file.
+/// The six faces of a cube of side 2 about the origin, counter-clockwise from outside, as lines of an OBJ file.
 const CUBE: &str = "\
 # a cube
 mtllib cube.mtl
@@ -27,19 +27,19 @@ f 2 3 7 6
 f 1 5 8 4
 ";
 
-/// Of triangles that are known to be a surface.
+/// Creates a mesh from triangles that are known to be closed.
 pub fn of(triangles: Vec<[Point; 3]>) -> Mesh {
     let bytes = binary(&triangles);
     parse("made.stl", &bytes).expect("a closed surface");
     Mesh { triangles }
 }
 
-/// A cube, from lines of OBJ.
+/// Creates a cube from OBJ.
 pub fn cube() -> Mesh {
     parse("cube.obj", CUBE.as_bytes()).unwrap()
 }
 
-/// The same triangles in ASCII STL.
+/// Formats triangles as ASCII STL.
 fn ascii(triangles: &[[Point; 3]]) -> String {
     let mut text = "solid made for a test\n".to_owned();
     for triangle in triangles {
@@ -52,7 +52,7 @@ fn ascii(triangles: &[[Point; 3]]) -> String {
     text + "endsolid\n"
 }
 
-/// The same in binary STL.
+/// Formats triangles as binary STL.
 pub fn binary(triangles: &[[Point; 3]]) -> Vec<u8> {
     let mut bytes = b"solid in name only".to_vec();
     bytes.resize(80, b' ');

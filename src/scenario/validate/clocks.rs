@@ -1,4 +1,4 @@
-//! Whether the part's PLL can make the clocks.
+//! Checks of the PLL's settings against the limits of the part.
 
 use std::ops::RangeInclusive;
 
@@ -6,23 +6,24 @@ use crate::error;
 use crate::files::toml::Checked;
 use crate::scenario::model::{Part, Pll};
 
-/// What a part's PLL can do.
+/// Limits of a part's PLL.
 struct Limits {
-    /// Its primitive.
+    /// Name of the PLL primitive.
     name: &'static str,
-    /// Oscillator of the board [Hz].
+    /// Frequency of the board's oscillator [Hz].
     input_hz: RangeInclusive<u64>,
-    /// Phase detector [Hz].
+    /// Frequency at the phase detector [Hz].
     detector_hz: RangeInclusive<u64>,
-    /// Oscillator of the PLL [Hz].
+    /// Frequency of the VCO [Hz].
     vco_hz: RangeInclusive<u64>,
-    /// `clk_laser`, the faster of its outputs [Hz].
+    /// Highest frequency of `clk_laser`, the faster output [Hz].
     fastest_hz: u64,
-    /// Feedback and input dividers, where they are those of the keys.
+    /// Ranges of the keys `multiply` and `divide`.
     dividers: [RangeInclusive<u64>; 2],
 }
 
-/// Speed grade -2, DS182: PLL switching characteristics; `clk_laser` is limited by its global clock buffer.
+/// Limits of a Kintex-7 of speed grade -2 (DS182, PLL switching characteristics); `clk_laser` is limited by its
+/// global clock buffer.
 const KINTEX_7: Limits = Limits {
     name: "a PLLE2",
     input_hz: 19_000_000..=800_000_000,
@@ -32,7 +33,7 @@ const KINTEX_7: Limits = Limits {
     dividers: [2..=64, 1..=56],
 };
 
-/// FPGA-DS-02012: sysCLOCK PLL timing.
+/// Limits of an ECP5 (FPGA-DS-02012, sysCLOCK PLL timing).
 const ECP5: Limits = Limits {
     name: "an EHXPLLL",
     input_hz: 8_000_000..=400_000_000,
@@ -42,7 +43,7 @@ const ECP5: Limits = Limits {
     dividers: [1..=128, 1..=128],
 };
 
-/// Most that a divider of an ECP5 divides by.
+/// Largest divider of an ECP5.
 const MOST_OF_ECP5: u64 = 128;
 
 /// A key of the table `pll`.
@@ -56,16 +57,16 @@ static MULTIPLY: Key = Key { name: "pll.multiply", field: |pll| &mut pll.multipl
 static DIVIDE: Key = Key { name: "pll.divide", field: |pll| &mut pll.divide };
 static OUTPUT: Key = Key { name: "pll.output_divide", field: |pll| &mut pll.output_divide };
 
-/// Values of a divider.
+/// Range in which a fitting divider is searched.
 const VALUES: RangeInclusive<u64> = 1..=128;
 
-/// A key and what is expected of it.
+/// A key at fault, and what was expected of it.
 type Fault = (&'static Key, String);
 
-/// Refuses dividers that the part does not have, or that have it run outside its limits.
+/// Checks that the part has the dividers, and that they keep its PLL within its limits.
 ///
 /// # Errors
-/// The key, its value, what was expected, and a value that fits if that of one divider alone can.
+/// The key, its value, what was expected, and, if changing one divider suffices, a value that fits.
 pub(super) fn check(pll: &Pll, checked: &Checked) -> error::Result<()> {
     let Err((key, expected)) = limits(pll) else { return Ok(()) };
     let others = [key, &MULTIPLY, &DIVIDE, &OUTPUT];
@@ -77,7 +78,7 @@ pub(super) fn check(pll: &Pll, checked: &Checked) -> error::Result<()> {
     Err(checked.fault(key.name, expected).value(value).into())
 }
 
-/// The value of a divider nearest to the present one that would make all fit.
+/// Returns the value of one divider that satisfies all limits and is nearest to the present value.
 fn fitting(pll: &Pll, key: &Key) -> Option<u64> {
     let mut pll = pll.clone();
     let now = *(key.field)(&mut pll);
@@ -127,7 +128,7 @@ fn limits(pll: &Pll) -> Result<(), Fault> {
     within(&DIVIDE, "the phase detector", hz, &part.detector_hz)
 }
 
-/// An ECP5's input divider. Its loop is closed over `clk_laser`, which is the oscillator times
+/// Computes the input divider of an ECP5, whose loop is closed over `clk_laser`: the oscillator's frequency times
 /// CLKFB_DIV / CLKI_DIV.
 fn ecp5_dividers(pll: &Pll) -> Result<u64, Fault> {
     let (feedback, input) = (2 * pll.multiply, pll.divide * pll.output_divide);

@@ -1,13 +1,16 @@
-//! What the keys of a target must be to one another.
+//! Checks of the target's keys that involve more than one key.
 
 use crate::error::Result;
 use crate::files::toml::Checked;
 use crate::scenario::model::{Shape, Target};
 
-/// A flat target is seen from the front [deg].
+/// Largest rotation of a flat target, so that its front faces the sensor [deg].
 const MOST_TURNED_DEG: f64 = 89.0;
 
-/// Checks what its shape makes of them.
+/// Checks the keys that the target's shape uses.
+///
+/// # Errors
+/// The first key that violates a constraint.
 pub fn check(target: &Target, checked: &Checked) -> Result<()> {
     let fault = |key: &str, value: &dyn std::fmt::Display, expected: String| {
         Err(checked.fault(key, expected).value(value).into())

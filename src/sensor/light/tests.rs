@@ -1,4 +1,4 @@
-//! Draws that are not used move nothing, and waits are those of the rates.
+//! Tests that unused draws have no effect, and that waiting times match the rates.
 
 use super::*;
 use crate::optics::Budget;
@@ -11,7 +11,7 @@ fn optics() -> Light {
     Light::Optics(Box::new(Optics::new(Hazard::new(&budget), Hazard::dark(&budget), 1)))
 }
 
-/// First avalanches of ten shots, with `more` further ones drawn in each, and causes or not.
+/// Returns the first avalanches of ten shots, with `more` further avalanches drawn in each, and optionally causes.
 fn first_avalanches(more: usize, causes: bool) -> Vec<Time> {
     let mut light = optics();
     light.begin_frame(3);
@@ -53,7 +53,7 @@ fn further_avalanches_depend_on_the_shot_alone() {
     assert_eq!(further(0), further(4));
 }
 
-/// Times from re-arming, 20 ns into a shot, to the next avalanche [ns].
+/// Returns the times from rearming, 20 ns into a shot, to the next avalanche [ns].
 fn waits_after_dead_time(shots: u64) -> Vec<f64> {
     let mut light = optics();
     let wait = |shot: u64| {

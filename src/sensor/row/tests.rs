@@ -29,7 +29,7 @@ fn an_avalanche_traps_a_carrier_with_its_chance_and_for_an_exponential_time() {
     assert!((long - (-2.0f64).exp()).abs() < 4.0 * 0.34 / trapped.sqrt(), "{long}");
 }
 
-/// Traps of two kinds.
+/// Effects with two kinds of trap.
 fn two_kinds(share: f64) -> Effects {
     Effects {
         afterpulse_probability: 0.6,
@@ -40,7 +40,7 @@ fn two_kinds(share: f64) -> Effects {
     }
 }
 
-/// How long the carriers of so many avalanches are trapped, in rising order [fs].
+/// Returns the lifetimes of the carriers trapped by `avalanches` avalanches, in ascending order [fs].
 fn held_fs(effects: &Effects, avalanches: u64) -> Vec<u64> {
     let mut row = row(1, effects.clone());
     let mut held = Vec::new();
@@ -56,7 +56,7 @@ fn held_fs(effects: &Effects, avalanches: u64) -> Vec<u64> {
     held
 }
 
-/// Kolmogorov's statistic of times against effects, which chance makes larger than 1.95 once in a thousand times.
+/// Computes the Kolmogorov statistic of lifetimes; it exceeds 1.95 with a probability of 0.001.
 fn kolmogorov(held_fs: &[u64], effects: &Effects) -> f64 {
     let count = held_fs.len() as f64;
     let off = held_fs.iter().enumerate().map(|(k, &fs)| {
@@ -167,7 +167,7 @@ fn what_a_shot_draws_does_not_hang_on_how_much_the_one_before_drew() {
     assert!(release(1).last().is_some_and(|trapped| trapped.len() > 1));
 }
 
-/// Effects of a row of which those places are on the TDC.
+/// Effects of a row whose SPADs `on_tdc` are connected to the TDC.
 fn whole_row(on_tdc: std::ops::Range<usize>, crosstalk_probability: f64) -> Effects {
     Effects { on_tdc: Some(on_tdc), crosstalk_probability, ..Effects::default() }
 }

@@ -56,7 +56,7 @@ fn in_mode_1_the_others_stay_armed_and_the_last_to_recover_ends_the_output() {
     assert_eq!(spads.next_event(), Time::from_ns(109));
 }
 
-/// One that traps a carrier for 50 ns in nearly every avalanche, and one avalanche at 5 ns.
+/// A SPAD that traps a carrier for 50 ns in nearly every avalanche, with an avalanche at 5 ns.
 fn trapping(paralysable: bool) -> Spads {
     let (afterpulse_probability, afterpulse_fs) = (1.0 - 1e-9, 5e7);
     let effects =
@@ -139,7 +139,7 @@ fn a_change_of_mode_finds_a_diode_that_has_fired() {
     assert_eq!(spad.next_event(), Time::from_ns(90));
 }
 
-/// Two diodes, the second of which is on the TDC, with a first avalanche at 5 ns in the first.
+/// Two SPADs, of which the second is connected to the TDC, with an avalanche in the first at 5 ns.
 fn one_of_two(crosstalk_probability: f64) -> Spads {
     let effects = Effects {
         on_tdc: Some(1..2),
@@ -150,7 +150,7 @@ fn one_of_two(crosstalk_probability: f64) -> Spads {
     Spads::new(2, DEAD, Time::from_ns(5)).with_effects(effects, 1)
 }
 
-/// Light in which all is dark.
+/// Light that consists of dark counts only.
 fn dark() -> Light {
     let budget = Budget { dark_rate_hz: 1e8, ..Budget::default() };
     let hazard = Hazard::dark(&budget);

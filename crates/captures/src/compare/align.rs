@@ -1,4 +1,4 @@
-//! Which sample of one side belongs to which of the other.
+//! Alignment of the samples of two sides.
 
 mod alignment;
 mod correlation;
@@ -16,10 +16,11 @@ pub(super) use alignment::Alignment;
 pub(super) use correlation::SearchEnd;
 pub use survey::{Survey, survey};
 
-/// Time by which the second of two waveforms is late [fs], and how it was found.
+/// Determines the time shift between two waveforms: the delay of the second [fs], and a description of how it was
+/// found.
 ///
 /// # Errors
-/// When the alignment is one of samples, or there is no edge.
+/// If the alignment is in samples, or there is no edge.
 pub(super) fn shift(plan: &Plan, align: &Align) -> Result<(i128, String)> {
     match align {
         Align::Start => Ok((0, "by time".to_owned())),
@@ -36,10 +37,10 @@ pub(super) fn shift(plan: &Plan, align: &Align) -> Result<(i128, String)> {
     }
 }
 
-/// Finds the samples that belong together.
+/// Determines the matching samples.
 ///
 /// # Errors
-/// When they cannot be found, or several ways are as good as each other.
+/// If there is no match, or several are equally good.
 pub(super) fn alignment(plan: &Plan, align: &Align, time_from: Option<&str>) -> Result<Alignment> {
     if time_from.is_some() && plan.capture().is_none() {
         let expected = "expected a capture on one side and a waveform on the other";

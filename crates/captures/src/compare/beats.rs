@@ -1,4 +1,4 @@
-//! Compares the words that a bus accepts, whenever it does: a stall is no difference.
+//! Comparison of the words that a bus accepts, regardless of their times: a stall is not a difference.
 
 mod classify;
 mod place;
@@ -20,11 +20,10 @@ use place::{Placed, place};
 use script::{End, MOST_EDITS, script};
 use stream::{Stream, Words, stream};
 
-/// Places that an error lists.
+/// Number of positions listed in an error.
 const LISTED: usize = 4;
 
-/// The pairs that make up a word: those that were asked for, or else all but those of the condition;
-/// the clock is none.
+/// Returns the pairs that form a word: those selected, or else all except the clock and those in the condition.
 fn word<'a>(plan: &'a Plan, condition: &Condition, only: &[String]) -> Result<Vec<&'a Pair>> {
     let named: Vec<usize> =
         condition.names().filter_map(|name| plan.matching.pair(name).ok()).collect();
@@ -53,7 +52,7 @@ fn word<'a>(plan: &'a Plan, condition: &Condition, only: &[String]) -> Result<Ve
 /// Compares the beats of both sides.
 ///
 /// # Errors
-/// When they cannot be read, a side has none, or the place of a window is not clear.
+/// If a side cannot be read or has no beats, or the position of a window is ambiguous.
 pub(super) fn compare(
     plan: &mut Plan,
     condition: &Condition,
@@ -111,7 +110,7 @@ fn too_many(is_whole: bool, result: &mut Comparison) {
     }
 }
 
-/// Compares windows of a capture with parts of a waveform, in the order of time.
+/// Compares windows of a capture with sections of a waveform, in order of time.
 fn windows(
     plan: &Plan,
     side: usize,
@@ -154,7 +153,7 @@ fn windows(
 
 type Oriented = (Vec<(usize, usize)>, [usize; 2], [usize; 2]);
 
-/// What belongs together, with the first side first.
+/// Swaps the matches if necessary, so that the first side comes first.
 fn oriented(
     side: usize,
     same: Vec<(usize, usize)>,
@@ -170,8 +169,7 @@ fn oriented(
     }
 }
 
-/// Compares two captures window by window; what one has before the other begins or after it ends is no
-/// difference.
+/// Compares two captures window by window. Beats of one before the other begins or after it ends are not differences.
 fn captures(
     streams: &[Stream; 2],
     words: &Words,
@@ -208,7 +206,10 @@ fn captures(
     Ok(())
 }
 
-/// The place of a window that was looked for from a beat on, if it is clear.
+/// Returns the position of a window that was searched from a given beat on.
+///
+/// # Errors
+/// If there is none, or it is ambiguous.
 fn clear(placed: Placed, window: usize, from: usize) -> Result<script::Script> {
     match placed {
         Placed::Found(found) => Ok(found),

@@ -1,4 +1,4 @@
-//! Both sides and what differs in one waveform, with set-ups for GTKWave and Surfer.
+//! A waveform of both sides and their differences, with setups for GTKWave and Surfer.
 
 use std::io;
 use std::path::Path;
@@ -14,26 +14,26 @@ use super::pair::Pair;
 use super::result::{Compared, Comparison};
 use crate::words::Bits;
 
-/// The scopes: both sides, and what differs.
+/// Names of the scopes: both sides, and the differences.
 const SCOPES: [&str; 3] = [SIDES[0], SIDES[1], "differs"];
-/// The scope around them, and in it the bit that is high while any pair differs.
+/// Name of the outermost scope, and of the bit in it that is high while any pair differs.
 const TOP: [&str; 2] = ["compare", "any_differs"];
 
-/// Pairs that are shown at first.
+/// Number of pairs shown at first.
 const SHOWN: usize = 32;
-/// Part of the waveform that is shown around the first difference.
+/// Inverse of the fraction of the waveform shown around the first difference.
 const PART: u64 = 16;
-/// Width that waves have in GTKWave's window [pixels].
+/// Width of the traces in GTKWave's window [pixels].
 const PIXELS: u32 = 680;
 /// GTKWave's colours of the three scopes: green, yellow, red.
 const COLOURS: [u32; 3] = [4, 3, 1];
 
-/// The waveform, being written.
+/// Writer of a waveform of both sides.
 pub(super) struct Both {
     wave: SideBySide<OutputFile>,
     widths: Vec<u32>,
     wrong: Vec<bool>,
-    /// Pairs that differ now, and whether the file says that some do.
+    /// Number of pairs that differ, and the last written level of the bit that shows it.
     count: usize,
     shown: Option<bool>,
     first: Option<u64>,
@@ -41,7 +41,7 @@ pub(super) struct Both {
 }
 
 impl Both {
-    /// Begins the waveform at `path`, which has to end in `.vcd`.
+    /// Creates the waveform at `path`, whose extension must be `.vcd`.
     pub(super) fn create(path: &Path, pairs: &[Pair]) -> Result<Both> {
         if path.extension().is_none_or(|extension| extension != "vcd") {
             let expected = "expected a name that ends in .vcd";
@@ -65,7 +65,7 @@ impl Both {
         })
     }
 
-    /// Changes that follow are at this time [ps].
+    /// Sets the time of the changes that follow [ps].
     pub(super) fn at(&mut self, ps: u128) -> Result<()> {
         let ps = u64::try_from(ps).unwrap_or(u64::MAX);
         self.go_to(ps).map_err(|error| self.wave.out().fault(error))
@@ -81,7 +81,7 @@ impl Both {
         self.wave.time(ps)
     }
 
-    /// Says whether any pair differs, as of the last time.
+    /// Writes the bit that shows whether any pair differs, at the last time.
     fn sum_up(&mut self) -> io::Result<()> {
         let now = Some(self.count > 0);
         if self.last.is_some() && now != self.shown {
@@ -91,7 +91,7 @@ impl Both {
         Ok(())
     }
 
-    /// The values of a pair change.
+    /// Writes a change of a pair's values.
     pub(super) fn change(&mut self, pair: usize, sides: &[Bits; 2], differs: bool) -> Result<()> {
         self.write(pair, sides, differs).map_err(|error| self.wave.out().fault(error))
     }
@@ -114,7 +114,7 @@ impl Both {
         Ok(())
     }
 
-    /// Puts the waveform in place, with its set-ups beside it.
+    /// Completes the waveform, and writes viewer setups next to it.
     pub(super) fn finish(mut self, result: &Comparison) -> Result<()> {
         self.sum_up().map_err(|error| self.wave.out().fault(error))?;
         let file = self.wave.into_out();
@@ -130,12 +130,12 @@ impl Both {
     }
 }
 
-/// A name without dots, which would be scopes, or spaces.
+/// Replaces dots, which would separate scopes, and spaces in a name.
 fn flat(name: &str) -> String {
     name.replace('.', "/").replace(' ', "_").replace('\\', "")
 }
 
-/// What viewers show of a waveform with that begin and end [ps]: what differs first stands on top.
+/// Returns the initial view of a waveform with the given start and end [ps]; the first signals to differ are on top.
 fn view(result: &Comparison, begin: u64, end: u64) -> View<'static> {
     let time = |at: u64| result.sides[0].axis.femtoseconds(at).map_or(at, |fs| (fs / 1000) as u64);
     let firsts = result.pairs.iter().filter_map(|pair| pair.first.as_ref());

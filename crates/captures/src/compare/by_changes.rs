@@ -1,4 +1,4 @@
-//! Compares two waveforms at every instant at which one of them changes.
+//! Comparison of two waveforms at every time at which either changes.
 
 use tofsim::error::{Input, Result};
 
@@ -14,9 +14,9 @@ struct Side {
     cursor: Cursor,
     tick: Tick,
     coarse: Tick,
-    /// What is taken off its times, in the common unit.
+    /// Shift to subtract from its times, in the common unit.
     late: i128,
-    /// Its end as it says, in ticks.
+    /// End as the file states it, in ticks.
     end: Option<u64>,
     last: u64,
 }
@@ -30,7 +30,7 @@ impl Side {
         Ok(self.cursor.peek()?.map(|at| self.common(at)))
     }
 
-    /// Takes all instants of that time.
+    /// Reads all changes at a time.
     #[inline]
     fn take(&mut self, now: i128, mut touched: impl FnMut(usize)) -> Result<()> {
         while let Some(at) = self.cursor.peek()?
@@ -42,13 +42,13 @@ impl Side {
         Ok(())
     }
 
-    /// Its end, as far as that is known now.
+    /// Returns the end, if it is known so far.
     fn end(&mut self) -> Result<Option<i128>> {
         let last = if self.cursor.peek()?.is_none() { Some(self.last) } else { None };
         Ok(self.end.map(|end| end.max(self.last)).or(last).map(|end| self.common(end)))
     }
 
-    /// Its end in ticks; without one that it says, the rest of it is read.
+    /// Returns the end in ticks; if the file does not state it, reads the remaining changes.
     fn whole(&mut self) -> Result<u64> {
         while self.end.is_none()
             && let Some(at) = self.cursor.peek()?
@@ -60,10 +60,10 @@ impl Side {
     }
 }
 
-/// Compares until one side ends.
+/// Compares until either side ends.
 ///
-/// The last instant of one counts only if both have changes there: a simulator may stop before it
-/// has written those of its last time step, and we write the end of a run without any.
+/// The last time of a side counts only if both have changes there: a simulator may stop before it has written the
+/// changes of its last time step, and tofsim's files end without any.
 pub(super) fn compare(
     plan: &Plan,
     align: &Align,
@@ -145,7 +145,7 @@ pub(super) fn compare(
     Ok(result)
 }
 
-/// A time in units of `coarse`, rounded towards the past.
+/// Converts a time to units of `coarse`, rounded down.
 fn signed(coarse: Tick, femtoseconds: i128) -> i128 {
     let size = coarse.count(femtoseconds.unsigned_abs()) as i128;
     if femtoseconds < 0 { -size } else { size }

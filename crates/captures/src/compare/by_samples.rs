@@ -1,4 +1,4 @@
-//! Compares two sequences of samples, one by one, as an alignment says.
+//! Comparison of two sequences of samples that an alignment pairs.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use super::plan::Plan;
 use super::result::Comparison;
 use super::selection::{Piece, Place, Selected};
 
-/// Compares all pieces.
+/// Compares all pieces of an alignment.
 pub(super) fn compare(
     plan: &Plan,
     align: &Align,
@@ -84,31 +84,31 @@ pub(super) fn compare(
     Ok(result)
 }
 
-/// Whether nothing more is said: a capture that does not say how many samples it has goes on as
-/// long as another capture does, but not as long as a waveform.
+/// Returns whether a capture that does not state its number of samples has ended at this place: its last values
+/// extend as far as another capture, but not as far as a waveform.
 fn is_over(plan: &Plan, a: Place, b: Place) -> bool {
     let held = [a.sample.held, b.sample.held];
     held == [true, true] || (plan.capture().is_some() && held != [false, false])
 }
 
-/// Whether the end of what is compared is reached on the first side that has times.
+/// Returns whether the end of the comparison is reached on the first side that has times.
 fn is_late(plan: &Plan, places: [Place; 2]) -> bool {
     (0..2).find_map(|side| is_reached(plan, side, places[side])) == Some(true)
 }
 
-/// Whether the end of what is compared is reached, on a side that has times.
+/// Returns whether the end of the comparison is reached on a side, if it has times.
 fn is_reached(plan: &Plan, side: usize, place: Place) -> Option<bool> {
     let time = plan.sources[side].axis.femtoseconds(place.sample.at)?;
     Some(time >= plan.terms.until_fs)
 }
 
-/// Time of a place in the waveform of both sides: the first side's, or its sample's number [ps].
+/// Returns the time of a place in the waveform of both sides: that of the first side, or the sample number [ps].
 fn place_ps(plan: &Plan, place: Place) -> u128 {
     let time = plan.sources[0].axis.femtoseconds(place.sample.at);
     time.map_or(place.sample.at.into(), |fs| fs / 1000)
 }
 
-/// Says if one side has ended although its piece, or the other side, goes on.
+/// Records a difference if one side has ended before its piece or the other side.
 fn short(
     plan: &Plan,
     align: &Align,

@@ -1,4 +1,4 @@
-//! Pairs that cannot be compared by the values at one place alone.
+//! Comparison of pairs with a latency or a valid signal, which needs more than the values of one sample.
 
 use std::collections::VecDeque;
 
@@ -10,34 +10,33 @@ use super::differences::{Differences, Spot};
 use super::plan::Plan;
 use crate::words::Bits;
 
-/// A pair of which one side is late, or that is compared only at times.
+/// State of a pair with a latency or a valid signal.
 pub(super) struct Delay {
     pair: usize,
     early: VecDeque<Entry>,
 }
 
-/// A sample, kept until the side that is late has come.
+/// A sample that waits for the later side.
 #[derive(Clone)]
 struct Entry {
     values: [Bits; 2],
     spot: Spot,
-    /// Sides of which it is not compared.
+    /// Whether each side excludes the sample from the comparison.
     off: [bool; 2],
 }
 
 impl Delay {
-    /// Of that pair.
+    /// Creates the state of a pair.
     pub(super) fn new(pair: usize) -> Self {
         Delay { pair, early: VecDeque::new() }
     }
 
-    /// A window begins: nothing is kept from the one before.
+    /// Discards all waiting samples, at the start of a window.
     pub(super) fn clear(&mut self) {
         self.early.clear();
     }
 
-    /// Takes a sample with its values and whether they are missing, and compares as soon as both
-    /// sides have come.
+    /// Stores the values of a sample, some of which may be missing, and compares as soon as both sides are present.
     pub(super) fn compare(
         &mut self,
         plan: &Plan,

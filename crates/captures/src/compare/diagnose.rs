@@ -1,5 +1,5 @@
-//! What differences look like: one flipped bit, a sample too many or too few, a shifted window, a
-//! renamed probe, two swapped ones, a wrong radix.
+//! Diagnosis of differences: one flipped bit, a missing or an extra sample, a shifted window, a renamed probe, two
+//! swapped probes, or a wrong radix.
 
 mod collect;
 mod radix;
@@ -13,7 +13,7 @@ use super::align::Alignment;
 use super::plan::Plan;
 use super::result::{Compared, Comparison, Finding};
 
-/// Looks at the window of the first difference once more.
+/// Diagnoses the differences of samples, by reading the window of the first difference again.
 pub(super) fn samples(
     plan: &Plan,
     alignment: &Alignment,
@@ -33,13 +33,13 @@ pub(super) fn samples(
     Ok(findings)
 }
 
-/// What changes of waveforms alone can tell.
+/// Diagnoses the differences of waveforms, from the result alone.
 pub(super) fn changes(result: &Comparison) -> Vec<Finding> {
     let rest: Vec<_> = result.differing().collect();
     single(result, &rest).into_iter().collect()
 }
 
-/// That a signal differs at one place and nothing else does.
+/// Finds that all differences are one difference of one signal.
 fn single(result: &Comparison, rest: &[&Compared]) -> Option<Finding> {
     let [pair] = rest else { return None };
     let first = pair.first.as_ref().filter(|_| pair.differing == 1)?;
@@ -54,7 +54,7 @@ fn single(result: &Comparison, rest: &[&Compared]) -> Option<Finding> {
     Some(Finding::new(kind, &[&pair.name], text))
 }
 
-/// Signals without a partner that have the same values as one of the other side.
+/// Finds signals without a partner that have the same values as a signal of the other side.
 fn renamed(collected: &Collected) -> Vec<Finding> {
     let [own, others] = &collected.unpaired;
     let fits = |a: &Column, b: &Column| a.width == b.width && a.values == b.values;
@@ -75,7 +75,7 @@ fn renamed(collected: &Collected) -> Vec<Finding> {
     findings
 }
 
-/// Pairs of which each has the other's values.
+/// Finds pairs that have each other's values.
 fn swapped(collected: &Collected) -> Vec<Finding> {
     let mut findings = Vec::new();
     let pairs = &collected.pairs;

@@ -1,4 +1,4 @@
-//! Counts for each pair how often and where its sides differ, place by place.
+//! Number and position of the differences of each pair.
 
 use tofsim::error::Result;
 
@@ -10,43 +10,43 @@ use super::matching::Matching;
 use super::pair::{Pair, Unknowns};
 use super::result::{Compared, Difference};
 
-/// A place in both sides.
+/// A compared place on both sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Spot {
-    /// Number of the comparison, from 0.
+    /// Sequence number of the comparison, from 0.
     pub(super) order: u64,
     pub(super) window: usize,
-    /// Place in each source: a tick or a row.
+    /// Position in each source: a tick or a row.
     pub(super) at: [u64; 2],
 }
 
-/// What is counted of a pair.
+/// Counts of a pair.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PairCount {
-    /// Places compared.
+    /// Number of places compared.
     pub(super) compared: u64,
     differing: u64,
     first: Option<Difference>,
     overview: Overview,
 }
 
-/// What is counted of all pairs, and which of them are to be compared next.
+/// Counts of all pairs, and the pairs to be compared next.
 pub(super) struct Differences<'a> {
     pairs: &'a [Pair],
-    /// What an unknown bit is the same as.
+    /// Treatment of unknown bits.
     pub(super) unknowns: Unknowns,
     pub(super) counts: Vec<PairCount>,
-    /// Both sides as a waveform, if that is wanted.
+    /// Waveform of both sides, if requested.
     pub(super) both: Option<Both>,
     scratch: [Bits; 2],
-    /// For each side and signal the pairs that look at it.
+    /// For each side and signal, the pairs that contain it.
     users: [Vec<Vec<usize>>; 2],
     touched: Vec<usize>,
     is_touched: Vec<bool>,
 }
 
 impl<'a> Differences<'a> {
-    /// None yet.
+    /// Creates counts that are all zero.
     pub(super) fn new(matching: &'a Matching, unknowns: Unknowns, both: Option<Both>) -> Self {
         let Matching { pairs, slots, .. } = matching;
         let mut users = slots.each_ref().map(|slots| vec![Vec::new(); slots.ids.len()]);
@@ -71,7 +71,7 @@ impl<'a> Differences<'a> {
         }
     }
 
-    /// A signal of a side has changed.
+    /// Marks the pairs of a signal that has changed.
     #[inline]
     pub(super) fn touch(&mut self, side: usize, signal: usize) {
         for &pair in &self.users[side][signal] {
@@ -81,20 +81,20 @@ impl<'a> Differences<'a> {
         }
     }
 
-    /// All pairs are looked at next.
+    /// Marks all pairs.
     pub(super) fn touch_all(&mut self) {
         self.touched = (0..self.pairs.len()).collect();
         self.is_touched.fill(true);
     }
 
-    /// Hands out the pairs touched since the last time.
+    /// Returns the pairs that were marked since the last call.
     pub(super) fn take_touched(&mut self) -> Vec<usize> {
         let touched = std::mem::take(&mut self.touched);
         touched.iter().for_each(|&pair| self.is_touched[pair] = false);
         touched
     }
 
-    /// Whether the sides of a pair differ, which the waveform shows.
+    /// Returns whether the sides of a pair differ, and writes them to the waveform.
     #[inline]
     pub(super) fn differs(&mut self, pair: usize, states: [&SourceState; 2]) -> Result<bool> {
         let differs = !self.pairs[pair].same(states, self.unknowns, &mut self.scratch);
@@ -102,7 +102,7 @@ impl<'a> Differences<'a> {
         Ok(differs)
     }
 
-    /// Shows a pair in the waveform.
+    /// Writes a pair to the waveform.
     pub(super) fn show(
         &mut self,
         pair: usize,
@@ -114,15 +114,15 @@ impl<'a> Differences<'a> {
         both.change(pair, &self.scratch, differs)
     }
 
-    /// Counts a pair that differs at a place, with the values in the states.
+    /// Counts a difference of a pair, with the values in the states.
     pub(super) fn count(&mut self, pair: usize, spot: Spot, states: [&SourceState; 2]) {
         self.pairs[pair].gather_both(states, &mut self.scratch);
         let [a, b] = &self.scratch;
         self.counts[pair].differs(&self.pairs[pair], spot, a, b);
     }
 
-    /// The result for each pair where so many places were compared, the first to differ first and
-    /// in the order of data flow.
+    /// Returns the result of each pair after `compared` places: the first to differ first, then in the order of the
+    /// data flow.
     pub(super) fn results(&self, compared: u64) -> Vec<Compared> {
         let result = |(pair, count): (&Pair, &PairCount)| Compared {
             name: pair.name.clone(),
@@ -145,7 +145,7 @@ impl<'a> Differences<'a> {
 }
 
 impl PairCount {
-    /// Counts a place at which the sides have those values.
+    /// Counts a difference, with the values of both sides.
     pub(super) fn differs(&mut self, pair: &Pair, spot: Spot, a: &Bits, b: &Bits) {
         let Spot { order, window, at } = spot;
         self.differing += 1;
@@ -160,14 +160,14 @@ impl PairCount {
     }
 }
 
-/// Characters of an overview.
+/// Length of an overview [characters].
 const LENGTH: usize = 64;
 
-/// Marks in equal parts of a range whose end is not known before; the parts grow as it does.
+/// Marks in equal parts of a range of unknown length; the parts grow with the range.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Overview {
     marks: [u64; LENGTH],
-    /// Logarithm of a part's size.
+    /// Binary logarithm of a part's length.
     scale: u32,
 }
 
@@ -178,13 +178,13 @@ impl Default for Overview {
 }
 
 impl Overview {
-    /// Something lies at `place`.
+    /// Marks the part that contains `place`.
     fn mark(&mut self, place: u64) {
         self.reach(place);
         self.marks[(place >> self.scale) as usize] += 1;
     }
 
-    /// Makes the parts as large as it takes to have `place` in one of them.
+    /// Extends the range to contain `place`.
     fn reach(&mut self, place: u64) {
         while (place >> self.scale) >= LENGTH as u64 {
             for k in 0..LENGTH / 2 {
@@ -195,7 +195,7 @@ impl Overview {
         }
     }
 
-    /// A line for a range of `length`: `#` where something lies, `.` elsewhere.
+    /// Formats a range of the given length: `#` for parts with marks, `.` for others.
     fn text(&self, length: u64) -> String {
         let (mut whole, last) = (self.clone(), length.saturating_sub(1));
         whole.reach(last);

@@ -1,4 +1,4 @@
-//! Finds a signal of a source by what a user calls it.
+//! Lookup of a signal by a user's name for it.
 
 use tofsim::error::{Input, Result, nearest};
 
@@ -7,13 +7,14 @@ use crate::source::{Name, Signal, SignalKind, Source};
 
 use super::parts::{Part, Slots};
 
-/// Names that an error offers.
+/// Number of names suggested in an error.
 const OFFERED: usize = 4;
 
-/// The index of the one signal that has this name, or whose name ends so; nearest the top.
+/// Returns the index of the signal whose name is or ends with `text`; the one nearest to the top if there are
+/// several.
 ///
 /// # Errors
-/// When there is none, or several that are not the same signal.
+/// If there is none, or several at the same level that are different signals.
 pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
     let wanted = Name::new(text);
     let rank = |signal: &Signal| match signal.name.is(&wanted) {
@@ -46,15 +47,15 @@ pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
     }
 }
 
-/// The name that was probably meant, for an error.
+/// Returns a suggestion of the most similar names, for an error.
 pub(super) fn near<'a>(text: &str, names: impl Iterator<Item = &'a str>) -> String {
     nearest(text, names).map(|name| format!("; near it: {name}")).unwrap_or_default()
 }
 
-/// The bits that `text` names: a signal, or a slice of one as `x[7:4]` or `x[3]`.
+/// Returns the bits that `text` names: a signal, or a slice of one such as `x[7:4]` or `x[3]`.
 ///
 /// # Errors
-/// When there is no such signal, it is not of bits, or the slice is beyond it.
+/// If there is no such signal, it does not consist of bits, or the slice is out of range.
 pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(usize, Part)> {
     let whole = match signal(source, text) {
         Ok(found) => return bits(source, found, None, slots, text),
@@ -78,7 +79,7 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
     bits(source, found, Some((high, low)), slots, text)
 }
 
-/// The whole signal, where slices of it have names of their own and so have all of them a range.
+/// Returns the signal with all bits, if slices of it have their own names.
 fn widest(source: &Source, text: &str) -> Option<usize> {
     let wanted = Name::new(text);
     let begin = wanted.scope(0) + "[";

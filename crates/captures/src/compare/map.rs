@@ -1,5 +1,4 @@
-//! How the names and values of two sides belong together: a TOML file, or what a logic analyser's
-//! set-up says.
+//! Maps between the names and values of two sides: a TOML file, or the setup of a logic analyser.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,47 +15,46 @@ use crate::ila::AnalyserSetup;
 use crate::ila::probes::below;
 use crate::ila::setup::ProbeEntry;
 
-/// A map file. Where it names sides, `a` and `b` are those of `tofsim compare A B`, or the other way
-/// round if its names are found so.
+/// A map file. Its sides `a` and `b` are those of `tofsim compare A B`, or swapped if more names match that way.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(rename = "Map")]
 pub struct SignalMap {
-    /// Clock of a waveform's samples: a signal, taken just before its rising edges, or a frequency
-    /// and the time of the first edge as `125MHz` or `125MHz + 2ns`.
+    /// Sampling clock of a waveform: a signal, sampled just before its rising edges, or a frequency and the time of
+    /// the first edge such as `125MHz` or `125MHz + 2ns`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clock: Option<String>,
-    /// How the sides are brought together: `start`, `trigger`, `edge SIGNAL`, `correlation`,
-    /// `windows`, `offset N` in samples or a time as `offset 8ns`.
+    /// Alignment of the sides: `start`, `trigger`, `edge SIGNAL`, `correlation`, `windows`, `offset N` in samples, or
+    /// a time such as `offset 8ns`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub align: Option<String>,
-    /// Condition that a waveform triggers on.
+    /// Trigger condition for a waveform.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trigger: Option<String>,
-    /// Time before which a waveform is not looked at.
+    /// Time before which a waveform is ignored.
     #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us"))]
     pub after_us: f64,
-    /// Registers before the probes of the logic analyser.
+    /// Number of registers between the signals and the logic analyser.
     #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0, max = 6), extend("unit" = "edges"))]
     pub input_stages: u64,
-    /// Condition under which a bus accepts a word: the words are compared, and not when they come.
+    /// Condition under which a bus accepts a word: the accepted words are compared, regardless of their times.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beats: Option<String>,
-    /// Condition under which a logic analyser has stored a sample.
+    /// Condition under which a logic analyser stored a sample.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub qualified_by: Option<String>,
-    /// Signal of a capture that counts the clock.
+    /// Signal of a capture that counts clock cycles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_from: Option<String>,
-    /// Signals that are not compared, with * and ?.
+    /// Signals to exclude from the comparison, with wildcards * and ?.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ignore: Vec<String>,
-    /// Changes of names, tried in this order before names are compared.
+    /// Changes of names, applied in this order before names are compared.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rename: Vec<Rename>,
-    /// Signals that belong together by intention.
+    /// Explicit pairs of signals.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub signal: Vec<Rule>,
 }
@@ -65,64 +63,62 @@ pub struct SignalMap {
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rename {
-    /// Regular expression that the names of one side or both are searched for.
+    /// Regular expression to search for in names.
     pub pattern: String,
-    /// What the match is replaced by; `$1` is the first group.
+    /// Replacement of the match; `$1` is the first group.
     pub by: String,
-    /// Whose names.
+    /// Side whose names are changed.
     pub side: Side,
 }
 
-/// Of which side.
+/// Side whose names a rename changes.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
-    /// Both.
+    /// Both sides.
     #[default]
     Both,
-    /// The first, which is what is expected.
+    /// The first side, which is the reference.
     A,
-    /// The second.
+    /// The second side, which is under test.
     B,
 }
 
-/// Signals that belong together, or how a signal is compared.
+/// A pair of signals, or how to compare a signal.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rule {
-    /// Name on the first side. Slices as `x[7:4]` are joined where there are several, the highest
-    /// first.
+    /// Name on the first side, or several slices such as `x[7:4]` to concatenate, highest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub a: Vec<String>,
-    /// Name on the second side. Without it, the rule is about a signal that comes together by name.
+    /// Name on the second side. Without it, the rule applies to a signal that is matched by name.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub b: Vec<String>,
-    /// Whether it is a number in two's complement.
+    /// Whether the value is in two's complement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub signed: Option<bool>,
-    /// Bits after the binary point.
+    /// Number of fraction bits.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 1024), extend("unit" = "bits"))]
     pub fraction: Option<u32>,
-    /// Bits that are not compared, as `0xf0`.
+    /// Bits to exclude from the comparison, such as `0xf0`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dont_care: Option<String>,
-    /// Whether the second side has it the other way round.
+    /// Whether the second side is inverted.
     #[serde(skip_serializing_if = "is_default")]
     pub invert: bool,
-    /// Samples that the second side has it later (less than 0: earlier).
+    /// Latency of the second side [samples]; negative if it is earlier.
     #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = -65_536, max = 65_536), extend("unit" = "samples"))]
     pub latency: i64,
-    /// Largest difference that is none, for numbers.
+    /// Largest deviation of a number that is not a difference.
     #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0), extend("unit" = "LSB"))]
     pub tolerance: u64,
-    /// Signal of one bit on the first side; compared only where it is 1.
+    /// One-bit signal of the first side; the pair is compared only where it is 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub valid: Option<String>,
-    /// Values that words stand for, as `{ idle = 0, run = 1 }`, where one side has words and the
-    /// other bits.
+    /// Values of words, such as `{ idle = 0, run = 1 }`, if one side has words and the other bits.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub states: BTreeMap<String, u64>,
 }
@@ -135,15 +131,15 @@ impl SignalMap {
     /// Reads and checks a map file.
     ///
     /// # Errors
-    /// When it cannot be read or something in it is not what it should be; with the place.
+    /// If it cannot be read or is invalid; with the position.
     pub fn read(path: &Path) -> Result<SignalMap> {
         SignalMap::parse(&path.display().to_string(), &read_text(path)?)
     }
 
-    /// A map from the text of `source`.
+    /// Parses a map from the text of `source`.
     ///
     /// # Errors
-    /// As [`SignalMap::read`].
+    /// If it is invalid; with the position.
     pub fn parse(source: &str, text: &str) -> Result<SignalMap> {
         let checked = Checked::parse::<SignalMap>(source, text)?;
         let map: SignalMap = checked.read()?;
@@ -172,8 +168,8 @@ impl SignalMap {
         Ok(map)
     }
 
-    /// The map that belongs to a logic analyser's set-up: the simulation's signals on the first
-    /// side, the probes on the second.
+    /// Creates the map for a logic analyser's setup: signals of the simulation on the first side, probes on the
+    /// second.
     pub fn of(set_up: &AnalyserSetup) -> SignalMap {
         let file = &set_up.file;
         let clock = match file.clock.starts_with("clk_") {
@@ -197,14 +193,14 @@ impl SignalMap {
         }
     }
 
-    /// The map as a file.
+    /// Formats the map as a file.
     pub fn to_toml(&self) -> String {
         // Every value here has a form in TOML.
         toml::to_string(self).unwrap_or_default()
     }
 }
 
-/// Name of a probe in a capture.
+/// Returns the name of a probe in a capture.
 fn shown(probe: &ProbeEntry) -> String {
     let below = below(&probe.signal).replace('.', "/");
     let single = below.strip_suffix(']').and_then(|text| {
@@ -214,7 +210,7 @@ fn shown(probe: &ProbeEntry) -> String {
     probe.name.clone().unwrap_or(single.unwrap_or(below))
 }
 
-/// The bits of a mask, lowest word first.
+/// Parses the bits of a mask, least significant word first.
 pub(super) fn parse_mask(text: &str) -> Option<Vec<u64>> {
     let digits = text.strip_prefix("0x")?.replace('_', "");
     if digits.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {

@@ -1,4 +1,4 @@
-//! Which signals belong together: by the map, by name, by the end of a name.
+//! Matching of signals: by map, by name, or by the end of a name.
 
 mod matched;
 mod names;
@@ -24,19 +24,19 @@ use names::by_name;
 use rules::{by_rule, is_swapped};
 use slices::by_slice;
 
-/// Which signals are looked at.
+/// Selection of the signals to compare.
 #[derive(Clone, Debug, Default)]
 pub struct SignalChoice {
-    /// Only these, with * and ?; all if there are none.
+    /// Signals to compare, with wildcards * and ?; all if empty.
     pub only: Vec<String>,
-    /// But these.
+    /// Signals to exclude, with wildcards * and ?.
     pub ignore: Vec<String>,
 }
 
 /// Matches the signals of two sources.
 ///
 /// # Errors
-/// When the map names what there is not, or a pattern is none.
+/// If the map names a signal that does not exist, or a pattern is invalid.
 pub(super) fn matching(
     sides: [&Source; 2],
     map: &SignalMap,

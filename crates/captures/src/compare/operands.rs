@@ -1,4 +1,4 @@
-//! Conditions over the signals of a waveform.
+//! Conditions over the signals of a source.
 
 use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
@@ -11,22 +11,22 @@ use super::find;
 use super::matching::Matching;
 use super::parts::{Part, gather};
 
-/// A condition tied to one side.
+/// A condition bound to the signals of one side.
 #[derive(Clone)]
 pub(super) struct SideCondition {
     bound: Bound,
-    /// The parts of each operand, the highest first.
+    /// Parts of each operand, highest first.
     operands: Vec<Vec<Part>>,
 }
 
 impl SideCondition {
-    /// Ties a condition to the signals of a side, which may be called as on either.
+    /// Binds a condition to the signals of a side, by their names on either side.
     ///
-    /// Whether one is a number in two's complement is what the map says, or else what the firmware's
-    /// signal of that name is: the same as in a capture, however its column is shown.
+    /// Whether a signal is in two's complement is determined by the map, or else by the firmware's signal of that
+    /// name, as in a capture, regardless of the radix of its column.
     ///
     /// # Errors
-    /// When a signal is not found, or a value does not fit.
+    /// If a signal is not found, or a value does not fit.
     pub(super) fn new(
         source: &Source,
         side: usize,
@@ -53,13 +53,13 @@ impl SideCondition {
         Ok(SideCondition { bound, operands })
     }
 
-    /// Whether it holds at a sample.
+    /// Evaluates the condition at a sample.
     pub(super) fn sample(&mut self, state: &SourceState) -> bool {
         let operands = &self.operands;
         self.bound.sample(|operand| level(state, &operands[operand]))
     }
 
-    /// Whether it holds at a sample before power-up, where everything is 0.
+    /// Evaluates the condition at a sample before power-up, where all signals are 0.
     pub(super) fn sample_nothing(&mut self) -> bool {
         self.bound.sample(|_| Level::known(0))
     }

@@ -1,4 +1,4 @@
-//! Two signals that are compared, and how.
+//! A pair of signals, and how they are compared.
 
 use serde::Serialize;
 
@@ -8,61 +8,61 @@ use crate::words::{Bits, extend, ones};
 use super::parts::{Part, Slots, gather};
 use super::show::Show;
 
-/// What an unknown bit is the same as.
+/// Treatment of unknown bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unknowns {
-    /// x only is x
+    /// x equals only x
     #[default]
     Exact,
-    /// x is anything
+    /// x equals anything
     Any,
-    /// x is nothing, not even x
+    /// x equals nothing, not even x
     None,
 }
 
-/// How two signals came together.
+/// How two signals were matched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MatchedBy {
-    /// The names are the same.
+    /// The names are equal.
     #[default]
     Name,
-    /// One name is the end of the other.
+    /// One name is a suffix of the other.
     Suffix,
-    /// Both names end alike, and no other so.
+    /// The names have a common ending that no other signal has.
     Tail,
-    /// The map says so.
+    /// The map matches them.
     Map,
 }
 
-/// Two signals that are compared, by default at every place and bit for bit.
+/// Two signals to compare, by default at every place and bit for bit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pair {
-    /// Name that it is shown by: the first side's.
+    /// Displayed name: that of the first side.
     pub(super) name: String,
     /// Name on the second side.
     pub(super) other: String,
-    /// More names of the same two signals.
+    /// Number of further names of the same two signals.
     pub(super) aliases: usize,
     pub(super) how: MatchedBy,
     pub(super) width: u32,
     pub(super) sides: [Vec<Part>; 2],
     pub(super) show: Show,
-    /// Whether conditions take it as two's complement, if the map says.
+    /// Whether conditions interpret it as two's complement, if the map states it.
     pub(super) signed: Option<bool>,
-    /// Bits that are compared, lowest word first; empty if all are.
+    /// Mask of the bits to compare, least significant word first; empty for all.
     pub(super) mask: Vec<u64>,
     pub(super) invert: bool,
-    /// Whether a side has words of which the bits are not known, which are not compared.
+    /// Whether a side has words of unknown value, which cannot be compared.
     pub(super) has_words: bool,
     pub(super) latency: i64,
     pub(super) tolerance: u64,
-    /// Signal of the first side's cursor that has to be 1.
+    /// Signal of the first side's cursor that must be 1 for a comparison.
     pub(super) valid: Option<usize>,
 }
 
 impl Pair {
-    /// Two signals as they are.
+    /// Creates a pair of two whole signals.
     pub(super) fn whole([a, b]: [&Signal; 2], how: MatchedBy, slots: &mut [Slots; 2]) -> Pair {
         let [left, right] = slots;
         Pair {
@@ -76,18 +76,18 @@ impl Pair {
         }
     }
 
-    /// Whether it is compared by the bits at one place alone.
+    /// Returns whether the pair is compared bit for bit, at one place at a time.
     pub(super) fn is_plain(&self) -> bool {
         self.latency == 0 && self.valid.is_none()
     }
 
-    /// Whether it is not compared, where the first side has those values.
+    /// Returns whether the pair is excluded from the comparison, given the values of the first side.
     #[inline]
     pub(super) fn is_off(&self, state: &SourceState) -> bool {
         self.valid.is_some_and(|valid| state.value(valid)[0] != 1 || state.unknown(valid)[0] != 0)
     }
 
-    /// Collects the value of one side, the second's as the first should have it.
+    /// Collects the value of one side; that of the second is converted to the first's form.
     pub(super) fn gather(&self, side: usize, state: &SourceState, bits: &mut Bits) {
         gather(&self.sides[side], state, bits);
         if side == 1 && self.invert {
@@ -105,7 +105,7 @@ impl Pair {
         }
     }
 
-    /// Whether the sides are the same, the values being in the states of the two cursors.
+    /// Returns whether the sides are equal, given the states of both cursors.
     #[inline]
     pub(super) fn same(
         &self,
@@ -129,7 +129,7 @@ impl Pair {
         self.equal(a, b, unknowns)
     }
 
-    /// Whether two values are the same.
+    /// Returns whether two values are equal.
     pub(super) fn equal(&self, a: &Bits, b: &Bits, unknowns: Unknowns) -> bool {
         let unknowns = if self.has_words { Unknowns::Any } else { unknowns };
         let differs = |k: usize| {
@@ -158,7 +158,7 @@ impl Pair {
 }
 
 impl MatchedBy {
-    /// In a word.
+    /// Returns the name used in outputs.
     pub const fn word(self) -> &'static str {
         match self {
             MatchedBy::Name => "name",

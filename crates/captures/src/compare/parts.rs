@@ -1,20 +1,20 @@
-//! What a comparison reads of a source: signals, each once, and some bits of them.
+//! Signals and slices of a source that a comparison reads.
 
 use std::collections::HashMap;
 
 use crate::source::{Signal, SourceState};
 use crate::words::{Bits, bit};
 
-/// The signals of a source that a comparison reads, each once.
+/// The distinct signals of a source that a comparison reads.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Slots {
-    /// Id of each.
+    /// Id of each signal.
     pub(super) ids: Vec<usize>,
     by_id: HashMap<usize, usize>,
 }
 
 impl Slots {
-    /// The place of a signal, which is read from now on.
+    /// Returns the index of a signal, which is added if necessary.
     pub(super) fn place(&mut self, id: usize) -> usize {
         let next = self.ids.len();
         let place = *self.by_id.entry(id).or_insert(next);
@@ -25,26 +25,26 @@ impl Slots {
     }
 }
 
-/// Bits of a signal of a cursor.
+/// A slice of a cursor's signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {
-    /// Signal of the cursor.
+    /// Index of the signal in the cursor.
     pub(super) signal: usize,
     /// Lowest bit.
     pub(super) low: u32,
     /// Number of bits.
     pub(super) width: u32,
-    /// Whether that is the whole signal.
+    /// Whether it is the whole signal.
     pub(super) whole: bool,
 }
 
 impl Part {
-    /// All of a signal, which is read from now on.
+    /// Creates a slice of all bits of a signal, which is added to `slots` if necessary.
     pub(super) fn whole(slots: &mut Slots, signal: &Signal) -> Self {
         Part { signal: slots.place(signal.id), low: 0, width: signal.width, whole: true }
     }
 
-    /// Puts the bits of it into `words` from bit `low` on.
+    /// Copies the slice of `from` to `words`, from bit `low` on.
     fn put(&self, words: &mut [u64], low: u32, from: &[u64]) {
         for k in 0..self.width {
             let target = low + k;
@@ -53,7 +53,7 @@ impl Part {
     }
 }
 
-/// Collects the value of some parts, the highest first.
+/// Concatenates the values of several slices, highest first.
 pub(super) fn gather(parts: &[Part], state: &SourceState, bits: &mut Bits) {
     if let [Part { whole: true, signal, .. }] = *parts {
         bits.clear(0);

@@ -1,4 +1,4 @@
-//! What a comparison reads from each side, and how it makes samples of it.
+//! Plan of a comparison: the signals that it reads, and how it samples them.
 
 use tofsim::error::Result;
 use tofsim::kernel::Time;
@@ -12,39 +12,39 @@ use super::pair::Pair;
 use super::parts::Part;
 use super::samples::{Clocking, Sample, SampleClock, Samples};
 
-/// Two sources with their signals matched, to be read as often as needed.
+/// Two sources with matched signals, to be read any number of times.
 pub(super) struct Plan<'a> {
     pub(super) sources: [&'a Source; 2],
     pub(super) matching: Matching,
-    /// Signals of each side that have no partner, which are read to find one.
+    /// Signals of each side without a partner, which are read to find one.
     pub(super) unpaired: [Vec<(String, Part)>; 2],
     clocking: [Clocking; 2],
-    /// What a waveform triggers on.
+    /// Trigger condition for a waveform.
     pub(super) trigger: [Option<SideCondition>; 2],
-    /// Under which condition a logic analyser stored a sample.
+    /// Condition under which a logic analyser stored a sample.
     pub(super) qualifier: [Option<SideCondition>; 2],
     pub(super) terms: Terms,
 }
 
-/// Signals without a partner that are looked at.
+/// Largest number of signals without a partner that are read.
 const UNPAIRED: usize = 64;
 
-/// Conditions, clock and times as they were given.
+/// Conditions, clock and times, as given.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Terms {
     pub(super) sampling: Option<SampleClock>,
     pub(super) trigger: Option<Condition>,
     pub(super) qualifier: Option<Condition>,
-    /// Before this time a waveform is not looked at.
+    /// Time before which a waveform is ignored.
     pub(super) after: Time,
-    /// From this time on nothing is compared [fs].
+    /// End of the comparison [fs].
     pub(super) until_fs: u128,
-    /// Samples before `after` which a logic analyser's registers delay into it.
+    /// Number of samples before `after` that a logic analyser's input registers delay.
     pub(super) stages: u64,
 }
 
 impl<'a> Plan<'a> {
-    /// A plan to compare samples, or else changes.
+    /// Creates a plan to compare samples or changes.
     pub(super) fn new(
         sources: [&'a Source; 2],
         mut matching: Matching,
@@ -70,13 +70,13 @@ impl<'a> Plan<'a> {
         Ok(Plan { sources, matching, unpaired, clocking, trigger, qualifier, terms })
     }
 
-    /// The samples of a side from the first on.
+    /// Reads the samples of a side, from the first on.
     pub(super) fn samples(&self, side: usize) -> Result<Samples> {
         let slots = &self.matching.slots[side];
         Samples::new(self.sources[side], slots, self.clocking[side].clone())
     }
 
-    /// Whether a pair is the clock that a side is sampled by.
+    /// Returns whether a pair is the sampling clock of a side.
     pub(super) fn is_clock(&self, pair: &Pair) -> bool {
         (0..2).any(|side| match (&self.clocking[side], &pair.sides[side][..]) {
             (Clocking::Rising(clock), [part]) => part.signal == *clock,
@@ -84,13 +84,13 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// Whether a sample is late enough to be looked at.
+    /// Returns whether a sample is not before the start of the comparison.
     pub(super) fn is_looked_at(&self, side: usize, sample: Sample) -> bool {
         let time = self.sources[side].axis.femtoseconds(sample.at);
         time.is_none_or(|fs| fs >= self.terms.after.fs() as u128)
     }
 
-    /// The side that is a capture, where the other is none.
+    /// Returns the side that is a capture, if the other is not.
     pub(super) fn capture(&self) -> Option<usize> {
         match self.sources.map(Source::is_capture) {
             [true, false] => Some(0),
@@ -100,7 +100,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Signals of a side without a partner, if the other side's could be one.
+/// Returns the signals of a side without a partner, if the other side has such signals too.
 fn unpaired(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<(String, Part)> {
     if !sources.iter().any(|source| source.is_capture()) {
         return Vec::new();

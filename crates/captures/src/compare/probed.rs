@@ -1,4 +1,4 @@
-//! A capture under the names of a design.
+//! A capture whose probes are looked up by the names of a design.
 
 use tofsim::error::Result;
 
@@ -11,7 +11,7 @@ use super::matching::{Matching, SignalChoice, matching};
 use super::parts::Slots;
 use super::samples::{Clocking, Sample, SampleClock, Samples};
 
-/// The samples of a capture, with the signals of a design that are in it.
+/// Samples of a capture, with the design's signals that it contains.
 pub(crate) struct Probed<'a> {
     design: &'a Source,
     matching: Matching,
@@ -20,10 +20,10 @@ pub(crate) struct Probed<'a> {
 }
 
 impl<'a> Probed<'a> {
-    /// Finds the signals of `design` in a capture, and begins to read it.
+    /// Finds the signals of `design` in a capture, and starts to read it.
     ///
     /// # Errors
-    /// When the map names what there is not, or the capture cannot be read.
+    /// If the map names a signal that does not exist, or the capture cannot be read.
     pub(crate) fn new(design: &'a Source, capture: &Source, map: &SignalMap) -> Result<Self> {
         let matching = matching([design, capture], map, &SignalChoice::default())?;
         let clocking = Clocking::Rows { endless: false };
@@ -31,7 +31,7 @@ impl<'a> Probed<'a> {
         Ok(Probed { design, matching, samples, scratch: Bits::default() })
     }
 
-    /// The probe of a signal of the design by its whole name, under any of its aliases.
+    /// Returns the probe of a signal of the design, by its full name or one of its aliases.
     pub(crate) fn probe(&self, name: &str) -> Option<usize> {
         let signal = self.design.signals.iter().find(|signal| signal.name.text == name)?;
         let ids = &self.matching.slots[0].ids;
@@ -41,12 +41,12 @@ impl<'a> Probed<'a> {
         })
     }
 
-    /// The next sample, `None` at the end.
+    /// Reads the next sample; returns `None` at the end.
     pub(crate) fn next(&mut self) -> Result<Option<Sample>> {
         self.samples.next()
     }
 
-    /// The value of a probe at the sample, if all bits are known.
+    /// Returns the value of a probe at the sample, if all bits are known.
     pub(crate) fn value(&mut self, probe: usize) -> Option<u64> {
         let pair = &self.matching.pairs[probe];
         pair.gather(1, &self.samples.state, &mut self.scratch);
@@ -54,11 +54,11 @@ impl<'a> Probed<'a> {
     }
 }
 
-/// The sample of a waveform at which a signal of one bit becomes 1 for the `count`-th time from 0, by its
-/// number and its place; `None` if it does not.
+/// Finds the sample of a waveform at which a one-bit signal rises for the `count`-th time, counted from 0, and
+/// returns its number and its place; `None` if there is none.
 ///
 /// # Errors
-/// When there is no such signal or clock, or the waveform cannot be read.
+/// If there is no such signal or clock, or the waveform cannot be read.
 pub(crate) fn pulse(
     source: &Source,
     clock: &SampleClock,

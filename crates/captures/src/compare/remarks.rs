@@ -1,4 +1,4 @@
-//! What a result says of the sides besides their values.
+//! Remarks of a result on the sides, apart from their values.
 
 use crate::source::SourceFormat;
 
@@ -7,11 +7,11 @@ use super::matching::UnmatchedReason;
 use super::plan::Plan;
 use super::result::Comparison;
 
-/// The sides as a sentence calls them.
+/// Ordinal of each side, for sentences.
 const SIDES: [&str; 2] = ["first", "second"];
 
-/// Adds the pairs that were compared nowhere, the signals without a partner, and what the formats
-/// cannot say. With `all`, every signal needs a partner.
+/// Adds the pairs that were never compared, the signals without a partner, and the limits of the formats. With `all`,
+/// a signal without a partner is a difference.
 pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Comparison) {
     let (differences, notes) = (&mut result.differences, &mut result.notes);
     for (pair, count) in plan.matching.pairs.iter().zip(counts) {

@@ -1,4 +1,4 @@
-//! What a comparison has found.
+//! Result of a comparison.
 
 mod beats;
 
@@ -11,41 +11,41 @@ use super::pair::MatchedBy;
 
 pub use beats::{BeatDifference, BeatKind, BeatPlace, Beats};
 
-/// What a comparison has found.
+/// Result of a comparison.
 #[derive(Clone, Debug, Default)]
 pub struct Comparison {
     /// Names and formats of the two sides.
     pub sides: [Described; 2],
-    /// What is compared of each pair: `changes` or `samples`.
+    /// Unit that is compared: `changes` or `samples`.
     pub unit: &'static str,
-    /// How the sides were brought together.
+    /// Description of the alignment.
     pub alignment: String,
-    /// Samples that the second side is later, if it is one number.
+    /// Delay of the second side, if it is constant [samples].
     pub offset: Option<i64>,
-    /// Places compared.
+    /// Number of places compared.
     pub compared: u64,
-    /// Results for each pair, the first to differ first, in the order of data flow.
+    /// Result of each pair: the first to differ first, then in the order of the data flow.
     pub pairs: Vec<Compared>,
     /// Signals without a partner.
     pub unmatched: Vec<Unmatched>,
-    /// Differences that are not of one signal's values.
+    /// Differences other than those of a signal's values.
     pub differences: Vec<String>,
-    /// What the differences look like.
+    /// Diagnoses of the differences.
     pub findings: Vec<Finding>,
-    /// What was found of the words that a bus accepts, where these are compared.
+    /// Result for accepted words, if these are compared.
     pub beats: Option<Beats>,
-    /// What a user may not expect.
+    /// Notes for the user.
     pub notes: Vec<String>,
 }
 
-/// What some differences look like.
+/// A diagnosis of some differences.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// A word for it.
+    /// Kind, as a word.
     pub kind: &'static str,
-    /// The finding in a sentence.
+    /// Description, as a sentence.
     pub text: String,
-    /// Signals that it explains, by their names on the first side.
+    /// Signals whose differences it explains, by their names on the first side.
     pub signals: Vec<String>,
 }
 
@@ -55,14 +55,14 @@ impl Finding {
     }
 }
 
-/// A side, for people.
+/// Description of a side.
 #[derive(Clone, Debug, Default)]
 pub struct Described {
     /// Path or scenario.
     pub name: String,
     /// Format.
     pub format: &'static str,
-    /// What its places are counted in.
+    /// Unit of its places.
     pub axis: Axis,
 }
 
@@ -72,83 +72,83 @@ impl Described {
         Described { name, format, axis: source.axis }
     }
 
-    /// A place in it, for people.
+    /// Formats a place of the side.
     pub fn place(&self, at: u64) -> String {
         let Some(fs) = self.axis.femtoseconds(at) else { return format!("sample {at}") };
         let text = format!("{}.{:06}", fs / 1_000_000, fs % 1_000_000);
         format!("{} ns", text.trim_end_matches('0').trim_end_matches('.'))
     }
 
-    /// A place in it: picoseconds, or a sample's number.
+    /// Returns a place of the side as a number: picoseconds, or a sample number.
     pub fn number(&self, at: u64) -> f64 {
         self.axis.femtoseconds(at).map_or(at as f64, |fs| fs as f64 / 1e3)
     }
 }
 
-/// The result for one pair.
+/// Result of one pair.
 #[derive(Clone, Debug, Serialize)]
 pub struct Compared {
     /// Name on the first side.
     pub name: String,
     /// Name on the second side.
     pub other: String,
-    /// How they came together.
+    /// How the signals were matched.
     #[serde(rename = "matched_by")]
     pub how: MatchedBy,
-    /// Further names of the same signals.
+    /// Number of further names of the same signals.
     pub aliases: usize,
     /// Width [bits].
     pub width: u32,
-    /// Places compared.
+    /// Number of places compared.
     pub compared: u64,
-    /// Places that differ.
+    /// Number of places that differ.
     pub differing: u64,
-    /// The first of them.
+    /// First difference.
     pub first: Option<Difference>,
-    /// Where they lie: `#` in the parts of the range that have some.
+    /// Overview of the range: `#` for parts with differences, `.` for others.
     #[serde(rename = "where")]
     pub overview: String,
 }
 
-/// A place at which the sides differ.
+/// A difference of a pair.
 #[derive(Clone, Debug, Serialize)]
 pub struct Difference {
-    /// Number of the comparison, from 0.
+    /// Sequence number of the comparison, from 0.
     #[serde(skip)]
     pub order: u64,
-    /// Window.
+    /// Number of the window.
     pub window: usize,
-    /// Place in each side: a tick or a sample.
+    /// Place on each side: a tick or a sample.
     pub at: [u64; 2],
-    /// What the first side has.
+    /// Value of the first side.
     pub expected: String,
-    /// What the second side has.
+    /// Value of the second side.
     pub got: String,
     /// Bits that differ, if all are known.
     pub bits: Vec<u32>,
 }
 
 impl Comparison {
-    /// Of two sources, with nothing found yet.
+    /// Creates an empty result.
     pub(super) fn new(sources: [&Source; 2], unit: &'static str, alignment: String) -> Self {
         let sides = sources.map(Described::new);
         Comparison { sides, unit, alignment, ..Comparison::default() }
     }
 
-    /// Whether the sides are the same.
+    /// Returns whether the sides are equal.
     pub fn is_same(&self) -> bool {
         self.differences.is_empty()
             && self.pairs.iter().all(|pair| pair.differing == 0)
             && self.beats.as_ref().is_none_or(Beats::is_same)
     }
 
-    /// Whether the signals of a side without a partner are listed: those of a capture, and those of
-    /// a waveform that is compared with another.
+    /// Returns whether unmatched signals of a side are listed: those of a capture, and those of a waveform that is
+    /// compared with another.
     pub fn lists_unmatched(&self, side: usize) -> bool {
         self.sides[side].axis == Axis::Samples || self.sides[1 - side].axis != Axis::Samples
     }
 
-    /// The pairs that differ, the earliest first.
+    /// Returns the pairs that differ, in order of their first difference.
     pub fn differing(&self) -> impl Iterator<Item = &Compared> {
         self.pairs.iter().filter(|pair| pair.differing > 0)
     }

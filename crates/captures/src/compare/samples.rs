@@ -12,16 +12,16 @@ use crate::source::{Axis, Cursor, Marks, Source, SourceFormat, SourceState, Tick
 use super::find;
 use super::parts::{Part, Slots};
 
-/// What a waveform is sampled by.
+/// Sampling clock of a waveform.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SampleClock {
-    /// Just before the rising edges of a signal.
+    /// Sample just before the rising edges of a signal.
     Signal(String),
-    /// Just before instants of a clock that is no signal.
+    /// Sample just before the edges of a clock that is not a signal.
     Free {
-        /// Edges in a second.
+        /// Frequency [Hz].
         frequency_hz: u64,
-        /// First edge.
+        /// Time of the first edge.
         phase: Time,
     },
 }
@@ -29,7 +29,7 @@ pub enum SampleClock {
 impl FromStr for SampleClock {
     type Err = String;
 
-    /// A signal, or as `125MHz` or `125MHz + 2ns` a frequency and the time of the first edge.
+    /// Parses a signal name, or a frequency and the time of the first edge such as `125MHz` or `125MHz + 2ns`.
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         Ok(match text.parse() {
             Ok(AnalyserClock::Free { frequency_hz, phase }) => {
@@ -45,7 +45,7 @@ impl FromStr for SampleClock {
     }
 }
 
-/// A time with its unit, to be counted from power-up.
+/// Parses a time with its unit.
 pub fn time(text: &str) -> Option<Time> {
     const UNITS: [(&str, f64); 6] =
         [("fs", 1e-3), ("ps", 1.0), ("ns", 1e3), ("us", 1e6), ("ms", 1e9), ("s", 1e12)];
@@ -53,35 +53,35 @@ pub fn time(text: &str) -> Option<Time> {
     (0.0..=1e16).contains(&ps).then(|| Time::from_ps_f64(ps))
 }
 
-/// One sample of a sequence.
+/// A sample of a sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sample {
-    /// Its number, from 0.
+    /// Sample number, from 0.
     pub(crate) index: u64,
-    /// Its place in the source: a tick, or the number of the row.
+    /// Place in the source: a tick, or the number of the row.
     pub(crate) at: u64,
     pub(crate) marks: Marks,
-    /// Nothing is said of it but that nothing has changed.
+    /// Whether the source does not contain the sample, and its values are those of the last one.
     pub(crate) held: bool,
 }
 
-/// What makes samples of a source.
+/// How a source is sampled.
 #[derive(Clone)]
 pub(super) enum Clocking {
-    /// The rising edges of a signal of the cursor.
+    /// At the rising edges of a signal of the cursor.
     Rising(usize),
     Free {
         clock: Clock,
         tick: Tick,
     },
-    /// Rows; those after the last may be like it.
+    /// At each row; rows after the last may repeat it.
     Rows {
         endless: bool,
     },
 }
 
 impl Clocking {
-    /// Of a source that is sampled so; a clock is read too.
+    /// Creates the sampling of a source by a clock, whose signal is added to the signals to read.
     pub(super) fn new(
         source: &Source,
         sampling: Option<&SampleClock>,
@@ -110,28 +110,28 @@ impl Clocking {
     }
 }
 
-/// A source as a sequence of samples.
+/// Reader of a source as a sequence of samples.
 pub(super) struct Samples {
     cursor: Cursor,
     clocking: Clocking,
     /// Values at the sample.
     pub(super) state: SourceState,
-    /// Signals of which the cursor has newer values than the sample.
+    /// Signals whose values in the cursor are newer than the sample.
     newer: Vec<usize>,
-    /// Signals that have changed since they were last asked for.
+    /// Signals that have changed since the last call of [`Samples::changes`].
     changed: Vec<usize>,
     next: u64,
 }
 
 impl Samples {
-    /// Begins to read the signals of `slots`.
+    /// Starts to read the signals of `slots`.
     pub(super) fn new(source: &Source, slots: &Slots, clocking: Clocking) -> Result<Samples> {
         let cursor = source.read(&slots.ids)?;
         let (state, newer) = (cursor.state.clone(), Vec::new());
         Ok(Samples { cursor, clocking, state, newer, changed: Vec::new(), next: 0 })
     }
 
-    /// Tells the signals that have changed since this was last asked; one may come twice.
+    /// Reports the signals that have changed since the last call; a signal may be reported twice.
     pub(super) fn changes(&mut self, changed: impl FnMut(usize)) {
         self.changed.drain(..).for_each(changed);
     }
@@ -143,7 +143,7 @@ impl Samples {
         self.changed.append(&mut self.newer);
     }
 
-    /// Takes the cursor's next instant into the sample.
+    /// Copies the changes of the cursor's next instant into the sample.
     fn take(&mut self) -> Marks {
         let newer = &mut self.newer;
         let marks = self.cursor.take(|signal| newer.push(signal));
@@ -151,7 +151,7 @@ impl Samples {
         marks
     }
 
-    /// The next sample, `None` at the end.
+    /// Reads the next sample; returns `None` at the end.
     pub(super) fn next(&mut self) -> Result<Option<Sample>> {
         self.catch_up();
         match self.clocking {

@@ -1,4 +1,4 @@
-//! Which samples of a sequence are compared.
+//! Selection of samples by windows.
 
 use tofsim::error::Result;
 
@@ -7,14 +7,14 @@ use super::samples::{Sample, Samples};
 /// Samples of a window, in ascending order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Piece {
-    /// All from one on; `None` is as many as there are.
+    /// Consecutive samples from a first one on; their number, or `None` for all that follow.
     Run(u64, Option<u64>),
-    /// Just these.
+    /// Listed samples.
     Kept(Vec<u64>),
 }
 
 impl Piece {
-    /// Number of the `position`-th sample, if there is one.
+    /// Returns the number of the sample at `position`, if there is one.
     pub(super) fn sample(&self, position: u64) -> Option<u64> {
         match self {
             Piece::Run(first, count) => {
@@ -24,7 +24,7 @@ impl Piece {
         }
     }
 
-    /// How many samples, if that is known.
+    /// Returns the number of samples, if it is known.
     pub(super) fn count(&self) -> Option<u64> {
         match self {
             Piece::Run(_, count) => *count,
@@ -32,7 +32,7 @@ impl Piece {
         }
     }
 
-    /// The piece from its `position`-th sample on, `count` samples at most.
+    /// Returns the part from `position` on, with at most `count` samples.
     pub(super) fn part(&self, position: u64, count: u64) -> Piece {
         match self {
             Piece::Run(first, all) => {
@@ -47,7 +47,7 @@ impl Piece {
     }
 }
 
-/// A sequence, of which only the samples of some pieces are seen.
+/// Reader of those samples of a sequence that belong to pieces.
 pub(super) struct Selected<'a> {
     pub(super) samples: Samples,
     pieces: &'a [Piece],
@@ -55,23 +55,23 @@ pub(super) struct Selected<'a> {
     position: u64,
 }
 
-/// A sample and its place among the pieces.
+/// A sample, and its place among the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Place {
-    /// Number of the piece, that is of the window.
+    /// Index of the piece, that is, of the window.
     pub(super) piece: usize,
-    /// Number within the piece.
+    /// Position within the piece.
     pub(super) position: u64,
     pub(super) sample: Sample,
 }
 
 impl<'a> Selected<'a> {
-    /// The pieces of `samples`.
+    /// Creates a reader of the pieces of `samples`.
     pub(super) fn new(samples: Samples, pieces: &'a [Piece]) -> Self {
         Selected { samples, pieces, piece: 0, position: 0 }
     }
 
-    /// The next sample of the piece; `None` at its end.
+    /// Reads the next sample of the piece; returns `None` at its end.
     pub(super) fn next(&mut self) -> Result<Option<Place>> {
         let wanted = self.pieces.get(self.piece).and_then(|piece| piece.sample(self.position));
         let Some(wanted) = wanted else { return Ok(None) };
@@ -85,7 +85,7 @@ impl<'a> Selected<'a> {
         Ok(None)
     }
 
-    /// Goes on to the next piece; `false` if there is none.
+    /// Moves to the next piece; returns `false` if there is none.
     pub(super) fn next_piece(&mut self) -> bool {
         self.piece += 1;
         self.position = 0;

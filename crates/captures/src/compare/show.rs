@@ -1,4 +1,4 @@
-//! How a value is written for people: in its signal's own radix, and as the number it stands for.
+//! Formatting of values in the radix of their signals, and as numbers.
 
 use tofsim::kernel::signals::SignalFormat as Shape;
 
@@ -7,24 +7,25 @@ use crate::ila::read::word;
 use crate::source::{Signal, SignalKind, known_shape};
 use crate::words::{Bits, extend};
 
-/// How a signal's values are shown.
+/// Format of a signal's values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Show {
-    /// As the firmware shows a signal; bits are one digit, or hexadecimal.
+    /// As the firmware's signal; bits are one digit, or hexadecimal.
     Shape(Shape),
-    /// All binary digits.
+    /// Binary digits.
     #[default]
     Binary,
-    /// A count with so many bits after the point.
+    /// Fixed-point number with the given number of fraction bits.
     Fixed(u32),
-    /// Floating point.
+    /// Floating-point number.
     Real,
     /// Words.
     Text,
 }
 
 impl Show {
-    /// As one of two signals says or, if none does, as the firmware's of their names.
+    /// Returns the format of a pair: that of either signal or, if neither has one, that of the firmware's signal of
+    /// the same name.
     pub(super) fn of(a: &Signal, b: &Signal) -> Show {
         if a.kind == SignalKind::Real {
             return Show::Real;
@@ -38,7 +39,7 @@ impl Show {
         shown.or_else(known).unwrap_or(Show::Shape(Shape::Bits))
     }
 
-    /// As a column of that radix.
+    /// Returns the format for a radix.
     pub(super) fn radix(radix: Radix) -> Show {
         match radix {
             Radix::Hex | Radix::Octal => Show::Shape(Shape::Bits),
@@ -48,12 +49,12 @@ impl Show {
         }
     }
 
-    /// Whether values are two's complement.
+    /// Returns whether values are in two's complement.
     pub(super) fn is_signed(self) -> bool {
         matches!(self, Show::Shape(Shape::Signed { .. }))
     }
 
-    /// The value as text.
+    /// Formats a value.
     pub(super) fn text(self, bits: &Bits, width: u32) -> String {
         if self == Show::Text {
             return word(&bits.value);
@@ -89,13 +90,13 @@ impl Show {
     }
 }
 
-/// A number with bits after the point, to nine places.
+/// Formats a fixed-point number, with up to nine decimals.
 fn scaled(value: f64, fraction: u32) -> String {
     let text = format!("{:.9}", value / 2f64.powi(fraction as i32));
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// All digits: one of a single bit, binary where a bit is unknown, or else hexadecimal.
+/// Formats the digits of a value: one for a single bit, binary if a bit is unknown, otherwise hexadecimal.
 fn digits(bits: &Bits, width: u32) -> String {
     if width == 1 || !bits.is_known() {
         let text: String = (0..width).rev().map(|bit| bits.level(bit).to_string()).collect();
@@ -112,7 +113,7 @@ fn digits(bits: &Bits, width: u32) -> String {
     format!("0x{}", &text[text.len().saturating_sub(count)..])
 }
 
-/// A text too long to read, shortened in its middle.
+/// Shortens a long text in its middle.
 fn shorten(text: String) -> String {
     const LONGEST: usize = 44;
     match text.len() > LONGEST {

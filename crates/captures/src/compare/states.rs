@@ -1,5 +1,5 @@
-//! Words on one side and bits on the other: what the words stand for is what the map says, or else
-//! what the side with the bits knows. Where both have words, these are compared as they are.
+//! Comparison of words on one side with bits on the other. The values of the words come from the map, or else from
+//! the side with the bits. If both sides have words, these are compared directly.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -11,22 +11,22 @@ use super::map::SignalMap;
 use super::matching::{Matching, SignalChoice, matching};
 use super::pair::Pair;
 
-/// Names in a note.
+/// Number of names listed in a note.
 const LISTED: usize = 6;
 
-/// Sources that can be compared, and what is to be said of their words.
+/// Sources whose words have been replaced by bits, with notes.
 #[derive(Debug, Default)]
 pub(super) struct Resolved {
     pub(super) sources: Option<[Source; 2]>,
-    /// Ids of the signals on each side that were words.
+    /// Ids of the signals of each side that had words.
     words: [BTreeSet<usize>; 2],
     pub(super) notes: Vec<String>,
 }
 
-/// Finds the pairs of words and bits, and makes bits of the words.
+/// Finds the pairs of words and bits, and replaces the words by bits.
 ///
 /// # Errors
-/// As [`matching`].
+/// If the map names a signal that does not exist, or a pattern is invalid.
 pub(super) fn resolve(
     sides: [&Source; 2],
     map: &SignalMap,
@@ -95,7 +95,7 @@ fn leave_out(signal: &mut Signal) {
     signal.kind = SignalKind::Other;
 }
 
-/// The same source as if its words were bits already, to find what belongs together.
+/// Returns the source as if its words were already bits, to match its signals.
 fn as_bits(source: &Source) -> Source {
     let mut source = source.clone();
     for signal in source.signals.iter_mut().filter(|signal| is_text(signal)) {
@@ -104,7 +104,7 @@ fn as_bits(source: &Source) -> Source {
     source
 }
 
-/// Ids of a side's signals in a pair.
+/// Returns the ids of a side's signals in a pair.
 fn ids(matching: &Matching, pair: &Pair, side: usize) -> Vec<usize> {
     pair.sides[side].iter().map(|part| matching.slots[side].ids[part.signal]).collect()
 }
@@ -113,12 +113,12 @@ fn by_id(source: &Source, id: usize) -> Option<&Signal> {
     source.signals.iter().find(|signal| signal.id == id)
 }
 
-/// The one of some signals that has words.
+/// Returns the first of some signals that has words.
 fn text<'a>(source: &'a Source, ids: &[usize]) -> Option<&'a Signal> {
     ids.iter().filter_map(|id| by_id(source, *id)).find(|signal| is_text(signal))
 }
 
-/// What the words of a pair stand for.
+/// Returns the values of a pair's words.
 fn states(pair: &Pair, map: &SignalMap, bits: Option<&Signal>, width: u32) -> HashMap<String, u64> {
     let learned = bits.iter().flat_map(|signal| &signal.words.states);
     let learned = learned.filter_map(|state| Some((state.name.clone(), state.bits?)));
@@ -133,7 +133,7 @@ fn states(pair: &Pair, map: &SignalMap, bits: Option<&Signal>, width: u32) -> Ha
     learned.chain(told).filter(fits).collect()
 }
 
-/// What is said of words that nobody knows the bits of.
+/// Formats a note on words whose values are unknown.
 fn note(name: &str, side: usize, is_known: bool, missing: &[&str]) -> String {
     let list: Vec<_> = missing.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
     let more = missing.len().saturating_sub(LISTED);

@@ -1,18 +1,18 @@
-//! A condition tied to the signals of a sample.
+//! Conditions bound to signals.
 
 use super::literal::mask;
 use super::tree::{Level, Node, Relation, Test};
 
-/// A condition that can be asked sample by sample.
+/// A condition that can be evaluated sample by sample.
 #[derive(Clone, Debug)]
 pub struct Bound {
     node: Node,
     watched: Vec<Watched>,
-    /// The outcome of each test at the present sample, `None` where unknown bits decide.
+    /// Outcome of each test at the present sample; `None` if it depends on unknown bits.
     outcomes: Vec<Option<bool>>,
 }
 
-/// The bits that a test looks at, and what they were.
+/// Bits of a test, with their last level.
 #[derive(Clone, Debug)]
 pub(super) struct Watched {
     index: usize,
@@ -69,11 +69,11 @@ impl Bound {
         Bound { node, watched, outcomes }
     }
 
-    /// Whether it holds at this sample, where `value` gives the level of a [`Place`](super::Place) by its
-    /// index.
+    /// Evaluates the condition at the next sample, where `value` returns the level of a [`Place`](super::Place) by
+    /// its index.
     ///
-    /// It remembers the levels for `rising`, `falling` and `changed`, none of which holds at the
-    /// first sample. What hangs on an unknown bit does not hold, nor does its opposite.
+    /// Levels are stored for `rising`, `falling` and `changed`, which are false at the first sample. A test that
+    /// depends on an unknown bit is false, and so is its negation.
     pub fn sample(&mut self, value: impl Fn(usize) -> Level) -> bool {
         for (watched, outcome) in self.watched.iter_mut().zip(&mut self.outcomes) {
             *outcome = watched.sample(value(watched.index));
@@ -90,7 +90,7 @@ impl Bound {
         }
     }
 
-    /// `decides` as soon as one does; else the opposite if all are known.
+    /// Combines outcomes: `decides` if any outcome is that, otherwise the opposite if all are known.
     fn joined(&self, nodes: &[Node], decides: bool) -> Option<bool> {
         let mut joined = Some(!decides);
         for node in nodes {

@@ -1,24 +1,24 @@
-//! The value on the right of a comparison.
+//! Literal values on the right of a comparison.
 
-/// A number, perhaps with digits that do not matter.
+/// A number, possibly with don't-care digits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Literal {
-    /// As it is written.
+    /// Text as written.
     pub(super) text: String,
-    /// The bits; of a negative number its magnitude.
+    /// Bits; the magnitude of a negative number.
     value: u128,
-    /// The bits that do not matter.
+    /// Mask of the don't-care bits.
     any: u128,
     negative: bool,
-    /// Whether it is written bit by bit, so that the top bit may be a sign.
+    /// Whether it is written as a bit pattern, whose top bit may be a sign.
     pattern: bool,
 }
 
 impl Literal {
-    /// Reads `12`, `-3`, `0x1f`, `0b1x0x`; digits may be parted by `_`.
+    /// Parses `12`, `-3`, `0x1f` or `0b1x0x`; `_` may separate digits.
     ///
     /// # Errors
-    /// What was expected instead.
+    /// Description of what was expected.
     pub(super) fn parse(text: &str) -> Result<Self, &'static str> {
         const EXPECTED: &str = "expected a value: decimal, 0x.. or 0b.. with x for any digit";
         let lower = text.to_ascii_lowercase();
@@ -58,15 +58,15 @@ impl Literal {
         Some(Literal { text: text.to_owned(), value, any: 0, negative, pattern: false })
     }
 
-    /// Whether some digits do not matter.
+    /// Returns whether there are don't-care digits.
     pub(super) fn has_any(&self) -> bool {
         self.any != 0
     }
 
-    /// Whether a signal can have this value.
+    /// Checks that a signal can have this value.
     ///
     /// # Errors
-    /// What was expected instead.
+    /// Description of what was expected.
     pub(super) fn fits(&self, width: u32, signed: bool) -> Result<(), String> {
         let top = mask(width);
         let (low, high) = match (signed, self.pattern) {
@@ -81,14 +81,14 @@ impl Literal {
         }
     }
 
-    /// The bits that a signal of so many has, and those of them that matter.
+    /// Returns the bits for a signal of the given width, and the mask of those that matter.
     pub(super) fn bits(&self, width: u32) -> (u128, u128) {
         let value = if self.negative { self.value.wrapping_neg() } else { self.value };
         (value & mask(width), mask(width) & !self.any)
     }
 }
 
-/// As many ones [bits], 128 at most.
+/// Returns a mask of `width` ones, at most 128.
 pub(super) fn mask(width: u32) -> u128 {
     u128::MAX.checked_shr(128 - width.min(128)).unwrap_or(0)
 }

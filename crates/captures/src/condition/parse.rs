@@ -1,4 +1,4 @@
-//! Reads the tokens of a condition by recursive descent.
+//! Recursive descent parser of conditions.
 
 use tofsim::error::{Input, Result};
 
@@ -6,13 +6,13 @@ use super::literal::Literal;
 use super::token::{Token, TokenKind, tokens};
 use super::tree::{Leaf, Node, Relation, Test};
 
-/// How deep parentheses may stand in each other.
+/// Largest nesting depth of parentheses.
 const DEEPEST: usize = 64;
 
-/// What holds at every sample, unless it stands in quotes.
+/// Keyword for a condition that is always true.
 const ALWAYS: &str = "always";
 
-/// Words that are no names unless they stand in quotes.
+/// Keywords, which are names only in quotes.
 const KEYWORDS: &[&str] = &["and", "or", "rising", "falling", "changed"];
 
 const RELATIONS: &[(&str, Relation)] = &[
@@ -24,7 +24,7 @@ const RELATIONS: &[(&str, Relation)] = &[
     (">=", Relation::Order(u128::ge)),
 ];
 
-/// The tests of a condition and how they are joined.
+/// Parses the tests of a condition and their combination.
 pub(super) fn parse(source: &str, text: &str) -> Result<(Node, Vec<Leaf>)> {
     let tokens = tokens(source, text)?;
     let mut parser = Parser { source, tokens: &tokens, leaves: Vec::new(), depth: 0 };
@@ -51,7 +51,7 @@ impl<'a> Parser<'a> {
         self.joined(&["&&", "and"], Self::test, Node::All)
     }
 
-    /// Parts with one of those words between them.
+    /// Parses operands separated by one of the given operators.
     fn joined(
         &mut self,
         words: &[&str],
@@ -74,7 +74,7 @@ impl<'a> Parser<'a> {
         Ok(if inverted { Node::Not(Box::new(node)) } else { node })
     }
 
-    /// From an opening parenthesis to its closing one.
+    /// Parses an expression in parentheses, from the opening one on.
     fn inside(&mut self) -> Result<Node> {
         self.depth += 1;
         if self.depth > DEEPEST {
@@ -108,7 +108,7 @@ impl<'a> Parser<'a> {
         Ok(Node::Leaf(self.leaves.len() - 1))
     }
 
-    /// The slice that stands right behind a name in quotes.
+    /// Parses the slice immediately after a quoted name.
     fn slice(&mut self, name: Token) -> &'a str {
         let next = self.first();
         let behind = name.column + name.text.chars().count() + 2 == next.column;
@@ -121,7 +121,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What stands behind a name.
+    /// Parses the test after a name.
     fn what(&mut self) -> Result<Test> {
         let words = [("rising", Test::Rising), ("falling", Test::Falling)];
         for (word, test) in words.into_iter().chain([("changed", Test::Changed)]) {
@@ -147,12 +147,12 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The coming token; the last one is never taken.
+    /// Returns the next token; the last token is never consumed.
     fn first(&self) -> Token<'a> {
         self.tokens[0]
     }
 
-    /// Takes the coming token if it is one of these.
+    /// Consumes the next token if it is one of `words`.
     fn take(&mut self, words: &[&str]) -> bool {
         let token = self.first();
         let taken =

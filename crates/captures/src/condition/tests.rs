@@ -1,6 +1,6 @@
 use super::*;
 
-/// `bit` (1), `bus` (8), `depth` (36, signed), `list[2]` (4), `a b` (8), `wide` (200).
+/// Looks up a test signal: `bit` (1), `bus` (8), `depth` (36, signed), `list[2]` (4), `a b` (8), `wide` (200).
 fn find(name: &str) -> Result<Place> {
     let known = [
         ("bit", 1, false),
@@ -19,7 +19,7 @@ fn bound(text: &str) -> Bound {
     Condition::parse("--trigger", text).and_then(|c| c.bind(&mut find)).unwrap()
 }
 
-/// At each sample of all signals.
+/// Evaluates a condition at samples of all test signals.
 fn over(text: &str, samples: &[[u128; 5]]) -> Vec<bool> {
     let mut bound = bound(text);
     samples.iter().map(|s| bound.sample(|index| Level::known(s[index]))).collect()

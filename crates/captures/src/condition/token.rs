@@ -1,12 +1,12 @@
-//! Cuts a condition into its words and signs.
+//! Lexer of conditions.
 
 use tofsim::error::{Input, Result};
 
-/// A word or a sign, and its column.
+/// A token with its column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Token<'a> {
     pub(super) kind: TokenKind,
-    /// As it is written; of a name in quotes what is between them.
+    /// Text as written; of a quoted name, the text between the quotes.
     pub(super) text: &'a str,
     pub(super) column: usize,
 }
@@ -15,7 +15,7 @@ pub(super) struct Token<'a> {
 pub(super) enum TokenKind {
     Sign,
     Word,
-    /// A name in quotes.
+    /// A quoted name.
     Quoted,
     End,
 }
@@ -26,7 +26,7 @@ fn belongs_to_word(character: char) -> bool {
     character.is_alphanumeric() || "_./[]:$-".contains(character)
 }
 
-/// The tokens of `text`, ending with an empty one.
+/// Returns the tokens of `text`, followed by an empty one.
 pub(super) fn tokens<'a>(source: &str, text: &'a str) -> Result<Vec<Token<'a>>> {
     let (mut tokens, mut rest, mut column) = (Vec::new(), text, 1);
     loop {
@@ -45,7 +45,7 @@ pub(super) fn tokens<'a>(source: &str, text: &'a str) -> Result<Vec<Token<'a>>> 
     }
 }
 
-/// The first token of `rest` and how many bytes it takes, or what is wrong with it.
+/// Returns the first token of `rest` and its length in bytes, or an error.
 fn token(rest: &str) -> std::result::Result<(TokenKind, &str, usize), (&str, &str)> {
     if let Some(inside) = rest.strip_prefix('"') {
         let end = inside.find('"').ok_or((rest, "expected a closing quote"))?;

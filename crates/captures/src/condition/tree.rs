@@ -1,35 +1,35 @@
-//! What a condition is made of: tests of signals, and how they are joined.
+//! Syntax tree of conditions: tests of signals, and their combination.
 
 use super::literal::Literal;
 
-/// Where the signal of a name is found among the levels of a sample.
+/// A signal that a name was bound to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// Number that [`Bound::sample`] asks for.
+    /// Index by which [`Bound::sample`] requests its level.
     pub index: usize,
     /// Width [bits].
     pub width: u32,
-    /// Whether its value is two's complement.
+    /// Whether its value is in two's complement.
     pub signed: bool,
 }
 
-/// What a signal is at a sample.
+/// Level of a signal at a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Level {
-    /// The bits; an unknown one may be either.
+    /// Bits; unknown ones are arbitrary.
     pub value: u128,
-    /// The bits that are not known.
+    /// Mask of the unknown bits.
     pub unknown: u128,
 }
 
 impl Level {
-    /// A level without unknown bits.
+    /// Creates a level without unknown bits.
     pub const fn known(value: u128) -> Self {
         Level { value, unknown: 0 }
     }
 }
 
-/// How tests are joined.
+/// A node of the tree.
 #[derive(Clone, Debug)]
 pub(super) enum Node {
     /// A test, by its number.
@@ -42,30 +42,30 @@ pub(super) enum Node {
 /// A test of one signal.
 #[derive(Clone, Debug)]
 pub(super) struct Leaf {
-    /// Name, perhaps with a slice.
+    /// Name, possibly with a slice.
     pub(super) name: String,
     /// Column of the name.
     pub(super) column: usize,
     pub(super) test: Test,
 }
 
-/// What a signal is tested for.
+/// Kind of test.
 #[derive(Clone, Debug)]
 pub(super) enum Test {
-    /// Compared with a value, which stands at a column.
+    /// A comparison with a value at the given column.
     Compare(Relation, Literal, usize),
-    /// Is 1.
+    /// A test for 1.
     High,
     Rising,
     Falling,
     Changed,
 }
 
-/// How a signal is compared with a value.
+/// Relation of a comparison.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Relation {
-    /// The bits that matter are the same, or are not.
+    /// Equality of the bits that matter, or inequality.
     Equal(bool),
-    /// By their order as whole numbers.
+    /// Order as integers.
     Order(fn(&u128, &u128) -> bool),
 }

@@ -1,4 +1,4 @@
-//! Set-ups built into the program: the thesis's screen captures, the likelihood estimator's, and a shot.
+//! Built-in probe configurations: the thesis's screen captures, the likelihood estimator's, and a shot.
 
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
@@ -9,11 +9,11 @@ macro_rules! files {
     };
 }
 
-/// Name and text of each built-in set-up.
+/// Name and text of each built-in configuration.
 pub const SET_UPS: &[(&str, &str)] =
     files!("fig_6_6", "fig_6_12", "fig_6_13", "fig_6_21", "likelihood_estimator", "shot");
 
-/// The text of a built-in set-up.
+/// Returns the text of a built-in configuration.
 pub fn set_up(name: &str) -> Option<&'static str> {
     SET_UPS.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }

@@ -1,10 +1,10 @@
-//! A capture in memory: what a logic analyser's buffer holds.
+//! A capture in memory: the contents of a logic analyser's buffer.
 
 use std::ops::Range;
 
 use bitvec::prelude::*;
 
-/// How the digits of a value are written.
+/// Radix in which values are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Radix {
     /// Hexadecimal, lower case, all digits
@@ -13,18 +13,18 @@ pub enum Radix {
     Signed,
     /// Decimal
     Unsigned,
-    /// Bit by bit, all digits
+    /// Binary, all digits
     Binary,
-    /// Three bits to a digit, all digits
+    /// Octal, all digits
     Octal,
 }
 
 impl Radix {
-    /// All of them.
+    /// All radices.
     pub const ALL: [Radix; 5] =
         [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
 
-    /// The word that Vivado writes.
+    /// Returns Vivado's name of the radix.
     pub const fn word(self) -> &'static str {
         match self {
             Radix::Hex => "HEX",
@@ -45,14 +45,14 @@ pub struct Probe {
     pub width: u32,
     /// Index of its lowest bit.
     pub lsb: u32,
-    /// Whether it has a range, even of one bit.
+    /// Whether its name has a range, even for one bit.
     pub vector: bool,
-    /// How its values are shown.
+    /// Radix in which its values are shown.
     pub radix: Radix,
 }
 
 impl Probe {
-    /// Name and range, as the head of a column has them: `count[15:0]`.
+    /// Returns name and range as in the head of a column: `count[15:0]`.
     pub fn head(&self) -> String {
         match self.vector {
             true => format!("{}[{}:{}]", self.name, self.lsb + self.width - 1, self.lsb),
@@ -61,46 +61,46 @@ impl Probe {
     }
 }
 
-/// Samples of some probes, in windows that each may have a trigger.
+/// Samples of some probes, in windows with at most one trigger each.
 ///
-/// In a sample the probes stand side by side, the lowest bit of the first at bit 0.
+/// A sample is the concatenation of all probes, with the lowest bit of the first probe at bit 0.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Capture {
     /// The probes.
     pub probes: Vec<Probe>,
-    /// Words of a sample.
+    /// Words per sample.
     pub stride: usize,
-    /// The samples, one after the other.
+    /// Words of all samples.
     pub words: Vec<u64>,
-    /// Sample with which each window begins.
+    /// First sample of each window.
     pub windows: Vec<usize>,
-    /// Samples that triggered, one for each window but perhaps the last.
+    /// Sample that triggered in each window; the last window may have none.
     pub triggers: Vec<usize>,
 }
 
 impl Capture {
-    /// No samples of `probes` yet.
+    /// Creates an empty capture of `probes`.
     pub fn new(probes: Vec<Probe>) -> Self {
         let bits: usize = probes.iter().map(|probe| probe.width as usize).sum();
         Capture { probes, stride: bits.div_ceil(64).max(1), ..Capture::default() }
     }
 
-    /// Bits of a sample.
+    /// Returns the number of bits per sample.
     pub fn width(&self) -> usize {
         self.probes.iter().map(|probe| probe.width as usize).sum()
     }
 
-    /// Number of samples.
+    /// Returns the number of samples.
     pub fn samples(&self) -> usize {
         self.words.len() / self.stride
     }
 
-    /// A sample.
+    /// Returns the bits of a sample.
     pub fn sample(&self, sample: usize) -> &BitSlice<u64, Lsb0> {
         self.words[sample * self.stride..(sample + 1) * self.stride].view_bits()
     }
 
-    /// Each probe's place in a sample.
+    /// Returns the bit range of each probe in a sample.
     pub fn places(&self) -> impl Iterator<Item = Range<usize>> {
         let widths = self.probes.iter().map(|probe| probe.width as usize);
         widths.scan(0, |low, width| {

@@ -1,4 +1,4 @@
-//! The clock that a logic analyser samples with.
+//! Sampling clock of a logic analyser.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use tofsim::firmware::pll::Pll;
 use tofsim::kernel::Time;
 use tofsim::kernel::clock::Clock;
 
-/// A clock of the design, or one of its own.
+/// A clock of the design, or a free-running clock.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AnalyserClock {
     /// `clk_sys`.
@@ -16,20 +16,20 @@ pub enum AnalyserClock {
     Laser,
     /// `clk_in`.
     Input,
-    /// One that has nothing to do with the design.
+    /// A clock independent of the design.
     Free {
         /// Frequency [Hz].
         frequency_hz: u64,
-        /// First rising edge after power-up.
+        /// Time of the first rising edge after power-up.
         phase: Time,
     },
 }
 
-/// Slowest and fastest free clock [Hz].
+/// Frequency range of a free-running clock [Hz].
 const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e9;
 
 impl AnalyserClock {
-    /// Its rising edges, without jitter.
+    /// Returns the rising edges of the clock, without jitter.
     pub fn clock(&self, pll: &Pll) -> Clock {
         match self {
             AnalyserClock::System => pll.clk_sys.clone(),
@@ -65,7 +65,7 @@ impl FromStr for AnalyserClock {
     }
 }
 
-/// A number with one of those units, times what the unit is.
+/// Parses a number with one of the given units, and returns it times the unit's factor.
 pub(crate) fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     let text = text.trim();
     let split = |(unit, factor): &(&str, f64)| Some((text.strip_suffix(unit)?, *factor));
@@ -86,7 +86,7 @@ impl fmt::Display for AnalyserClock {
     }
 }
 
-/// The first edge at `time` or after.
+/// Returns the number of the first edge at or after `time`.
 pub fn first_edge(clock: &Clock, time: Time) -> u64 {
     let mut range = 0..1;
     while clock.rise(range.end) < time {

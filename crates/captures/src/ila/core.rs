@@ -1,51 +1,50 @@
-//! The logic analyser's core: a ring buffer behind a trigger.
+//! The logic analyser's core: a ring buffer with a trigger.
 
 use super::capture::{Capture, Probe};
 
-/// The shape of a capture.
+/// Dimensions of a capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
-    /// Samples of a window, at least 1.
+    /// Samples per window, at least 1.
     pub depth: usize,
-    /// Windows, at least 1.
+    /// Number of windows, at least 1.
     pub windows: usize,
-    /// Samples of a window before the one that triggers, less than `depth`.
+    /// Samples of a window before the trigger, less than `depth`.
     pub position: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// Stores what is to stand before a trigger, which is not looked for yet.
+    /// Stores the samples before the trigger; triggers are ignored.
     Filling,
-    /// Looks for a trigger.
+    /// Waits for a trigger.
     Waiting,
-    /// Stores what stands behind the trigger.
+    /// Stores the samples after the trigger.
     Triggered,
-    /// All windows have their samples.
+    /// All windows are complete.
     Full,
 }
 
-/// Stores samples of so many words.
+/// Ring buffer with trigger.
 ///
-/// A window first fills with `position` samples, then waits for a trigger while it keeps the last
-/// `position`, then stores until it has `depth`; the next begins with the very next sample. Only
-/// samples that qualify are stored, and the one that triggers.
+/// A window first stores `position` samples, then waits for a trigger while it keeps the last `position` samples, and
+/// then stores until it has `depth` samples; the next window begins with the very next sample. Only qualified samples
+/// and the triggering sample are stored.
 #[derive(Clone, Debug)]
 pub struct Core {
     shape: Shape,
-    /// Words of a row.
+    /// Words per sample.
     stride: usize,
-    /// The stored rows, one after the other.
+    /// Words of the stored samples.
     words: Vec<u64>,
     state: State,
-    /// Samples stored in the present window before its trigger.
+    /// Number of samples stored in the present window before its trigger.
     before: usize,
-    /// Place of the next of them.
+    /// Ring index of the next sample before the trigger.
     next: usize,
-    /// Samples stored from the trigger on.
+    /// Number of samples stored from the trigger on.
     after: usize,
-    /// For each full window how far the samples before its trigger are out of turn: the place of the
-    /// oldest.
+    /// For each complete window, the ring index of its oldest sample.
     full: Vec<usize>,
     /// Number of the next sample.
     number: u64,
@@ -54,7 +53,7 @@ pub struct Core {
 }
 
 impl Core {
-    /// An empty buffer for rows of `stride` words.
+    /// Creates an empty buffer for samples of `stride` words.
     pub fn new(shape: Shape, stride: usize) -> Self {
         let mut core = Core {
             shape,
@@ -81,7 +80,7 @@ impl Core {
         };
     }
 
-    /// Takes a sample: its row, whether the trigger holds, and whether it may be stored.
+    /// Processes a sample, given whether it satisfies the trigger and the storage qualifier.
     #[inline]
     pub fn sample(&mut self, row: &[u64], triggers: bool, qualifies: bool) {
         let slot = match self.state {
@@ -105,7 +104,8 @@ impl Core {
         self.number += 1;
     }
 
-    /// Where a sample before the trigger is stored: at the first free place or an older one's.
+    /// Returns the index at which to store a sample before the trigger: the next free one, or that of the oldest
+    /// sample.
     #[inline]
     fn lead(&mut self) -> usize {
         let slot = self.full.len() * self.shape.depth + self.next;
@@ -119,7 +119,7 @@ impl Core {
         slot
     }
 
-    /// Where the trigger's sample or one behind it is stored.
+    /// Returns the index at which to store the triggering sample or one after it.
     #[inline]
     fn follow(&mut self) -> usize {
         let Shape { depth, position, .. } = self.shape;
@@ -133,36 +133,36 @@ impl Core {
         slot
     }
 
-    /// Whether all windows have their samples.
+    /// Returns whether all windows are complete.
     #[inline]
     pub fn is_full(&self) -> bool {
         self.state == State::Full
     }
 
-    /// Whether a window has not yet the samples that stand before its trigger, so that none counts.
+    /// Returns whether the present window still lacks samples before its trigger, so that triggers are ignored.
     #[inline]
     pub fn is_filling(&self) -> bool {
         self.state == State::Filling
     }
 
-    /// Whether a trigger, now or later, can still matter: not behind that of the last window.
+    /// Returns whether the present or a later window still needs a trigger.
     #[inline]
     pub fn looks_for_triggers(&self) -> bool {
         self.triggers.len() < self.shape.windows
     }
 
-    /// Numbers of the samples that triggered, counted from 0.
+    /// Returns the numbers of the samples that triggered, counted from 0.
     pub fn triggers(&self) -> &[u64] {
         &self.triggers
     }
 
-    /// Samples taken so far, stored or not.
+    /// Returns the number of samples processed, stored or not.
     pub fn taken(&self) -> u64 {
         self.number
     }
 
-    /// What the buffer holds: the full windows, then the one under way if it has a sample. Stopped
-    /// before its trigger, that one is what is there to stand before a trigger.
+    /// Returns the buffer's contents: the complete windows, followed by the present one if it has a sample. A window
+    /// without trigger contains the samples stored for before its trigger.
     pub fn finish(self, probes: Vec<Probe>) -> Capture {
         let Core { stride, mut words, .. } = self;
         let Shape { depth, position, .. } = self.shape;
@@ -187,8 +187,8 @@ impl Core {
 mod tests {
     use super::*;
 
-    /// Samples that trigger where there is a `t`, and do not qualify where the letter is `-` or
-    /// `T`; the row is the sample's number.
+    /// Captures a sequence of samples given as letters: `t` or `T` triggers, and `-` or `T` does not qualify. A
+    /// sample's value is its number.
     fn capture(depth: usize, windows: usize, position: usize, samples: &str) -> Capture {
         let mut core = Core::new(Shape { depth, windows, position }, 1);
         for (number, sample) in samples.chars().enumerate() {

@@ -1,4 +1,4 @@
-//! The files of a capture.
+//! Export of a capture to files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,23 +9,23 @@ use tofsim::files::output::{create_directory, write_file};
 use super::capture::Capture;
 use super::write;
 
-/// One of the forms that Vivado's `write_hw_ila_data` has.
+/// A file format of Vivado's `write_hw_ila_data`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CaptureFormat {
-    /// A row for each sample
+    /// One row per sample
     Csv,
-    /// Value change dump, its time the number of the sample
+    /// Value change dump, with sample numbers as times
     Vcd,
-    /// Vivado's own archive
+    /// Vivado's archive
     Ila,
 }
 
 impl CaptureFormat {
-    /// All of them.
+    /// All formats.
     pub const ALL: [CaptureFormat; 3] =
         [CaptureFormat::Csv, CaptureFormat::Vcd, CaptureFormat::Ila];
 
-    /// Ending of a file's name.
+    /// Returns the file name extension.
     pub const fn ending(self) -> &'static str {
         match self {
             CaptureFormat::Csv => "csv",
@@ -35,11 +35,11 @@ impl CaptureFormat {
     }
 }
 
-/// Writes a capture into `folder`, in each format once, as `stem` with the format's ending; `radix_row`
-/// is the second row of the CSV. Returns the paths.
+/// Writes a capture to `folder` in each of the formats, as `stem` with the format's extension, and returns the paths.
+/// `radix_row` selects whether the CSV has a second row with radices.
 ///
 /// # Errors
-/// When a file cannot be written.
+/// If a file cannot be written.
 pub fn export(
     capture: &Capture,
     folder: &Path,

@@ -1,4 +1,4 @@
-//! A set-up tied to a scenario's design: every name found, every number checked.
+//! A probe configuration resolved against a scenario's design.
 
 use std::collections::HashMap;
 
@@ -14,45 +14,44 @@ use super::core::Shape;
 use super::probes::{Bits, Design};
 use super::setup::AnalyserSetup;
 
-/// Most bits of a sample.
+/// Largest number of bits per sample.
 pub const WIDEST: usize = 4096;
 
-/// Samples that a buffer may have.
+/// Range of buffer depths [samples].
 const DEPTHS: std::ops::RangeInclusive<u64> = 1 << 10..=1 << 17;
 
-/// What a logic analyser is to do.
+/// Resolved configuration of a logic analyser.
 #[derive(Clone, Debug)]
 pub struct AnalyserPlan {
     /// The probes.
     pub probes: Vec<Probe>,
-    /// The signal's bits of each.
+    /// Signal bits of each probe.
     pub bits: Vec<Bits>,
-    /// Windows and trigger position.
+    /// Dimensions of the capture.
     pub shape: Shape,
-    /// What it samples with.
+    /// Sampling clock.
     pub sampling: AnalyserClock,
-    /// The trigger, over `operands`; without one every sample triggers.
+    /// Trigger condition over `operands`; without one, every sample triggers.
     pub trigger: Option<Bound>,
-    /// Which samples may be stored, over `operands`; without one all.
+    /// Storage qualifier over `operands`; without one, all samples are stored.
     pub qualifier: Option<Bound>,
-    /// The bits that the conditions look at.
+    /// Bits that the conditions use.
     pub operands: Vec<Bits>,
-    /// When it begins to look.
+    /// Time at which the analyser is armed.
     pub arm_at: Time,
-    /// Registers before the probes [edges].
+    /// Number of registers between the signals and the analyser [edges].
     pub input_stages: u64,
-    /// Whether it has to see every change, not just the edges of `clk_sys` and `clk_laser`.
+    /// Whether the analyser must see every change rather than only the edges of `clk_sys` and `clk_laser`.
     pub every_change: bool,
-    /// Whether the run ends as soon as it is full.
+    /// Whether the run ends as soon as the buffer is full.
     pub stop_when_full: bool,
 }
 
 impl AnalyserPlan {
-    /// Ties a set-up to the design of `setup`.
+    /// Resolves a configuration against the design of `setup`.
     ///
     /// # Errors
-    /// When it names signals that the design does not have, or its numbers do not go together; the
-    /// error has the place.
+    /// If it names a signal that the design does not have, or its numbers are inconsistent; with the position.
     pub fn new(set_up: &AnalyserSetup, setup: &Setup) -> Result<Self> {
         let design = Design::new(&setup.params);
         let (probes, bits) = probes(set_up, &design)?;
@@ -143,7 +142,7 @@ fn shape(set_up: &AnalyserSetup) -> Result<Shape> {
     Ok(Shape { depth, windows: file.windows as usize, position })
 }
 
-/// Binds a condition, probes by name before signals by path, and adds what it looks at.
+/// Binds a condition, with names of probes taking precedence over paths of signals, and adds the bits that it uses.
 fn condition(
     set_up: &AnalyserSetup,
     key: &str,

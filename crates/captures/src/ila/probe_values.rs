@@ -1,4 +1,4 @@
-//! Keeps the present row of a capture, word by word as signals change.
+//! The present sample of a capture, updated as signals change.
 
 use bitvec::prelude::*;
 
@@ -13,19 +13,19 @@ use crate::condition::WIDEST;
 
 use super::probes::Bits;
 
-/// Which bits of a word of the present are those of a signal.
+/// Bits of a signal within one word.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     word: usize,
-    /// Ones at those bits.
+    /// Mask of these bits in the word.
     mask: u64,
-    /// Lowest of them.
+    /// Lowest of these bits in the word.
     begin: u32,
-    /// Lowest bit in the signal.
+    /// Lowest of these bits in the signal.
     low: u32,
 }
 
-/// The present values of the probes and of what the conditions look at.
+/// Present values of the probes and of the conditions' operands.
 #[derive(Clone, Debug)]
 pub(super) struct ProbeValues {
     part: Part,
@@ -34,20 +34,20 @@ pub(super) struct ProbeValues {
 
 #[derive(Clone, Debug)]
 struct Packed {
-    /// The places of each id.
+    /// Positions of each id's bits.
     places: Vec<Vec<Place>>,
-    /// Shows taps in their physical places.
+    /// Converter of taps to their physical order.
     taps: TapDigits,
-    /// The row, then two words for each operand of the conditions.
+    /// Words of the sample, followed by two words for each operand.
     words: Vec<u64>,
-    /// Words of the row.
+    /// Words per sample.
     stride: usize,
-    /// An operand may have changed.
+    /// Whether an operand may have changed.
     operands_changed: bool,
 }
 
 impl ProbeValues {
-    /// At probes that stand side by side in a row of `stride` words, and at operands.
+    /// Creates values for probes, concatenated in a sample of `stride` words, and for operands.
     pub(super) fn new(
         probes: &[Bits],
         operands: &[Bits],
@@ -74,19 +74,19 @@ impl ProbeValues {
         ProbeValues { part: Part::of(ids), present }
     }
 
-    /// Brings the values up to date.
+    /// Updates the values.
     #[inline]
     pub(super) fn follow(&mut self, top: &TofTop) {
         self.part.follow(top, &mut self.present);
     }
 
-    /// The probes' values.
+    /// Returns the values of the probes.
     #[inline]
     pub(super) fn row(&self) -> &[u64] {
         &self.present.words[..self.present.stride]
     }
 
-    /// An operand's value.
+    /// Returns the value of an operand.
     #[inline]
     pub(super) fn operand(&self, operand: usize) -> u128 {
         let begin = self.present.stride + 2 * operand;
@@ -94,7 +94,7 @@ impl ProbeValues {
         high << 64 | low
     }
 
-    /// Whether an operand may have changed since this was last asked.
+    /// Returns whether an operand may have changed since the last call.
     #[inline]
     pub(super) fn take_operands_changed(&mut self) -> bool {
         std::mem::take(&mut self.present.operands_changed)
@@ -102,7 +102,7 @@ impl ProbeValues {
 }
 
 impl Packed {
-    /// Has some bits of a signal stand from bit `begin` on among all words.
+    /// Maps bits of a signal to the bits from `begin` on of all words.
     fn insert(&mut self, Bits { id, mut low, width, .. }: Bits, begin: usize) {
         let end = begin + width as usize;
         for word in begin / 64..end.div_ceil(64) {
@@ -113,7 +113,7 @@ impl Packed {
         }
     }
 
-    /// Puts a signal's bits at its places.
+    /// Writes the bits of a signal to its positions.
     #[inline]
     fn put(&mut self, id: usize, bits: impl Fn(&Place) -> u64) {
         for place in &self.places[id] {
@@ -152,7 +152,7 @@ mod tests {
     use tofsim::sim::device::Off;
     use tofsim::sim::setup::Setup;
 
-    /// Every value by its id, bit by bit.
+    /// Collects every value by its id, bit by bit.
     struct Collect<'a>(Vec<BitVec<u64>>, &'a [u16]);
 
     impl Sink for Collect<'_> {

@@ -1,4 +1,4 @@
-//! Finds signals of the design by the names that set-ups and conditions have for them.
+//! Lookup of the design's signals by the names in probe configurations and conditions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,29 +11,29 @@ use crate::condition::slice;
 
 use super::capture::{Probe, Radix};
 
-/// Some bits of a signal.
+/// A slice of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bits {
     /// Id of the signal in the hierarchy.
     pub id: usize,
     /// Lowest bit.
     pub low: u32,
-    /// How many.
+    /// Number of bits.
     pub width: u32,
-    /// Whether they are a two's complement number.
+    /// Whether the value is in two's complement.
     pub signed: bool,
 }
 
-/// The signals of a design, by path below the top.
+/// Signals of a design, by path below the top.
 #[derive(Clone, Debug)]
 pub struct Design {
     signals: BTreeMap<String, (usize, Signal)>,
-    /// Signals that other settings of the scenario would have.
+    /// Signals that exist only with other settings of the scenario.
     left_out: BTreeSet<String>,
 }
 
 impl Design {
-    /// The signals that those parameters have.
+    /// Creates the list of signals of a design with the given parameters.
     pub fn new(params: &Params) -> Self {
         let entries = hierarchy::entries(params);
         let has_ram = entries.iter().any(|entry| entry.scope.ends_with(".histogram_builder"));
@@ -47,21 +47,21 @@ impl Design {
         Design { signals, left_out }
     }
 
-    /// A whole signal, by its path with dots or slashes, with the top or without.
+    /// Looks up a whole signal by its path, with dots or slashes, with or without the top.
     ///
     /// # Errors
-    /// What was expected instead.
+    /// Description of what was expected.
     pub fn signal(&self, path: &str) -> Result<Bits, String> {
         let (id, signal) = self.look_up(path)?;
         let signed = matches!(signal.format, SignalFormat::Signed { .. });
         Ok(Bits { id, low: 0, width: signal.width, signed })
     }
 
-    /// A probe on a signal or a slice of it, and its bits. Without a name it has the path, with
-    /// slashes; without a radix the one that suits the signal.
+    /// Creates a probe on a signal or a slice of it, and returns it with its bits. The default name is the path with
+    /// slashes; the default radix suits the signal.
     ///
     /// # Errors
-    /// What was expected instead.
+    /// Description of what was expected.
     pub fn probe(
         &self,
         text: &str,
@@ -113,7 +113,7 @@ impl Design {
     }
 }
 
-/// A path below the top, whether the top stands before it or not.
+/// Converts a path with or without the top to one below the top.
 pub(crate) fn below(path: &str) -> String {
     let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix(['.', '/']));
     below.unwrap_or(path).to_owned()

@@ -1,5 +1,5 @@
-//! Reads captures as Vivado (and AMD's chipscopy) writes them: CSV with and without a row of
-//! radices, and the archive. A file is told by its content, never by its name.
+//! Reader of captures written by Vivado and by AMD's chipscopy: CSV with or without a row of radices, and the
+//! archive. The format is detected by content, not by name.
 
 mod archive;
 mod buffer;
@@ -30,7 +30,7 @@ pub use opened::{
     WIDEST_PROBE, WIDEST_SAMPLE,
 };
 
-/// Opens a capture. `radix` decides where a CSV without radices can be read in several ways.
+/// Opens a capture. `radix` applies to a CSV without radices that can be read in several ways.
 pub fn open(path: &Path, radix: Option<Radix>) -> Result<Opened> {
     let fault = || Error::io(path, "read");
     let mut file = File::open(path).map_err(fault())?;

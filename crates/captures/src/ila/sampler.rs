@@ -1,7 +1,7 @@
-//! Samples a running simulation: the value just before each edge of the sampling clock.
+//! Sampling of a simulation: the values just before each edge of the sampling clock.
 //!
-//! At the edges of `clk_sys` and `clk_laser` the run itself shows what the edge takes. Any other
-//! clock, and `clk_in` as a signal, needs every change of every signal in order of time.
+//! At the edges of `clk_sys` and `clk_laser` the simulation itself shows these values. For any other clock, and if
+//! `clk_in` is a signal, every change of every signal is processed in order of time.
 
 use std::sync::atomic::AtomicBool;
 
@@ -23,30 +23,29 @@ use super::core::Core;
 use super::plan::AnalyserPlan;
 use super::probe_values::ProbeValues;
 
-/// A logic analyser in a run.
+/// A logic analyser in a simulation.
 ///
-/// With input stages, what it takes at an edge is what the signals were so many edges before, and
-/// zero where there was no such edge.
+/// With input stages, a sample has the values from that many edges earlier, and zero if there was no such edge.
 #[derive(Clone, Debug)]
 pub struct Analyser {
     plan: AnalyserPlan,
     look: ProbeValues,
     core: Core,
-    /// Whether trigger and qualifier hold at the present sample.
+    /// Whether trigger and qualifier are satisfied at the present sample.
     holds: [bool; 2],
-    /// An operand changed at the sample before, so that an edge of it may end here.
+    /// Whether an operand changed at the previous sample, so that an edge test may become false.
     operands_changed: bool,
     clock: Clock,
     begun: bool,
-    /// Next edge of the sampling clock.
+    /// Number of the next edge of the sampling clock.
     edge: u64,
-    /// The first that it looks at, the stages left out.
+    /// Number of the first edge that it samples, without input stages.
     first: u64,
-    /// The edge that its first sample stands for.
+    /// Number of the edge that its first sample represents.
     armed: u64,
 }
 
-/// Whether a condition holds, if there is one.
+/// Evaluates a condition; true if there is none.
 fn holds(condition: &mut Option<Bound>, look: &ProbeValues) -> bool {
     condition
         .as_mut()
@@ -54,7 +53,7 @@ fn holds(condition: &mut Option<Bound>, look: &ProbeValues) -> bool {
 }
 
 impl Analyser {
-    /// Set up as planned for runs of `setup`.
+    /// Creates an analyser for runs of `setup`.
     pub fn new(plan: &AnalyserPlan, setup: &Setup) -> Self {
         let stride = Capture::new(plan.probes.clone()).stride;
         let encoder = &setup.params.tdc.decoder.encoder;
@@ -77,28 +76,28 @@ impl Analyser {
         analyser
     }
 
-    /// Whether all windows have their samples.
+    /// Returns whether all windows are complete.
     pub fn is_full(&self) -> bool {
         self.core.is_full()
     }
 
-    /// When each window triggered, by an ideal clock.
+    /// Returns the time of each window's trigger, for a clock without jitter.
     pub fn triggers(&self) -> Vec<Time> {
         let edges = self.core.triggers().iter();
         edges.map(|number| self.clock.rise(self.armed + number)).collect()
     }
 
-    /// Samples taken so far, stored or not.
+    /// Returns the number of samples processed, stored or not.
     pub fn taken(&self) -> u64 {
         self.core.taken()
     }
 
-    /// What it has stored.
+    /// Returns the stored samples.
     pub fn finish(self) -> Capture {
         self.core.finish(self.plan.probes)
     }
 
-    /// Takes the present values as a sample.
+    /// Samples the present values.
     #[inline(always)]
     fn take(&mut self) {
         let changed = self.look.take_operands_changed();
@@ -113,13 +112,13 @@ impl Analyser {
         self.core.sample(self.look.row(), triggers, qualifies);
     }
 
-    /// Whether it samples at this edge of `clk_laser`.
+    /// Returns whether the analyser samples at this edge of `clk_laser`.
     #[inline]
     fn looks_before(&self, edge: Edge) -> bool {
         edge == Edge::Both || self.plan.sampling != AnalyserClock::System
     }
 
-    /// An edge of `clk_laser`.
+    /// Processes an edge of `clk_laser`.
     #[inline]
     fn edge(&mut self, edge: Edge, top: &TofTop) {
         if !self.looks_before(edge) {
@@ -132,7 +131,7 @@ impl Analyser {
         self.edge += 1;
     }
 
-    /// Samples with the values as they are for all edges up to `now`.
+    /// Samples the present values at all edges up to `now`.
     fn catch_up(&mut self, now: Time) {
         while self.clock.rise(self.edge) <= now && !self.is_full() {
             self.take();
@@ -140,21 +139,21 @@ impl Analyser {
         }
     }
 
-    /// Number of the sampling clock's first edge in a cycle of `clk_sys`.
+    /// Returns the number of the sampling clock's first edge in a cycle of `clk_sys`.
     fn first_of(&self, cycle: u64) -> u64 {
         if self.plan.sampling == AnalyserClock::System { cycle } else { 2 * cycle }
     }
 
-    /// Whether the clock is one whose edges the run shows.
+    /// Returns whether the run itself shows the edges of the sampling clock.
     fn is_shown(&self) -> bool {
         matches!(self.plan.sampling, AnalyserClock::System | AnalyserClock::Laser)
     }
 }
 
-/// Simulates until `count` frames are done, or the analyser is full and would have the run end there.
+/// Simulates until `count` frames have ended, or until the analyser is full if it is set to end the run.
 ///
 /// # Errors
-/// When the control signals keep a frame from ending, or the run is stopped.
+/// If the control signals prevent a frame from ending, or the run is stopped.
 pub fn capture(
     run: Run,
     count: u64,
@@ -167,8 +166,8 @@ pub fn capture(
     }
 }
 
-/// Goes on with a live run under the eyes of the analyser, as [`Live::advance`] says. The analyser has to be armed
-/// at an instant to come, and to see all that follows.
+/// Continues a live run with the analyser, as [`Live::advance`] does. The analyser must be armed at a later time, and
+/// must see everything from then on.
 ///
 /// # Errors
 /// Those of `shots`.
@@ -184,11 +183,11 @@ pub fn capture_live(
     }
 }
 
-/// Looks at every change, or else at the edges of `clk_sys` and `clk_laser`.
+/// Probe of a run that calls the analyser at every change or only at the edges of `clk_sys` and `clk_laser`.
 struct Tap<'a, const EVERY: bool>(&'a mut Analyser);
 
 impl<const EVERY: bool> Tap<'_, EVERY> {
-    /// Whether the first sample comes within the next two cycles; by then all clocks have turned.
+    /// Returns whether the first sample is due within two cycles, in which all clocks have an edge.
     fn is_due(&self, device: &mut Device) -> bool {
         let (begin, end) = device.coming_cycle();
         EVERY && self.0.clock.rise(self.0.first) <= end + (end - begin)

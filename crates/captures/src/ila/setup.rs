@@ -1,4 +1,4 @@
-//! The set-up of a capture: a TOML file, and what the command line says instead.
+//! Probe configurations: TOML files, and overrides from the command line.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -12,46 +12,46 @@ use tofsim::files::toml::Checked;
 use super::builtin;
 use super::capture::Radix;
 
-/// A set-up file.
+/// Contents of a configuration file.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(rename = "File")]
 pub struct AnalyserSetupFile {
-    /// Name of the capture and of its files [default: the file's own].
+    /// Name of the capture and of its files [default: the file's name].
     pub name: Option<String>,
-    /// What it shows.
+    /// Description of the capture.
     pub description: String,
-    /// Scenario that it is for, if none is named.
+    /// Default scenario.
     pub scenario: String,
-    /// Keys of that scenario to set, as `target.distance_m=0.3`.
+    /// Overrides of the scenario's keys, such as `target.distance_m=0.3`.
     pub set: Vec<String>,
-    /// Frames to simulate at most, if the command line does not say.
+    /// Default number of frames to simulate at most.
     #[schemars(range(min = 1, max = 1_000_000), extend("unit" = "frames"))]
     pub frames: u64,
-    /// Sampling clock: `clk_sys`, `clk_laser`, `clk_in`, or one of its own as `100MHz + 250ps`,
+    /// Sampling clock: `clk_sys`, `clk_laser`, `clk_in`, or a free-running clock such as `100MHz + 250ps`, with
     /// frequency and time of the first rising edge.
     pub clock: String,
-    /// Samples that the buffer holds, a power of two.
+    /// Buffer depth in samples, a power of two.
     #[schemars(range(min = 1024, max = 131_072), extend("unit" = "samples"))]
     pub depth: u64,
-    /// Parts of the buffer with a trigger each. A window has the largest power of two of samples
-    /// that lets so many fit.
+    /// Number of windows, each with its own trigger. A window has the largest power of two of samples with which all
+    /// windows fit.
     #[schemars(range(min = 1, max = 131_072), extend("unit" = "windows"))]
     pub windows: u64,
     /// Samples of a window before its trigger [default: half of them].
     #[schemars(range(min = 0, max = 131_071), extend("unit" = "samples"))]
     pub position: Option<u64>,
-    /// Condition that triggers, over names of probes and paths of signals [default: any sample].
+    /// Trigger condition, over names of probes and paths of signals [default: any sample].
     pub trigger: Option<String>,
-    /// Condition that a sample has to fulfil to be stored [default: all are].
+    /// Condition under which a sample is stored [default: always].
     pub capture: Option<String>,
-    /// When it is armed, from power-up. It does not look at samples before.
+    /// Time from power-up at which the analyser is armed. Earlier samples are ignored.
     #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us"))]
     pub arm_at_us: f64,
-    /// Registers before the probes: what is sampled is so many edges old.
+    /// Number of registers between the signals and the analyser: samples are delayed by as many edges.
     #[schemars(range(min = 0, max = 6), extend("unit" = "edges"))]
     pub input_stages: u64,
-    /// The probes, the first in the lowest bits of a sample.
+    /// Probes, first one in the lowest bits of a sample.
     pub probe: Vec<ProbeEntry>,
 }
 
@@ -85,16 +85,16 @@ pub struct ProbeEntry {
     pub name: Option<String>,
     /// Path of a signal below `tof_top`, or a slice of it: `tdc.tdc_decoder.n[7:4]`.
     pub signal: String,
-    /// How its values are shown.
+    /// Radix of its values.
     #[serde(default)]
     pub radix: RadixWord,
 }
 
-/// How values are shown.
+/// Radix of a probe's values, as a configuration states it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RadixWord {
-    /// As suits the signal.
+    /// The radix that suits the signal.
     #[default]
     Auto,
     /// Hexadecimal.
@@ -103,14 +103,14 @@ pub enum RadixWord {
     Signed,
     /// Decimal.
     Unsigned,
-    /// Three bits to a digit.
+    /// Octal.
     Octal,
-    /// Bit by bit.
+    /// Binary.
     Binary,
 }
 
 impl RadixWord {
-    /// The radix, if one is asked for.
+    /// Returns the radix, unless it is to suit the signal.
     pub fn radix(self) -> Option<Radix> {
         match self {
             RadixWord::Auto => None,
@@ -123,21 +123,21 @@ impl RadixWord {
     }
 }
 
-/// A set-up, with the places of its keys for what may yet be found wrong.
+/// A probe configuration, with the positions of its keys for error messages.
 pub struct AnalyserSetup {
     /// Name of the capture and of its files.
     pub name: String,
-    /// The values.
+    /// Values of the file.
     pub file: AnalyserSetupFile,
     checked: Checked,
     overridden: Vec<(&'static str, &'static str)>,
 }
 
 impl AnalyserSetup {
-    /// Loads a built-in set-up by name or a file by path.
+    /// Loads a built-in configuration by name, or a file by path.
     ///
     /// # Errors
-    /// When there is none, or it has keys or values that it may not have; with the place.
+    /// If there is none, or a key or value is invalid; with the position.
     pub fn load(name: &str) -> Result<Self> {
         if let Some(text) = builtin::set_up(name) {
             return Self::parse(name, &format!("set-up {name}"), text);
@@ -154,10 +154,10 @@ impl AnalyserSetup {
         Self::parse(&stem, name, &text)
     }
 
-    /// Reads a set-up from text; `source` is its file and `stem` its name, if it gives none.
+    /// Parses a configuration from the text of `source`; `stem` is the default name.
     ///
     /// # Errors
-    /// As [`AnalyserSetup::load`].
+    /// If a key or value is invalid; with the position.
     pub fn parse(stem: &str, source: &str, text: &str) -> Result<Self> {
         let checked = Checked::parse::<AnalyserSetupFile>(source, text)?;
         let file: AnalyserSetupFile = checked.read()?;
@@ -172,7 +172,7 @@ impl AnalyserSetup {
         Ok(set_up)
     }
 
-    /// Has a value given with `option` go before that of a key, which is at `place`.
+    /// Overrides the value of a key, stored in `place`, by the value of `option`.
     pub fn override_with<T: Into<U>, U>(
         &mut self,
         key: &'static str,
@@ -185,7 +185,7 @@ impl AnalyserSetup {
         self.overridden.push((key, option));
     }
 
-    /// A fault of a key, at its place in the file or in the option that was given instead.
+    /// Creates an error for a key, at its position in the file or with the option that overrides it.
     pub fn fault(&self, key: &str, value: impl Display, expected: impl Display) -> Error {
         match self.option(key) {
             Some(option) => Input::new(option, expected).value(value).into(),
@@ -197,7 +197,7 @@ impl AnalyserSetup {
         }
     }
 
-    /// A fault within the text of a key.
+    /// Adds the position of a key to an error within its text.
     pub fn fault_within(&self, key: &str, error: Error) -> Error {
         match (self.option(key), error) {
             (None, Error::Input(inner)) => {
@@ -211,7 +211,7 @@ impl AnalyserSetup {
         }
     }
 
-    /// Where a key's value comes from: the option, or the key itself.
+    /// Returns the origin of a key's value: the option, or the key itself.
     pub fn origin<'a>(&self, key: &'a str) -> &'a str
     where
         'static: 'a,

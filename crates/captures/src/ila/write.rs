@@ -1,4 +1,4 @@
-//! Writes captures as Vivado writes them: CSV, VCD, and the archive that holds both.
+//! Writer of captures in Vivado's formats: CSV, VCD, and the archive that contains both.
 
 mod archive;
 mod csv;

@@ -8,17 +8,17 @@ use tofsim::hierarchy::TOP;
 use crate::compare::Probed;
 use crate::source::Source;
 
-/// Words that an error lists.
+/// Number of bins that an error lists.
 const LISTED: usize = 4;
 
-/// The words of a histogram, as far as they are known.
+/// Bin counts of a histogram, as far as they are known.
 pub(super) type Words = Vec<Option<u64>>;
 
-/// The words of so many bins that the estimator reads, the first of each if they differ; `None` if its readout is not
-/// probed.
+/// Reads the bin counts that the estimator reads, the first value of each if they differ; `None` if its readout is
+/// not probed.
 ///
 /// # Errors
-/// When the capture cannot be read.
+/// If the capture cannot be read.
 pub(super) fn readout(
     probed: &mut Probed,
     bins: usize,
@@ -48,10 +48,10 @@ pub(super) fn readout(
     Ok(Some(words))
 }
 
-/// A histogram as CSV.
+/// Formats a histogram as CSV.
 ///
 /// # Errors
-/// When a word is not known.
+/// If a bin count is unknown.
 pub(super) fn list(capture: &Source, words: &Words) -> Result<String> {
     let missing: Vec<String> =
         (0..words.len()).filter(|&bin| words[bin].is_none()).map(|bin| bin.to_string()).collect();

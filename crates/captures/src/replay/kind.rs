@@ -1,4 +1,4 @@
-//! What stands in for the light in a replay.
+//! Kinds of stimulus in a replay.
 
 use tofsim::firmware::tof_top::{CodeSource, HistogramSource};
 use tofsim::kernel::U;
@@ -6,23 +6,23 @@ use tofsim::sim::setup::Setup;
 
 use crate::source::Source;
 
-/// What stands in for the light.
+/// Stimulus that replaces the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplayKind {
-    /// When a photon arrived in each shot
+    /// Arrival time of a photon in each shot
     Photons,
-    /// The code of each shot
+    /// Code of each shot
     Codes,
-    /// The histogram that the estimator read
+    /// Histogram that the estimator read
     Histogram,
 }
 
 impl ReplayKind {
-    /// All, the most faithful first.
+    /// All kinds, most accurate first.
     pub const ALL: [ReplayKind; 3] =
         [ReplayKind::Photons, ReplayKind::Codes, ReplayKind::Histogram];
 
-    /// Its key below `stimulus` in a scenario.
+    /// Returns its key in the scenario's table `stimulus`.
     pub const fn key(self) -> &'static str {
         match self {
             ReplayKind::Photons => "photons",
@@ -31,7 +31,7 @@ impl ReplayKind {
         }
     }
 
-    /// What has to be probed for it.
+    /// Returns the signals to probe for it.
     pub(super) const fn probes(self) -> &'static str {
         match self {
             ReplayKind::Photons => {
@@ -47,7 +47,7 @@ impl ReplayKind {
         }
     }
 
-    /// The firmware that a capture of that kind is of.
+    /// Returns the signals of the firmware with such a stimulus.
     pub(super) fn design(self, setup: &Setup) -> Source {
         let mut setup = setup.clone();
         let params = &mut setup.params;

@@ -1,4 +1,4 @@
-//! Lists of photons and codes, from the shots that a capture shows.
+//! Lists of photons and codes, recovered from the shots in a capture.
 
 use std::fmt::Write;
 use std::ops::RangeInclusive;
@@ -9,8 +9,8 @@ use tofsim::sim::setup::Setup;
 use super::kind::ReplayKind;
 use super::observed::{Observed, Pace, Shot};
 
-/// When codes come after their shots in the firmware of the scenario: a hit is sampled an edge after the
-/// laser's at the earliest. Codes from a ROM come within the shot.
+/// Returns the latency of codes in the firmware of the scenario. A hit is sampled at least one edge after that of the
+/// laser; codes from a ROM appear within the shot.
 pub(super) fn pace(setup: &Setup, kind: ReplayKind) -> Pace<'_> {
     let from_rom = kind == ReplayKind::Codes;
     let to_code = if from_rom { 0 } else { setup.params.tdc.decoder.latency() + 1 };
@@ -20,10 +20,11 @@ pub(super) fn pace(setup: &Setup, kind: ReplayKind) -> Pace<'_> {
     Pace { to_code, period: setup.laser_period(), periods, pause }
 }
 
-/// Photons that give the codes, or else come when the detector's output rose; and how many.
+/// Recovers photons that produce the codes or, without codes, arrive when the detector's output rose; and their
+/// number.
 ///
 /// # Errors
-/// When the TDC of the scenario cannot give a code.
+/// If the scenario's TDC cannot produce a code.
 pub(super) fn photons(
     observed: &Observed,
     setup: &Setup,
@@ -80,20 +81,21 @@ pub(super) fn photons(
     Ok((list, count))
 }
 
-/// Number of the edge that sampled a hit, counted from the shot's; `None` if time is not steady.
+/// Returns the number of the edge that sampled a hit, counted from the start of its shot; `None` if samples are not
+/// consecutive.
 fn edge(observed: &Observed, shot: &Shot, valid: i64, setup: &Setup) -> Option<u64> {
     let cycles = (valid - shot.start) / observed.timebase.per_cycle as i64;
     let latency = setup.params.tdc.decoder.latency() as i64;
     observed.timebase.steady.then_some((cycles - latency).max(0) as u64)
 }
 
-/// Edges of a shot's window after the laser's.
+/// Returns the edges of a shot's window, counted from the laser's.
 fn edges(setup: &Setup) -> RangeInclusive<u64> {
     1..=setup.params.tdc.coarse_counter.window()
 }
 
-/// An arrival that the TDC gives that code, sampled by the edge of that number if it is known: the
-/// middle of the tap next to the edge [ps].
+/// Returns an arrival time to which the TDC assigns a code, sampled by the given edge if it is known: the middle of
+/// the tap nearest to the edge [ps].
 fn arrival(setup: &Setup, code: u64, edge: Option<u64>) -> Option<f64> {
     let decoder = &setup.params.tdc.decoder;
     let (cal, scale) = (&decoder.cal, &decoder.scale);
@@ -112,8 +114,8 @@ fn arrival(setup: &Setup, code: u64, edge: Option<u64>) -> Option<f64> {
     }
 }
 
-/// The middle of the step in which the detector's output rose; past the last code, where the shot has
-/// none, if the step reaches so far [ps].
+/// Returns the middle of the sampling interval in which the detector's output rose. For a shot without code it is
+/// beyond the last code, if the interval extends that far [ps].
 fn quantised_arrival(observed: &Observed, shot: &Shot, stop: i64, setup: &Setup) -> f64 {
     let scale = &setup.params.tdc.decoder.scale;
     let range_ps = scale.ps(scale.range() as i64);
@@ -126,10 +128,10 @@ fn quantised_arrival(observed: &Observed, shot: &Shot, stop: i64, setup: &Setup)
     }
 }
 
-/// A code for each shot from the first on, and how many.
+/// Formats one code per shot from the first shot on, and returns their number.
 ///
 /// # Errors
-/// When a shot has none.
+/// If a shot has none.
 pub(super) fn codes(observed: &Observed, notes: &mut Vec<String>) -> Result<(String, u64)> {
     let first = observed.shots[0].number;
     let last = observed.shots.iter().rposition(|shot| shot.code.is_some());

@@ -1,31 +1,31 @@
-//! Which shot of a run is which, by its frame and its place in that.
+//! Numbering of shots by frame and position in the frame.
 
-/// Numbers the shots.
+/// State of the numbering.
 #[derive(Default)]
 pub(super) struct Numbers {
-    /// Shots of the frames before.
+    /// Number of shots in previous frames.
     before: u64,
-    /// Shots of this frame.
+    /// Number of shots in this frame.
     count: u64,
-    /// Whether the capture shows the begin of this frame.
+    /// Whether the capture shows the start of this frame.
     whole: bool,
-    /// Whether it shows the begin of any.
+    /// Whether the capture shows the start of any frame.
     pub(super) begun: bool,
-    /// Shots of a frame, if it shows them.
+    /// Shots per frame, if the capture shows it.
     pub(super) per_frame: Option<u64>,
-    /// Shots of a frame, where the capture does not show how many it has.
+    /// Shots per frame, if the capture does not show it.
     usual: u64,
-    /// Whether a window begins, so that it is not known what was before.
+    /// Whether a window begins, so that the previous state is unknown.
     pub(super) across: bool,
 }
 
 impl Numbers {
-    /// Of frames that have `usual` shots, where the capture does not show how many.
+    /// Creates a numbering with `usual` shots per frame, unless the capture shows their number.
     pub(super) fn new(usual: u64) -> Self {
         Numbers { usual, ..Numbers::default() }
     }
 
-    /// Looks at the frame, of which so many shots are counted.
+    /// Processes the state of the frame, with its shot count.
     pub(super) fn frame(&mut self, counted: Option<u64>, acquires: bool, acquired: bool) {
         let starts_anew = counted.is_some_and(|counted| counted < self.count);
         if acquired && !acquires && (self.whole || counted.is_some()) {
@@ -47,7 +47,7 @@ impl Numbers {
         self.across = false;
     }
 
-    /// The number of a shot that begins.
+    /// Returns the number of a shot that begins.
     pub(super) fn start(&mut self, counted: Option<u64>) -> u64 {
         let number = self.before + self.count;
         if counted.is_none() {

@@ -1,4 +1,4 @@
-//! The shots that a capture shows, with what the detector and the TDC made of each.
+//! Shots in a capture, with the detector's and the TDC's response to each.
 
 use std::collections::BTreeMap;
 
@@ -13,69 +13,69 @@ use super::numbers::Numbers;
 use super::pins::Pins;
 use super::timebase::Timebase;
 
-/// A shot that a capture shows.
+/// A shot in a capture.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shot {
-    /// Its number since power-up, if the frame that the capture begins in is the first.
+    /// Number since power-up, if the capture begins in the first frame.
     pub(super) number: u64,
-    /// The window that shows it.
+    /// Window that contains it.
     window: usize,
-    /// First sample that sees it begin; less than 0 before the capture.
+    /// First sample after its start; negative before the capture.
     pub(super) start: i64,
-    /// Its code, and the first sample that sees it.
+    /// Code, and the first sample with it.
     pub(super) code: Option<Code>,
-    /// Samples that are the first to see the detector's output high.
+    /// First samples with a high output of the detector.
     pub(super) stops: Vec<i64>,
 }
 
-/// A code, and the first sample that sees it.
+/// A code, and the first sample with it.
 type Code = (u64, i64);
 
-/// When codes come after their shots [cycles of clk_sys].
+/// Latency of codes relative to their shots [cycles of clk_sys].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace<'a> {
-    /// From a shot to its code, at least.
+    /// Smallest latency from a shot to its code.
     pub(super) to_code: u64,
-    /// From shot to shot.
+    /// Shot period.
     pub(super) period: u64,
-    /// What that can be.
+    /// Possible shot periods.
     pub(super) periods: &'a [u64],
-    /// Clear and Drain, between frames.
+    /// Length of Clear and Drain, between frames.
     pub(super) pause: u64,
 }
 
-/// What a capture shows.
+/// Contents of a capture.
 #[derive(Clone, Debug)]
 pub(super) struct Observed {
     pub(super) timebase: Timebase,
     pub(super) shots: Vec<Shot>,
-    /// Whether it shows codes.
+    /// Whether it contains codes.
     pub(super) has_codes: bool,
     pub(super) per_frame: Option<u64>,
-    /// Cycles between two shots, if they are all the same [cycles of clk_sys].
+    /// Shot period, if it is constant [cycles of clk_sys].
     pub(super) period: Option<u64>,
-    /// What the windows begin with.
+    /// Start of each window.
     pub(super) windows: Vec<Begin>,
     pub(super) pins: Pins,
-    /// Samples.
+    /// Number of samples.
     pub(super) samples: u64,
     pub(super) notes: Vec<String>,
 }
 
-/// What a window begins with, before its first shot.
+/// Start of a window, before its first shot.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Begin {
-    /// Place of its first shot.
+    /// Index of its first shot.
     first: usize,
-    /// First samples that see the detector's output high before it.
+    /// First samples with a high output of the detector before that shot.
     stops: Vec<i64>,
-    /// Codes that come before those of its shots.
+    /// Codes before those of its shots.
     codes: Vec<Code>,
-    /// The code that the TDC holds from an earlier one.
+    /// Code that the TDC still holds from an earlier shot.
     held: Option<u64>,
 }
 
-/// The probes of a bit: where it is, and what it was at the sample before.
+/// A one-bit probe, with its previous level.
 struct Bit {
     probe: Option<usize>,
     before: Option<bool>,
@@ -86,13 +86,13 @@ impl Bit {
         Bit { probe: find(probed, names), before: None }
     }
 
-    /// Whether it is high, and whether it was before.
+    /// Returns the present and the previous level.
     fn sample(&mut self, probed: &mut Probed) -> (bool, bool) {
         let now = self.probe.and_then(|probe| probed.value(probe)) == Some(1);
         (now, self.before.replace(now).unwrap_or(now))
     }
 
-    /// Whether a cycle begins in which it is high, where it is high for one at a time.
+    /// Returns whether a cycle begins in which a signal is high that is high for one cycle at a time.
     fn pulse(&mut self, probed: &mut Probed, timebase: &Timebase) -> bool {
         let (now, before) = self.sample(probed);
         now && (timebase.per_cycle == 1 || !before)
@@ -103,10 +103,10 @@ fn find(probed: &Probed, names: &[&str]) -> Option<usize> {
     names.iter().find_map(|name| probed.probe(&format!("{TOP}.{name}")))
 }
 
-/// The shots of a capture, `None` if it does not show what the detector or the TDC made of them.
+/// Reads the shots of a capture; `None` if it shows neither the detector's nor the TDC's response to them.
 ///
 /// # Errors
-/// When the capture cannot be read, or does not show where the shots begin.
+/// If the capture cannot be read, or does not show where shots begin.
 pub(super) fn observe(
     capture: &Source,
     probed: &mut Probed,
@@ -201,8 +201,8 @@ pub(super) fn observe(
 }
 
 impl Pace<'_> {
-    /// The shot of a code that is seen at a sample, if it is among these. Where the samples do not tell the
-    /// time, so many shots have begun since as usual.
+    /// Returns the shot of a code first seen at a sample, if it is among the given ones. If samples are not
+    /// consecutive, the usual number of shots is assumed to have begun since.
     fn shot_of<'a>(
         &self,
         at: i64,
@@ -219,7 +219,7 @@ impl Pace<'_> {
 }
 
 impl Observed {
-    /// Notes what the capture does not show.
+    /// Adds notes on information that the capture does not show.
     fn add_notes(&mut self, is_placed: bool, is_early: bool) {
         let first = self.shots[0].number;
         let notes = &mut self.notes;
@@ -251,12 +251,12 @@ impl Observed {
         }
     }
 
-    /// Whether all samples follow one another.
+    /// Returns whether all samples are consecutive.
     pub(super) fn is_continuous(&self) -> bool {
         self.timebase.steady && self.windows.len() == 1
     }
 
-    /// Adds what the windows show of the shots before their first.
+    /// Adds the shots before the first of each window, as far as the windows show them.
     fn add_earlier(&mut self, pace: Pace<'_>) {
         let Some(period) = self.period else { return };
         for begin in self.windows.clone().into_iter().rev() {
@@ -266,8 +266,7 @@ impl Observed {
         }
     }
 
-    /// Adds what a window shows of the shots before its first, and the code of another that the TDC still
-    /// holds.
+    /// Adds the shots before the first of a window, as far as it shows them, and the code that the TDC still holds.
     fn add_before(&mut self, pace: Pace<'_>, Begin { first: place, stops, codes, held }: Begin) {
         let first = self.shots[place].clone();
         let last = place.checked_sub(1).map(|last| self.shots[last].number);
@@ -297,9 +296,10 @@ impl Observed {
     }
 }
 
-/// Shots from the one whose code is taken to be held as the capture begins to the first.
+/// Assumed number of shots from the one whose code is held as the capture begins to the first one.
 const HELD_SINCE: i64 = 3;
-/// Shots until the first pause between frames, where nothing else tells how many a frame has.
+/// Returns the number of shots before the first pause between frames, if the capture does not show the number per
+/// frame.
 fn first_pause(observed: &Observed, pace: Pace) -> Option<u64> {
     let apart = |shots: &[Shot]| {
         let cycles = (shots[1].start - shots[0].start) as u64 / observed.timebase.per_cycle;
@@ -309,7 +309,7 @@ fn first_pause(observed: &Observed, pace: Pace) -> Option<u64> {
     Some(last[0].number + 1)
 }
 
-/// Cycles between shots that follow one another, if one of the laser's periods is the most common.
+/// Returns the most common number of cycles between consecutive shots, if it is one of the laser's periods.
 fn period(observed: &Observed, periods: &[u64]) -> Option<u64> {
     if !observed.timebase.steady {
         return None;

@@ -1,13 +1,13 @@
-//! The control signals that a capture shows.
+//! Control signals in a capture.
 
 use tofsim::hierarchy::TOP;
 use tofsim::scenario::{Control, QuenchMode};
 
 use crate::compare::Probed;
 
-/// The control signals.
+/// Names of the control signals.
 const NAMES: [&str; 6] = ["laser_freq", "mode", "laser_en", "dsp_en", "dsp_rst", "rst"];
-/// What `control_sync` delays them by [cycles of clk_sys].
+/// Latency of `control_sync` [cycles of clk_sys].
 const SYNCHRONISERS: u64 = 2;
 
 /// A control signal.
@@ -15,17 +15,17 @@ const SYNCHRONISERS: u64 = 2;
 struct Pin {
     name: &'static str,
     probe: usize,
-    /// Cycles by which the probe is later than the pin.
+    /// Delay of the probe relative to the pin [cycles].
     late: u64,
     first: Option<u64>,
     now: Option<u64>,
 }
 
-/// The control signals that are probed.
+/// Control signals that are probed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pins {
     pins: Vec<Pin>,
-    /// Samples at which one changed, by how many cycles it is late, and to what.
+    /// Changes: sample, delay of the probe in cycles, and new value.
     pub(super) changes: Vec<(u64, u64, Control)>,
 }
 
@@ -41,7 +41,7 @@ impl Pins {
         Pins { pins: NAMES.into_iter().filter_map(pin).collect(), changes: Vec::new() }
     }
 
-    /// Looks at a sample.
+    /// Processes a sample.
     pub(super) fn sample(&mut self, index: u64, probed: &mut Probed) {
         for pin in &mut self.pins {
             let Some(value) = probed.value(pin.probe) else { continue };
@@ -55,7 +55,7 @@ impl Pins {
         }
     }
 
-    /// What they are as the capture begins.
+    /// Returns the values at the start of the capture.
     pub(super) fn begin(&self) -> Control {
         let mut begin = Control::default();
         for pin in &self.pins {

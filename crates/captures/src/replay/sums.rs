@@ -1,4 +1,4 @@
-//! The histogram from the sums of the hidden layer: each clock adds a word times a weight.
+//! The histogram, recovered from the sums of the hidden layer: each clock cycle adds a bin count times a weight.
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::forward2::MOST_NEURONS;
@@ -10,11 +10,11 @@ use crate::source::Source;
 
 use super::histogram::Words;
 
-/// The first histogram that all words were added of, by a network's weights; `None` if the sums are not
+/// Recovers the first histogram of which all bins were added, given a network's weights; `None` if the sums are not
 /// probed.
 ///
 /// # Errors
-/// When the capture cannot be read, or the sums are not of these weights.
+/// If the capture cannot be read, or the sums do not match the weights.
 pub(super) fn words(
     capture: &Source,
     probed: &mut Probed,
@@ -69,12 +69,12 @@ pub(super) fn words(
     Ok(Some(words))
 }
 
-/// A difference of two sums of so many bits in two's complement.
+/// Sign-extends the difference of two sums of `width` bits.
 fn signed(difference: u64, width: u32) -> i64 {
     ((difference << (64 - width)) as i64) >> (64 - width)
 }
 
-/// The word, of up to `largest`, of which the products with some weights were added; 0 where all of them are.
+/// Returns the bin count, up to `largest`, whose products with some weights were added; 0 if all weights are zero.
 fn word(added: impl Iterator<Item = (i64, i64)> + Clone, largest: u64) -> Option<u64> {
     let first = added.clone().find(|&(_, weight)| weight != 0);
     let count = first.map_or(0, |(added, weight)| added / weight);

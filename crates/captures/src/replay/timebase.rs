@@ -1,29 +1,29 @@
-//! When the samples of a capture are.
+//! Times of the samples of a capture.
 
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 
 use crate::compare::{SampleClock, SignalMap};
 
-/// When the samples of a capture are.
+/// Times of the samples of a capture.
 #[derive(Clone, Debug)]
 pub(super) struct Timebase {
-    /// The analyser's clock.
+    /// Clock of the analyser.
     pub(super) clock: SampleClock,
-    /// Samples in a cycle of `clk_sys`.
+    /// Samples per cycle of `clk_sys`.
     pub(super) per_cycle: u64,
-    /// Whether every edge of the clock has a sample.
+    /// Whether every clock edge has a sample.
     pub(super) steady: bool,
     /// Period of `clk_sys`.
     cycle: Time,
 }
 
 impl Timebase {
-    /// Of a clock or else the map's or `clk_sys`, whether or not all samples were stored, where `clk_sys` has
-    /// the period `cycle`.
+    /// Determines the times from the given clock, or else the map's or `clk_sys`, where `clk_sys` has the period
+    /// `cycle` and samples may have been stored conditionally.
     ///
     /// # Errors
-    /// When it is neither `clk_sys` nor `clk_laser`.
+    /// If the clock is neither `clk_sys` nor `clk_laser`.
     pub(super) fn new(
         clock: Option<&SampleClock>,
         map: &SignalMap,
@@ -54,7 +54,7 @@ impl Timebase {
         Ok(Timebase { clock, per_cycle, steady, cycle })
     }
 
-    /// Time between two samples of a steady capture.
+    /// Returns the time between two consecutive samples.
     pub(super) fn step(&self) -> Time {
         Time::from_fs(self.cycle.fs() / self.per_cycle)
     }

@@ -1,17 +1,17 @@
-//! A file that is read a byte at a time without a call for each.
+//! Buffered reader with fast access to single bytes.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result, Seek, SeekFrom};
 
-/// Bytes that are read at once.
+/// Buffer size [bytes].
 const CHUNK: usize = 1 << 17;
 
-/// A file whose single bytes come from a buffer, inlined where they are read: the waveform library
-/// asks for each byte of a VCD on its own, and jumps about in an FST within a few bytes.
+/// Buffered file whose byte access is inlined: the waveform library reads a VCD byte by byte, and seeks within an FST
+/// by few bytes.
 #[derive(Debug)]
 pub(super) struct Bytes(BufReader<Placed>);
 
-/// Where bytes come from, and the place that they are read from next.
+/// Origin of the bytes, and the position of the next read.
 #[derive(Debug)]
 struct Placed {
     store: Store,
@@ -29,7 +29,7 @@ impl Bytes {
         Bytes::of(Store::File(file))
     }
 
-    /// What is in memory already.
+    /// Creates a reader of bytes in memory.
     pub(super) fn loaded(bytes: Vec<u8>) -> Bytes {
         Bytes::of(Store::Memory(Cursor::new(bytes)))
     }
@@ -38,7 +38,7 @@ impl Bytes {
         Bytes(BufReader::with_capacity(CHUNK, Placed { store, place: 0 }))
     }
 
-    /// How many bytes there are.
+    /// Returns the number of bytes.
     pub(super) fn length(&self) -> Result<u64> {
         match &self.0.get_ref().store {
             Store::File(file) => Ok(file.metadata()?.len()),
@@ -46,7 +46,7 @@ impl Bytes {
         }
     }
 
-    /// So many bytes from a place on.
+    /// Reads `count` bytes from a position on.
     pub(super) fn range(&mut self, place: u64, count: u64) -> Result<Vec<u8>> {
         self.seek(SeekFrom::Start(place))?;
         let mut bytes = Vec::new();
@@ -101,7 +101,7 @@ impl BufRead for Bytes {
 }
 
 impl Seek for Bytes {
-    /// Within the buffer, nothing is read again.
+    /// Seeks; within the buffer, nothing is read again.
     fn seek(&mut self, to: SeekFrom) -> Result<u64> {
         let now = self.stream_position()?;
         let place = match to {

@@ -1,4 +1,4 @@
-//! A logic analyser's CSV files and archives.
+//! A logic analyser's CSV files and archives as sources.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -12,14 +12,14 @@ use super::names::Name;
 use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, Words};
 use super::stream::Cursor;
 
-/// Where a capture is.
+/// Path and radix of a capture.
 #[derive(Clone, Debug)]
 struct Origin {
     path: PathBuf,
     radix: Option<Radix>,
 }
 
-/// The source at `path`.
+/// Opens the capture at `path`.
 pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
     let opened = open(path, radix)?;
     let format = match opened.form {

@@ -1,4 +1,4 @@
-//! What a file is, by its contents.
+//! Detection of a file's format by its contents.
 
 use std::fs::File;
 use std::io::Read;
@@ -11,16 +11,16 @@ use crate::ila::Radix;
 use super::signals::{Source, SourceFormat};
 use super::{capture, fst, wave};
 
-/// First bytes of a zip archive, which an ILA's is.
+/// First bytes of a zip archive, such as an `.ila` file.
 const ARCHIVE: &[u8] = b"PK";
-/// First bytes of GHDL's waveform.
+/// First bytes of a GHW file.
 const GHW: &[u8] = b"GHDLwave";
-/// First words of an ILA's CSV.
+/// First words of a logic analyser's CSV.
 const CSV: &[u8] = b"Sample in Buffer";
-/// Bytes of a file that are looked at.
+/// Number of bytes that are examined.
 const HEAD: u64 = 4096;
 
-/// The source at `path`.
+/// Opens the source at `path`.
 pub(super) fn open(path: &Path, radix: Option<Radix>) -> Result<Source> {
     let found = std::fs::metadata(path).map_err(Error::io(path, "read"))?;
     if !found.is_file() {

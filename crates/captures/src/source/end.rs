@@ -1,4 +1,4 @@
-//! How far a VCD goes, which its last change does not tell.
+//! The last time of a VCD, which may be later than its last change.
 
 use std::fs::File;
 use std::io::BufRead;

@@ -1,4 +1,4 @@
-//! Watches over the waveform library, which panics on many a fault.
+//! Conversion of panics in the waveform library, which panics on many invalid files, to errors.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -7,11 +7,11 @@ use std::sync::Once;
 use tofsim::error::{Input, Result};
 
 thread_local! {
-    /// Whether a panic of this thread becomes an error.
+    /// Whether panics of this thread are converted to errors.
     static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Lets the library do something; a panic of it is an error about `source`.
+/// Runs a call of the library. A panic becomes an error about `source`.
 pub(super) fn guarded<T>(source: &str, work: impl FnOnce() -> Result<T>) -> Result<T> {
     silence();
     let before = GUARDED.replace(true);
@@ -21,7 +21,7 @@ pub(super) fn guarded<T>(source: &str, work: impl FnOnce() -> Result<T>) -> Resu
         .unwrap_or_else(|_| Err(Input::new(source, "is damaged, or not as its format asks").into()))
 }
 
-/// Keeps panics that become errors off standard error.
+/// Suppresses the output of panics that become errors.
 fn silence() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

@@ -1,4 +1,4 @@
-//! Values and errors of the crate `wellen`, as they are here.
+//! Conversion of the crate `wellen`'s values and errors.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use tofsim::error::{Error, Input};
 
 use crate::words::Bits;
 
-/// Takes a value, in as many words as its signal has.
+/// Converts a value, with the number of words of its signal.
 #[inline]
 pub(super) fn set(bits: &mut Bits, value: SignalValueRef<'_>, words: usize) {
     bits.clear(words);
@@ -42,7 +42,7 @@ fn copy(found: BitVecRef<'_>, bits: &mut Bits) {
     }
 }
 
-/// An error of the library, with the line where that is known.
+/// Converts an error, with the line if it is known.
 pub(super) fn fault(path: &Path, error: WellenError) -> Error {
     let source = path.display();
     match error {

@@ -1,4 +1,4 @@
-//! GHW files, which the library can only load whole.
+//! GHW files, which the library can only load as a whole.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
@@ -16,7 +16,7 @@ use super::ghw;
 use super::library::{fault, set};
 use super::stream::Feed;
 
-/// The head of the file.
+/// Reads the header of a file.
 pub(super) fn open(path: &Path) -> Result<HeaderResult<Cursor<Vec<u8>>>> {
     let bytes = std::fs::read(path).map_err(Error::io(path, "read"))?;
     ghw::check(&bytes).map_err(|fault| fault.of_file(path))?;
@@ -24,7 +24,7 @@ pub(super) fn open(path: &Path) -> Result<HeaderResult<Cursor<Vec<u8>>>> {
     wellen::viewers::read_header(Cursor::new(bytes), &options).map_err(|error| fault(path, error))
 }
 
-/// Feeds the changes of `references`, in the order of time.
+/// Sends the changes of `references`, in order of time.
 pub(super) fn feed(path: &Path, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
     let header = open(path)?;
     let body = wellen::viewers::read_body(header.body, &header.hierarchy, None);

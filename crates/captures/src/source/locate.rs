@@ -1,4 +1,4 @@
-//! Where a VCD is broken, which the library that reads it does not tell: another one does.
+//! Position of the first error in a VCD, found with a second library because the waveform library does not report it.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -9,7 +9,7 @@ use vcd::{Command, IdCode, Parser, ScopeItem};
 
 use tofsim::error::{Error, Input};
 
-/// The error with the line of the first fault in the file, if one is found.
+/// Adds the line of the first error in the file to an error, if one is found.
 pub(super) fn located(path: &Path, error: Error) -> Error {
     let Error::Input(input) = error else { return error };
     match (&input.place, fault(path)) {
@@ -18,7 +18,7 @@ pub(super) fn located(path: &Path, error: Error) -> Error {
     }
 }
 
-/// Line and text of the first fault.
+/// Returns line and text of the first error.
 fn fault(path: &Path) -> Option<(usize, String)> {
     let mut parser = Parser::new(BufReader::new(File::open(path).ok()?));
     let header = match parser.parse_header() {
@@ -56,7 +56,7 @@ fn declared(items: &[ScopeItem], widths: &mut HashMap<IdCode, u32>) {
     }
 }
 
-/// What the library says, without the line, which comes first.
+/// Returns the library's message without the line number at its start.
 fn reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" at line ").next().unwrap_or(&text).to_owned()

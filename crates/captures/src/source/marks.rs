@@ -1,7 +1,7 @@
-//! What a logic analyser's VCD says of its samples.
+//! Marks of samples in a logic analyser's VCD.
 //!
-//! Vivado lets `_TRIGGER` and `_WINDOW` change at a trigger and at the begin of a window, from 0
-//! before the first sample. Chipscopy lets `_TRIGGER` be high for a sample, and `_WINDOW` begin at 0.
+//! In Vivado's files, `_TRIGGER` and `_WINDOW` toggle at a trigger and at the start of a window, from 0 before the
+//! first sample. In chipscopy's files, `_TRIGGER` is high for one sample, and `_WINDOW` starts at 0.
 
 use wellen::SignalRef;
 
@@ -12,17 +12,17 @@ use super::stream::Feed;
 /// Names of the marks.
 const NAMES: [&str; 3] = ["_trigger", "_window", "_gap"];
 
-/// Where a logic analyser's marks are, and how they are meant.
+/// Signals of the marks, and their dialect.
 #[derive(Clone, Debug)]
 pub(super) struct Style {
     /// Ids of `_TRIGGER`, `_WINDOW` and `_GAP`.
     ids: [Option<usize>; 3],
-    /// Whether `_TRIGGER` is high for the sample that triggered only.
+    /// Whether `_TRIGGER` is high only for the sample that triggered.
     pulses: bool,
 }
 
 impl Style {
-    /// The style of a VCD with those signals, if it is a logic analyser's.
+    /// Detects the dialect of a VCD with the given signals; `None` if it is not from a logic analyser.
     pub(super) fn of(signals: &[Signal], version: &str) -> Option<Style> {
         let flat = signals.iter().all(|signal| signal.name.text.starts_with("dut."));
         let ids = NAMES.map(|name| {
@@ -33,7 +33,7 @@ impl Style {
         (flat && ids[0].is_some() && ids[1].is_some()).then_some(Style { ids, pulses })
     }
 
-    /// Takes the marks, and the scope that every probe is in, out of the list of signals.
+    /// Removes the marks, and the scope common to all probes, from the list of signals.
     pub(super) fn hide(&self, signals: &mut Vec<Signal>) {
         signals.retain(|signal| !self.ids.contains(&Some(signal.id)));
         for signal in signals {
@@ -52,7 +52,7 @@ impl Style {
     }
 }
 
-/// Follows the marks.
+/// Decoder of the marks.
 pub(super) struct Marking {
     references: [Option<SignalRef>; 3],
     pulses: bool,
@@ -60,18 +60,18 @@ pub(super) struct Marking {
 }
 
 impl Marking {
-    /// With the library's signal of each id.
+    /// Creates a decoder; `references` are the library's signals by id.
     pub(super) fn new(style: &Style, references: &[SignalRef]) -> Self {
         let references = style.ids.map(|id| id.map(|id| references[id]));
         Marking { references, pulses: style.pulses, level: [false; 3] }
     }
 
-    /// The library's signals.
+    /// Returns the library's signals of the marks.
     pub(super) fn references(&self) -> impl Iterator<Item = SignalRef> {
         self.references.into_iter().flatten()
     }
 
-    /// A signal changes; if it is a mark, the sample gets it.
+    /// Processes a change of a signal, and marks the sample if the signal is a mark.
     #[inline]
     pub(super) fn change(&mut self, reference: SignalRef, at: u64, level: bool, feed: &mut Feed) {
         let Some(mark) = self.references.iter().position(|&mark| mark == Some(reference)) else {

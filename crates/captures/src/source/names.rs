@@ -1,18 +1,18 @@
-//! Names of signals as tools write them, made comparable.
+//! Comparison of signal names as written by different tools.
 
 /// A signal's name: scopes and name, without range.
 ///
-/// Simulators separate scopes by dots, Vivado by slashes; escaped names begin with a backslash;
-/// `gen[0]` may be a scope. Two names are the same if their parts are, whatever their case.
+/// Simulators separate scopes by dots, Vivado by slashes; escaped names begin with a backslash; `gen[0]` may be a
+/// scope. Names are equal if their parts are equal, regardless of case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
-    /// As the source writes it.
+    /// Text, as written in the source.
     pub text: String,
     parts: Vec<String>,
 }
 
 impl Name {
-    /// From the text of a name, without range.
+    /// Creates a name from its text, without range.
     pub fn new(text: impl Into<String>) -> Self {
         let text = text.into();
         let bare = text.replace(['\\', ' '], "");
@@ -21,17 +21,17 @@ impl Name {
         Name { text, parts }
     }
 
-    /// The same parts, but spelled as another name.
+    /// Returns the same parts with the text of another name.
     pub fn spelled(self, other: &Name) -> Name {
         Name { text: other.text.clone(), ..self }
     }
 
-    /// Whether both have the same parts.
+    /// Returns whether both names have the same parts.
     pub fn is(&self, other: &Name) -> bool {
         self.parts == other.parts
     }
 
-    /// Whether the last parts of the longer are the parts of the shorter; if so, how many.
+    /// Returns the number of parts of the shorter name, if the longer one ends with them.
     pub fn common(&self, other: &Name) -> Option<usize> {
         let (long, short) = match self.parts.len() >= other.parts.len() {
             true => (&self.parts, &other.parts),
@@ -40,24 +40,24 @@ impl Name {
         (!short.is_empty() && long.ends_with(short)).then_some(short.len())
     }
 
-    /// How many parts both end with alike.
+    /// Returns the number of equal parts at the end.
     pub fn tail(&self, other: &Name) -> usize {
         let (own, others) = (self.parts.iter().rev(), other.parts.iter().rev());
         own.zip(others).take_while(|(own, other)| own == other).count()
     }
 
-    /// Whether the last parts are spelled alike, case and all.
+    /// Returns whether the last parts are equal, including case.
     pub fn ends_exactly_as(&self, other: &Name) -> bool {
         let last = |name: &Name| name.text.rsplit(['.', '/', '\\']).next().map(str::to_owned);
         last(self) == last(other)
     }
 
-    /// The name without its last `count` parts, if it has more.
+    /// Returns the name without its last `count` parts; empty if it has no more parts.
     pub fn scope(&self, count: usize) -> String {
         self.parts[..self.parts.len().saturating_sub(count)].join(".")
     }
 
-    /// The name below a scope, if it lies in it.
+    /// Returns the name relative to a scope, if it lies within the scope.
     pub fn below(&self, scope: &str) -> Option<String> {
         let whole = self.parts.join(".");
         match scope {
@@ -66,12 +66,12 @@ impl Name {
         }
     }
 
-    /// The last part, lower case.
+    /// Returns the last part in lower case.
     pub fn last(&self) -> &str {
         self.parts.last().map_or("", String::as_str)
     }
 
-    /// Number of parts.
+    /// Returns the number of parts.
     pub fn depth(&self) -> usize {
         self.parts.len()
     }

@@ -1,4 +1,4 @@
-//! The signals of a source, and what its places and values are.
+//! Signals of a source, and the types of its places and values.
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Debug;
@@ -14,7 +14,7 @@ use super::names::Name;
 use super::stream::Cursor;
 use super::tick::Tick;
 
-/// What kind of file or program a source is.
+/// Format of a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SourceFormat {
     /// Value change dump of a simulator.
@@ -23,20 +23,20 @@ pub enum SourceFormat {
     Fst,
     /// GHDL's waveform.
     Ghw,
-    /// An ILA's samples as CSV with a row of radices.
+    /// A logic analyser's CSV with a row of radices.
     IlaCsv,
-    /// The same without.
+    /// A logic analyser's CSV without a row of radices.
     LegacyIlaCsv,
-    /// An ILA's samples as VCD.
+    /// A logic analyser's VCD.
     IlaVcd,
-    /// An ILA's archive.
+    /// A logic analyser's archive.
     Ila,
-    /// tofsim itself.
+    /// Simulation by tofsim.
     Simulation,
 }
 
 impl SourceFormat {
-    /// What it is called.
+    /// Returns the name used in outputs.
     pub const fn name(self) -> &'static str {
         match self {
             SourceFormat::Vcd => "VCD",
@@ -51,18 +51,18 @@ impl SourceFormat {
     }
 }
 
-/// What the places in a source are counted in.
+/// Unit of the places in a source.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Axis {
-    /// Time, in ticks of that length.
+    /// Time, in ticks of the given length.
     Time(Tick),
-    /// Samples of a clock that the source does not have.
+    /// Sample number, for a clock that the source does not contain.
     #[default]
     Samples,
 }
 
 impl Axis {
-    /// The time of a place [fs], if places are times.
+    /// Returns the time of a place [fs], if places are times.
     pub fn femtoseconds(self, at: u64) -> Option<u128> {
         match self {
             Axis::Time(tick) => Some(tick.femtoseconds(at)),
@@ -71,92 +71,92 @@ impl Axis {
     }
 }
 
-/// What the values of a signal are.
+/// Type of a signal's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignalKind {
     /// Bits, each 0, 1 or unknown.
     Bits,
-    /// A number in floating point.
+    /// Floating-point number.
     Real,
-    /// Words, each as its bytes, the first lowest; a place beyond its end is 0.
+    /// Words as bytes, first one lowest, padded with zeros.
     Text,
-    /// Text of a simulator or events, which are not compared.
+    /// Text or events of a simulator, which are not compared.
     Other,
 }
 
-/// Words that stand for values of a signal.
+/// Words that represent values of a signal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Words {
-    /// Width of the values that they stand for [bits].
+    /// Width of the represented values [bits].
     pub width: u32,
-    /// Whether the source has numbers among them.
+    /// Whether the source has numbers among the words.
     pub mixed: bool,
-    /// The words that are known, with their bits if the source tells these.
+    /// Known words, with their values if the source states them.
     pub states: Vec<State>,
 }
 
-/// A signal by one of its names.
+/// A signal under one of its names.
 #[derive(Clone, Debug)]
 pub struct Signal {
-    /// Its name with all scopes.
+    /// Name with all scopes.
     pub name: Name,
-    /// Its width [bits].
+    /// Width [bits].
     pub width: u32,
-    /// Index of its lowest bit.
+    /// Index of the lowest bit.
     pub lsb: i64,
-    /// What its values are.
+    /// Type of its values.
     pub kind: SignalKind,
-    /// How its values are shown, if the source says.
+    /// Radix of its values, if the source states it.
     pub radix: Option<Radix>,
-    /// What its values mean, if the source says.
+    /// Meaning of its values, if the source states it.
     pub shape: Option<Shape>,
-    /// Words that stand for values of it.
+    /// Words that represent its values.
     pub words: Words,
-    /// Names of the same signal share it.
+    /// Id, which all names of the signal share.
     pub id: usize,
 }
 
-/// A source, of which the list of signals is known.
+/// A source whose list of signals is known.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// Path, or name of the scenario.
     pub name: String,
     /// What it is.
     pub format: SourceFormat,
-    /// What its places are counted in.
+    /// Unit of its places.
     pub axis: Axis,
-    /// Its signals, in its order.
+    /// Signals, in the source's order.
     pub signals: Vec<Signal>,
-    /// Its last place, if it says.
+    /// Last place, if the source states it.
     pub end: Option<u64>,
-    /// Whether it says how values are written, where that matters.
+    /// Whether it states the radix of values, if that matters.
     pub radix_told: bool,
-    /// What was read otherwise than it is usually written, or taken from elsewhere.
+    /// Notes on deviations from the usual format, and on values taken from another part.
     pub notes: Vec<String>,
     pub(super) origin: Arc<dyn Origin>,
-    /// Signals by the last parts of their names, once somebody has asked.
+    /// Signals by the last part of their names, computed on first use.
     pub(super) by_last: OnceLock<HashMap<String, Vec<usize>>>,
 }
 
 /// Widest signal that is read [bits].
 pub(super) const WIDEST: u32 = 1 << 20;
 
-/// Where the changes of a source come from.
+/// Implementation of a source's format.
 pub(super) trait Origin: Debug + Send + Sync {
-    /// Begins to read the signals with those ids and widths.
+    /// Starts to read the signals with the given ids and widths.
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor>;
 
-    /// The last place that is searched for what may lie anywhere, if it goes on for long.
+    /// Returns the last place to search for a match, for a source of unlimited length.
     fn searched(&self) -> Result<Option<u64>> {
         Ok(None)
     }
 }
 
 impl Source {
-    /// Begins to read the signals with those ids; signal `k` of the cursor is `ids[k]`.
+    /// Starts to read the signals with the given ids; signal `k` of the cursor is `ids[k]`.
     ///
     /// # Errors
-    /// When the file has changed or cannot be read any more.
+    /// If the file has changed or cannot be read any more.
     pub fn read(&self, ids: &[usize]) -> Result<Cursor> {
         // The first name of a signal says how wide it is.
         let signals = self.signals.iter().rev();
@@ -165,21 +165,21 @@ impl Source {
         self.origin.read(ids, &widths)
     }
 
-    /// The last place that is searched for what may lie anywhere: of a simulation that goes on for
-    /// as long as it is asked to, the end of its first frame.
+    /// Returns the last place to search for a match: for a simulation of unlimited length, the end of its first
+    /// frame.
     ///
     /// # Errors
-    /// When that frame does not end.
+    /// If that frame does not end.
     pub(crate) fn searched(&self) -> Result<u64> {
         Ok(self.origin.searched()?.unwrap_or(u64::MAX))
     }
 
-    /// Whether its places are samples of a logic analyser.
+    /// Returns whether it is a capture of a logic analyser.
     pub fn is_capture(&self) -> bool {
         self.axis == Axis::Samples
     }
 
-    /// Adds ranges to names that several signals would share without.
+    /// Adds ranges to names that several signals would otherwise share.
     pub(super) fn distinguish(mut self) -> Self {
         let mut ids: HashMap<String, HashSet<usize>> = HashMap::new();
         for signal in &self.signals {
@@ -196,7 +196,7 @@ impl Source {
         self
     }
 
-    /// The signals whose names have that last part, whatever their ranges, in ascending order.
+    /// Returns the signals whose names end with the part `last`, regardless of their ranges, in ascending order.
     pub(crate) fn called(&self, last: &str) -> &[usize] {
         let by_last = self.by_last.get_or_init(|| {
             let mut by_last: HashMap<String, Vec<usize>> = HashMap::new();
@@ -209,7 +209,7 @@ impl Source {
     }
 }
 
-/// A name without what stands in brackets behind it.
+/// Removes brackets at the end of a name.
 fn bare(last: &str) -> &str {
     last.split('[').next().unwrap_or(last)
 }

@@ -1,4 +1,4 @@
-//! tofsim itself as a source: a scenario, simulated while it is read.
+//! A scenario as a source, simulated while it is read.
 
 use std::sync::{Arc, OnceLock};
 
@@ -19,17 +19,17 @@ use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, Words
 use super::stream::{Cursor, Feed};
 use super::tick::Tick;
 
-/// What a simulation without a number of frames ends at.
+/// Time limit of a simulation without a number of frames.
 pub const LONGEST_SIMULATION: Time = Time::from_ns(100_000_000);
 
-/// What is simulated.
+/// Setup and number of frames of a simulation.
 #[derive(Clone, Debug)]
 struct Origin {
     setup: Arc<Setup>,
     frames: Option<u64>,
 }
 
-/// A simulation of so many frames, or of as much as is asked for.
+/// Creates a source that simulates `frames` frames or, without a number, as many as are read.
 pub(super) fn source(setup: Setup, frames: Option<u64>) -> Source {
     let mut entries = hierarchy::entries(&setup.params);
     if entries.iter().any(|entry| entry.scope == "tof_top.histogram_builder") {
@@ -87,17 +87,17 @@ impl signals::Origin for Origin {
     }
 }
 
-/// Feeds what changes.
+/// Probe of a run that sends changes to the cursor.
 struct ChangeFeed<'a> {
     values: Values<'a>,
     part: Part,
-    /// When to end.
+    /// End of the simulation.
     until: Time,
-    /// Whether to simulate on is of no use.
+    /// Whether the cursor has been dropped.
     gone: bool,
 }
 
-/// Where the values go.
+/// Sink for the values.
 struct Values<'a> {
     feed: &'a mut Feed,
     /// Signals of the cursor by id, each with a mask of its bits.

@@ -1,8 +1,8 @@
-//! The values of signals at one place.
+//! Values of signals at one place.
 
 use crate::words::ones;
 
-/// The values of all signals of a stream at one place; each begins at a word of its own.
+/// Values of all signals of a cursor at one place; each begins at a word boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceState {
     first: Vec<u32>,
@@ -11,7 +11,7 @@ pub struct SourceState {
 }
 
 impl SourceState {
-    /// All unknown.
+    /// Creates a state in which all bits are unknown.
     pub fn new(widths: &[u32]) -> Self {
         let mut first = vec![0];
         let mut unknown = Vec::new();
@@ -22,24 +22,24 @@ impl SourceState {
         SourceState { first, value: vec![0; unknown.len()], unknown }
     }
 
-    /// Its words.
+    /// Returns the range of a signal's words.
     pub(super) fn range(&self, signal: usize) -> std::ops::Range<usize> {
         self.first[signal] as usize..self.first[signal + 1] as usize
     }
 
-    /// Value of a signal, lowest word first; its unknown bits are 0, or 1 for high impedance.
+    /// Returns the value of a signal, least significant word first; unknown bits are 0, or 1 for high impedance.
     #[inline]
     pub fn value(&self, signal: usize) -> &[u64] {
         &self.value[self.range(signal)]
     }
 
-    /// Unknown bits of a signal.
+    /// Returns the mask of a signal's unknown bits.
     #[inline]
     pub fn unknown(&self, signal: usize) -> &[u64] {
         &self.unknown[self.range(signal)]
     }
 
-    /// Sets a signal to words of its value and of its unknown bits.
+    /// Sets the value and the unknown bits of a signal.
     #[inline]
     pub(super) fn set(&mut self, signal: usize, value: &[u64], unknown: &[u64]) {
         let range = self.range(signal);
@@ -47,7 +47,7 @@ impl SourceState {
         self.unknown[range].copy_from_slice(unknown);
     }
 
-    /// Takes the values of `signal` from another state of the same signals.
+    /// Copies the value of a signal from another state of the same signals.
     #[inline]
     pub fn take(&mut self, from: &SourceState, signal: usize) {
         self.set(signal, from.value(signal), from.unknown(signal));

@@ -1,4 +1,4 @@
-//! A source that somebody else may stop.
+//! Sources that can be stopped from outside.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -8,7 +8,7 @@ use tofsim::error::Result;
 use super::signals::{Origin, Source};
 use super::stream::Cursor;
 
-/// Where changes come from, until it is stopped.
+/// A source's implementation, with a flag that stops it.
 #[derive(Debug)]
 struct Stopped {
     origin: Arc<dyn Origin>,
@@ -28,7 +28,7 @@ impl Origin for Stopped {
 }
 
 impl Source {
-    /// The same, but reading it fails as interrupted once `stop` is set.
+    /// Returns the source with a flag: once `stop` is set, reading fails as interrupted.
     pub fn stopped_by(self, stop: Arc<AtomicBool>) -> Source {
         let origin = Arc::new(Stopped { origin: Arc::clone(&self.origin), stop });
         Source { origin, ..self }

@@ -1,4 +1,4 @@
-//! Changes on their way from a reading thread to the comparison, in blocks.
+//! Stream of changes from a reading thread to the comparison, in blocks.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,30 +11,30 @@ use tofsim::error::{Error, Result};
 use super::guard::guarded;
 use super::state::SourceState;
 
-/// Words of a block beyond which it is sent.
+/// Size at which a block is sent [words].
 const BLOCK: usize = 1 << 15;
-/// Blocks under way.
+/// Largest number of blocks in transit.
 const DEPTH: usize = 4;
-/// Time between two looks at whether to stop, while a block is waited for.
+/// Interval at which the stop flag is checked while waiting for a block.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// What a logic analyser says of a sample.
+/// A logic analyser's marks of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Marks {
-    /// A window begins.
+    /// A window begins with it.
     pub window: bool,
-    /// It triggered.
+    /// The sample triggered.
     pub trigger: bool,
     /// Samples are missing here.
     pub gap: bool,
 }
 
-/// Some signals change.
+/// Changes at one place.
 #[derive(Clone, Copy, Debug)]
 struct Instant {
     at: u64,
     marks: Marks,
-    /// Place after its last change.
+    /// Index after its last change.
     end: usize,
 }
 
@@ -43,11 +43,11 @@ struct Block {
     instants: Vec<Instant>,
     /// Signals that change.
     changes: Vec<u32>,
-    /// For each change the words of its value, then those of its unknown bits.
+    /// For each change, the words of its value followed by those of its unknown bits.
     words: Vec<u64>,
 }
 
-/// The end that a reading thread puts changes into.
+/// Sending end of the stream, used by the reading thread.
 pub struct Feed {
     blocks: SyncSender<Result<Block>>,
     block: Block,
@@ -55,12 +55,15 @@ pub struct Feed {
     at: Option<(u64, Marks)>,
 }
 
-/// The other end is not there any more; to stop is right.
+/// Indication that the receiving end has been dropped, so that reading should stop.
 #[derive(Clone, Copy, Debug)]
 pub struct Gone;
 
 impl Feed {
-    /// The changes that follow are at that place, which never goes back.
+    /// Sets the place of the changes that follow, which must not decrease.
+    ///
+    /// # Errors
+    /// If the receiving end has been dropped.
     #[inline]
     pub fn at(&mut self, at: u64) -> std::result::Result<(), Gone> {
         if self.at.is_some_and(|(now, _)| now == at) {
@@ -71,14 +74,14 @@ impl Feed {
         Ok(())
     }
 
-    /// What is said of this place.
+    /// Changes the marks of the present place.
     pub fn mark(&mut self, change: impl FnOnce(&mut Marks)) {
         if let Some((_, marks)) = &mut self.at {
             change(marks);
         }
     }
 
-    /// A signal changes to `value`, with `unknown` bits; both as long as its width asks for.
+    /// Adds a change of a signal to `value`, with `unknown` bits; both have the number of words of its width.
     #[inline]
     pub fn change(&mut self, signal: usize, value: &[u64], unknown: &[u64]) {
         debug_assert!(value.len() == self.words[signal] && unknown.len() == value.len());
@@ -87,7 +90,7 @@ impl Feed {
         self.block.words.extend_from_slice(unknown);
     }
 
-    /// Words that the value of a signal has.
+    /// Returns the number of words of a signal's value.
     pub fn words(&self, signal: usize) -> usize {
         self.words[signal]
     }
@@ -113,21 +116,21 @@ impl Feed {
     }
 }
 
-/// Follows the changes of a source from its begin to its end.
+/// Receiving end of the stream: a reader of a source's changes, in order.
 pub struct Cursor {
     blocks: Receiver<Result<Block>>,
     block: Block,
     instant: usize,
     change: usize,
     word: usize,
-    /// Set by somebody else to end it.
+    /// Flag that stops the reader.
     pub(super) stop: Arc<AtomicBool>,
     /// Values after the last instant taken.
     pub state: SourceState,
 }
 
 impl Cursor {
-    /// Runs `read` in a thread of its own, which is named for what it does.
+    /// Runs `read` in a thread of the given name.
     pub(super) fn spawn(
         widths: &[u32],
         read: impl FnOnce(&mut Feed) -> Result<()> + Send + 'static,
@@ -149,10 +152,10 @@ impl Cursor {
         Cursor { blocks, block, instant: 0, change: 0, word: 0, stop: Arc::default(), state }
     }
 
-    /// Place of the next instant, `None` at the end.
+    /// Returns the place of the next instant; `None` at the end.
     ///
     /// # Errors
-    /// When the source cannot be read on, or is stopped.
+    /// If the source cannot be read any further, or is stopped.
     #[inline]
     pub fn peek(&mut self) -> Result<Option<u64>> {
         while self.instant == self.block.instants.len() {
@@ -169,7 +172,7 @@ impl Cursor {
         Ok(Some(self.block.instants[self.instant].at))
     }
 
-    /// Takes the next instant into the state; each signal that it touches is told.
+    /// Applies the next instant to the state, and calls `touched` with each signal in it.
     #[inline]
     pub fn take(&mut self, mut touched: impl FnMut(usize)) -> Marks {
         let Some(&Instant { marks, end, .. }) = self.block.instants.get(self.instant) else {

@@ -1,21 +1,21 @@
-//! The unit that a waveform counts time in.
+//! Time unit of a waveform.
 
 /// Length of a unit of time [1e-21 s].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Tick(u128);
 
 impl Tick {
-    /// A femtosecond.
+    /// One femtosecond.
     pub const FEMTOSECOND: Tick = Tick(1_000_000);
 
-    /// `factor` times 10 to the `exponent` seconds; `None` below 1e-21 s or for nothing.
+    /// Creates a unit of `factor` times 10 to the `exponent` seconds; `None` if it is 0 or not a multiple of 1e-21 s.
     pub fn new(factor: u32, exponent: i8) -> Option<Tick> {
         let power = u32::try_from(exponent as i32 + 21).ok()?;
         let length = 10u128.checked_pow(power)?.checked_mul(factor as u128)?;
         (length > 0).then_some(Tick(length))
     }
 
-    /// `at`, counted in this unit, in the unit `other`, rounded down.
+    /// Converts `at` from this unit to the unit `other`, rounded down.
     pub fn convert(self, at: u64, other: Tick) -> u64 {
         if self == other {
             return at;
@@ -23,17 +23,17 @@ impl Tick {
         (at as u128 * self.0 / other.0) as u64
     }
 
-    /// `at`, counted in this unit [fs].
+    /// Converts `at` from this unit [fs].
     pub fn femtoseconds(self, at: u64) -> u128 {
         at as u128 * self.0 / Tick::FEMTOSECOND.0
     }
 
-    /// A time in this unit, rounded down.
+    /// Converts a time to this unit, rounded down.
     pub fn count(self, femtoseconds: u128) -> u64 {
         (femtoseconds * Tick::FEMTOSECOND.0 / self.0) as u64
     }
 
-    /// A time in this unit, rounded up: the first that is not before it.
+    /// Converts a time to this unit, rounded up.
     pub fn count_up(self, femtoseconds: u128) -> u64 {
         (femtoseconds * Tick::FEMTOSECOND.0).div_ceil(self.0) as u64
     }

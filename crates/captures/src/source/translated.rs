@@ -1,4 +1,4 @@
-//! A source with some words as the bits that they stand for.
+//! Sources in which words are replaced by the values that they represent.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -12,19 +12,19 @@ use crate::words::Bits;
 use super::signals::{self, Signal, SignalKind, Source};
 use super::stream::Cursor;
 
-/// Which bits the words of a signal stand for.
+/// Values of a signal's words.
 #[derive(Clone, Debug)]
 pub(crate) struct Translation {
     /// Width of the values [bits].
     pub(crate) width: u32,
     /// Radix of the numbers among the words.
     pub(crate) radix: Option<Radix>,
-    /// The words, and their values.
+    /// Value of each word.
     pub(crate) states: HashMap<String, u64>,
 }
 
 impl Translation {
-    /// The bits of a word; unknown ones if nobody knows what it stands for.
+    /// Returns the value of a word; all bits are unknown if the word is.
     fn bits(&self, value: &[u64]) -> Bits {
         let cell = word(value);
         let mut bits = Bits::default();
@@ -43,7 +43,7 @@ impl Translation {
     }
 }
 
-/// The other source, and what is translated, by id.
+/// The original source, and the translations by id.
 #[derive(Debug)]
 struct Translated {
     origin: Arc<dyn signals::Origin>,
@@ -51,7 +51,7 @@ struct Translated {
 }
 
 impl Source {
-    /// The same with the words of some signals, by id, as bits.
+    /// Returns the source with the words of some signals, by id, replaced by values.
     pub(crate) fn translated(mut self, by_id: HashMap<usize, Translation>) -> Source {
         let is_it = |signal: &&mut Signal| signal.kind == SignalKind::Text;
         for signal in self.signals.iter_mut().filter(is_it) {

@@ -1,4 +1,4 @@
-//! VCD, FST and GHW, read by the crate `wellen`.
+//! VCD, FST and GHW files, read by the crate `wellen`.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -23,14 +23,14 @@ use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, WIDES
 use super::stream::{Cursor, Feed, Gone};
 use super::tick::Tick;
 
-/// Where a waveform is.
+/// Path and format of a waveform.
 #[derive(Clone, Debug)]
 struct Origin {
     path: PathBuf,
     format: SourceFormat,
-    /// Signal of the library for each id.
+    /// The library's signal for each id.
     references: Vec<SignalRef>,
-    /// The marks of a logic analyser.
+    /// Marks of a logic analyser.
     marks: Option<Style>,
 }
 
@@ -40,7 +40,7 @@ fn open(path: &Path) -> Result<StreamingWaveform<Bytes>> {
     wave.map_err(|error| fault(path, error))
 }
 
-/// The source at `path`, of one of the three formats.
+/// Opens the waveform at `path`.
 pub(super) fn source(path: &Path, format: SourceFormat) -> Result<Source> {
     guarded(&path.display().to_string(), || match format {
         SourceFormat::Ghw => described(path, format, &loaded::open(path)?.hierarchy, None),

@@ -1,4 +1,4 @@
-//! Captures of logic analysers.
+//! Fuzz tests of logic analysers' captures.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -13,7 +13,7 @@ use crate::ila::fixtures;
 use super::edit::{edited, edits};
 use super::fuzz;
 
-/// Text that means something in one of the formats.
+/// Texts with a meaning in one of the formats.
 const PIECES: [&str; 38] = [
     ",",
     "\n",
@@ -55,7 +55,7 @@ const PIECES: [&str; 38] = [
     "-1\"",
 ];
 
-/// Reads a file to its end or its first error. `size` is what it unpacks to [bytes].
+/// Reads a file to its end or its first error; `size` is its uncompressed size [bytes].
 fn drive(bytes: &[u8], size: usize) -> Result<(), TestCaseError> {
     match ila::read_bytes(bytes, None) {
         Ok((opened, rows)) => {

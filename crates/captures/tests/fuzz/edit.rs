@@ -1,13 +1,13 @@
-//! Changes of files that are right, so that they are nearly right.
+//! Random changes of valid files, which make them nearly valid.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
-/// A change of a file: where, how many bytes go, what comes.
+/// A change of a file: position, number of bytes removed, and bytes inserted.
 pub type Edit = (Index, usize, Vec<u8>);
 
-/// A few changes, of which most put in a piece that means something.
+/// Generates a few changes, most of which insert a text with a meaning.
 pub fn edits(pieces: &'static [&'static str]) -> impl Strategy<Value = Vec<Edit>> {
     let piece = prop_oneof![
         3 => select(pieces).prop_map(|piece| piece.as_bytes().to_vec()),
@@ -17,11 +17,10 @@ pub fn edits(pieces: &'static [&'static str]) -> impl Strategy<Value = Vec<Edit>
     vec((any::<Index>(), 0usize..12, piece), 0..5)
 }
 
-/// Lengths, sizes and counts that are put in place of others: where, in how many bytes, whether the
-/// highest is first.
+/// A number that replaces a length, size or count: position, number of bytes, whether it is big-endian, and value.
 pub type Plant = (Index, usize, bool, u64);
 
-/// A few of them, most of which are more than there can be.
+/// Generates a few such numbers, most of which are too large.
 pub fn plants() -> impl Strategy<Value = Vec<Plant>> {
     let value = prop_oneof![
         select(vec![u64::MAX, u64::MAX - 8, 1 << 63, 1 << 48, u64::MAX >> 1, 1 << 35]),
@@ -33,7 +32,7 @@ pub fn plants() -> impl Strategy<Value = Vec<Plant>> {
     vec((any::<Index>(), bytes, any::<bool>(), value), 1..4)
 }
 
-/// The file with those numbers at some of the places.
+/// Returns the file with the numbers at some of the places.
 pub fn planted(mut bytes: Vec<u8>, places: &[usize], plants: &[Plant]) -> Vec<u8> {
     for (place, count, is_big, value) in plants {
         let start = *place.get(places);
@@ -45,7 +44,7 @@ pub fn planted(mut bytes: Vec<u8>, places: &[usize], plants: &[Plant]) -> Vec<u8
     bytes
 }
 
-/// The file with its changes.
+/// Returns the file with the changes.
 pub fn edited(mut bytes: Vec<u8>, edits: &[Edit]) -> Vec<u8> {
     for (place, gone, piece) in edits {
         let start = place.index(bytes.len() + 1);

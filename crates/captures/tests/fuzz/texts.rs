@@ -1,4 +1,4 @@
-//! Maps, set-ups and conditions.
+//! Fuzz tests of maps, probe configurations and conditions.
 
 use proptest::prelude::*;
 use proptest::sample::select;

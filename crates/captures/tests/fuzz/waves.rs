@@ -1,4 +1,4 @@
-//! Waveforms, which a library reads whose panics are ours to catch.
+//! Fuzz tests of waveforms, which a library reads whose panics must be caught.
 
 use std::fs;
 use std::sync::OnceLock;
@@ -21,7 +21,7 @@ use crate::common;
 use super::edit::{edited, edits, planted, plants};
 use super::fuzz;
 
-/// Text that means something in a VCD.
+/// Texts with a meaning in a VCD.
 const PIECES: [&str; 28] = [
     "\n",
     " ",
@@ -61,7 +61,7 @@ const VCD: &str = "$version hand $end\n$timescale 10ps $end\n$scope module top $
 
 const GHW: &[u8] = include_bytes!("../ghdl/counter.ghw");
 
-/// A small FST file of our own.
+/// Returns a small FST file written by tofsim.
 fn fst() -> &'static [u8] {
     static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
     BYTES.get_or_init(|| {
@@ -79,7 +79,7 @@ fn fst() -> &'static [u8] {
     })
 }
 
-/// A logic analyser's VCD.
+/// Returns a logic analyser's VCD.
 fn capture() -> Vec<u8> {
     let probe = |name: &str, width: u32| Probe {
         name: name.to_owned(),
@@ -96,7 +96,7 @@ fn capture() -> Vec<u8> {
     bytes
 }
 
-/// Looks at a file, and if it is one compares it with itself.
+/// Opens a file, and if it is valid compares it with itself.
 fn drive(bytes: &[u8]) -> Result<(), TestCaseError> {
     let file = tempfile::NamedTempFile::new().unwrap();
     fs::write(file.path(), bytes).unwrap();
@@ -153,7 +153,7 @@ fn fsts_with_other_lengths_sizes_and_counts() {
     fuzz(plants(), |plants| drive(&planted(fst().into(), &all, &plants)));
 }
 
-/// Places of the first and the last bytes of the blocks of an FST file.
+/// Returns the positions of the first and the last bytes of an FST file's blocks.
 fn heads(bytes: &[u8]) -> Vec<usize> {
     let mut heads = Vec::new();
     let mut begin = 0;

@@ -1,4 +1,4 @@
-//! The fixtures: files written by hand as Vivado and chipscopy write them.
+//! Fixtures: files written by hand in the formats of Vivado and chipscopy.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
 use std::fs;
@@ -6,26 +6,26 @@ use std::path::{Path, PathBuf};
 
 use crate::ila::archive;
 
-/// A fixture's path.
+/// Returns a fixture's path.
 pub fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ila").join(name)
 }
 
-/// A fixture's bytes.
+/// Returns a fixture's bytes.
 pub fn bytes(name: &str) -> Vec<u8> {
     fs::read(fixture(name)).unwrap()
 }
 
-/// The parts of an archive.
+/// Names of an archive's parts.
 pub const PARTS: [&str; 4] = ["waveform.csv", "waveform.dmp", "waveform.vcd", "probes.ltx"];
 
-/// The files of the archive, with those of `but` exchanged or, if empty, left out.
+/// Creates an archive of the fixtures, with those in `but` replaced or, if empty, omitted.
 pub fn archive_but(but: &[(&str, &[u8])]) -> Vec<u8> {
     packed("archive", but)
 }
 
-/// The same of a System ILA's: a port with slices of its own names, words among numbers, a view of
-/// other probes that is not in the dump.
+/// Creates such an archive of a System ILA: a port with named slices, words among numbers, and a view of other probes
+/// that is not in the dump.
 pub fn views_but(but: &[(&str, &[u8])]) -> Vec<u8> {
     packed("views", but)
 }

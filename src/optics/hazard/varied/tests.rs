@@ -1,4 +1,4 @@
-//! Shots of all kinds against their closed forms, and shots without a kind against the plain ones.
+//! Tests of averages over shots against closed forms, and of shots without deviation against plain ones.
 
 use crate::optics::Budget;
 
@@ -14,8 +14,8 @@ fn budget(background_hz: f64, signal: f64, mean_ps: u64) -> Budget {
     }
 }
 
-/// The integral of the signal's rate times the probability of no avalanche so far, by the midpoints of
-/// steps of 0.05 ps, with the exact pulse.
+/// Integrates the signal rate times the probability of no earlier avalanche by the midpoint rule with steps of 0.05
+/// ps, for the exact pulse.
 fn integrated(budget: &Budget, until_ps: f64) -> f64 {
     let sigma = budget.pulse.sigma_ps();
     let place = |ps: f64| (ps - budget.mean_arrival.fs() as f64 / 1e3) / sigma;
@@ -62,7 +62,7 @@ fn without_signal_none_is() {
     assert!(Hazard::new(&lit).signal_first(Time::from_ns(2)) < 1e-12, "before the echo");
 }
 
-/// Bright, dim, without background, and near enough to be cut.
+/// Scenes: bright, dim, without background, and so near that the pulse is cut off.
 const SCENES: [(f64, f64, u64); 4] =
     [(0.9e9, 39.4, 667), (0.27e9, 0.89, 3336), (0.0, 0.14, 4003), (1e9, 5.0, 200)];
 

@@ -1,11 +1,11 @@
-//! Meshes against the integrals of the shapes that they have.
+//! Tests of meshes against the integrals of the shapes that they approximate.
 
 use crate::scenario::mesh::tests::{cube, of};
 use crate::scenario::mesh::{Mesh, Point};
 
 use super::*;
 
-/// A ball of radius 1 in rings and sectors, whose poles are on the axis.
+/// A sphere of radius 1 in rings and sectors, with its poles on the axis.
 fn ball(rings: u32, sectors: u32) -> Mesh {
     let point = |ring: u32, sector: u32| -> Point {
         let polar = PI * f64::from(ring) / f64::from(rings);

@@ -1,4 +1,4 @@
-//! How the sides of a comparison are brought together, and what came of it.
+//! Methods of alignment, and their result.
 
 use std::str::FromStr;
 
@@ -7,26 +7,26 @@ use tofsim::kernel::Time;
 use super::super::samples::time;
 use super::super::selection::Piece;
 
-/// How the sides are brought together.
+/// Method of alignment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// The first samples belong together; of waveforms those of the same time.
+    /// Align the first samples; waveforms by time.
     Start,
-    /// The samples that triggered belong together.
+    /// Align the samples that triggered.
     Trigger,
-    /// The first edges of a signal belong together.
+    /// Align the first edges of a signal.
     Edge(String),
-    /// Where the sides agree best in those signals, or in all.
+    /// Align for best agreement of the given signals, or of all.
     Correlation(Vec<String>),
-    /// The same for each window alone.
+    /// Align each window separately for best agreement of the given signals, or of all.
     Windows(Vec<String>),
-    /// The second side is so many samples late.
+    /// Delay the second side by a number of samples.
     Offset(i64),
-    /// The second side is that much late.
+    /// Shift the second side by a time.
     Shift {
-        /// How much.
+        /// Magnitude of the shift.
         by: Time,
-        /// It is early instead.
+        /// Whether the second side is early rather than late.
         early: bool,
     },
 }
@@ -63,23 +63,23 @@ impl FromStr for Align {
     }
 }
 
-/// Samples that belong together: piece by piece, one by one.
+/// Pairs of samples: pieces of both sides, sample by sample.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Alignment {
-    /// The pieces of each side.
+    /// Pieces of each side.
     pub(crate) pieces: [Vec<Piece>; 2],
-    /// How they were found.
+    /// Description of how they were found.
     pub(crate) found: String,
-    /// Samples that the second side is later, if it is one number.
+    /// Delay of the second side, if it is constant [samples].
     pub(crate) offset: Option<i64>,
-    /// What is different already.
+    /// Differences found during alignment.
     pub(crate) differences: Vec<String>,
-    /// What may be the reason where the samples differ.
+    /// Possible reasons for differences of the samples.
     pub(crate) doubts: Vec<String>,
 }
 
 impl Alignment {
-    /// One piece on each side, the second `offset` samples later.
+    /// Creates an alignment of one piece per side, the second `offset` samples later.
     pub(super) fn shifted(offset: i64, found: String) -> Alignment {
         let a = Piece::Run(offset.min(0).unsigned_abs(), None);
         let b = Piece::Run(offset.max(0).unsigned_abs(), None);

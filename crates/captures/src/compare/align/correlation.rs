@@ -1,4 +1,4 @@
-//! Alignment by best agreement: all offsets at once, by Fourier transforms.
+//! Alignment for best agreement, over all offsets at once by Fourier transforms.
 
 use std::sync::Arc;
 
@@ -18,28 +18,28 @@ use super::alignment::Alignment;
 use super::survey::survey;
 use crate::words::Bits;
 
-/// Longest sequence that is looked for [samples].
+/// Longest sequence that is searched for [samples].
 pub(super) const LONGEST: u64 = 1 << 17;
-/// Bits of a sample that are looked at; the rest is left to the comparison.
+/// Largest number of bits per sample that are correlated.
 const BITS: usize = 256;
-/// Candidates that are kept.
+/// Number of candidates that are kept.
 pub(super) const KEPT: usize = 8;
-/// Candidates that an error lists.
+/// Number of candidates that an error lists.
 const LISTED: usize = 4;
 
-/// An offset and how well it does.
+/// An offset with its number of differences.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Candidate {
-    /// Sample of the longer side at the shorter one's first.
+    /// Sample of the longer side that corresponds to the first of the shorter side.
     pub(super) offset: i64,
-    /// Bits that differ.
+    /// Number of bits that differ.
     pub(super) differing: u64,
-    /// Bits that could.
+    /// Number of bits compared.
     pub(super) compared: u64,
 }
 
 impl Candidate {
-    /// Samples that the second side is later, if `side` is the shorter one.
+    /// Returns the delay of the second side, given that `side` is the shorter one [samples].
     fn later(&self, side: usize) -> i64 {
         if side == 0 { self.offset } else { -self.offset }
     }
@@ -49,10 +49,10 @@ impl Candidate {
     }
 }
 
-/// The bits of some pairs at each of some samples: 1, -1, or 0 where unknown.
+/// Bits of some pairs at consecutive samples: 1, -1, or 0 if unknown.
 type Rows = Vec<Vec<i8>>;
 
-/// The bits of some pairs, side by side.
+/// Concatenated bits of some pairs.
 pub(super) struct PairBits<'a> {
     pairs: Vec<&'a Pair>,
     pub(super) width: usize,
@@ -89,19 +89,19 @@ impl<'a> PairBits<'a> {
     }
 }
 
-/// What is looked for, and where.
+/// Parameters of a search.
 pub(super) struct Search {
     /// Side with the shorter sequence.
     pub(super) side: usize,
-    /// The sequence.
+    /// Sequence to search for.
     pub(super) piece: Piece,
-    /// Whether it may hang over the other's begin and end by up to half.
+    /// Whether the sequence may overlap the start and end of the other side by half of its length.
     pub(super) overhangs: bool,
-    /// First sample of the other side that is looked at.
+    /// First sample of the other side to search.
     pub(super) from: u64,
 }
 
-/// The best offsets, the best first.
+/// Returns the best offsets, best first.
 pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
     let mut probe = PairBits::new(plan, signals)?;
     let pieces = [search.piece.clone()];
@@ -164,11 +164,11 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
     Ok(best)
 }
 
-/// How far a side is searched for a sequence that begins in the part that is searched.
+/// End of the search on a side of unlimited length.
 pub(crate) struct SearchEnd {
-    /// Last place of that part.
+    /// Last place at which a match may begin.
     last: u64,
-    /// Samples that are taken after it.
+    /// Number of samples read after that place.
     left: usize,
 }
 
@@ -177,7 +177,7 @@ impl SearchEnd {
         Ok(SearchEnd { last: plan.sources[side].searched()?, left: length.saturating_sub(1) })
     }
 
-    /// Whether a sample is still looked at.
+    /// Returns whether a sample is still within the search.
     pub(crate) fn takes(&mut self, sample: Sample) -> bool {
         if sample.at <= self.last {
             return true;
@@ -187,16 +187,16 @@ impl SearchEnd {
         is_taken
     }
 
-    /// Whether the side goes on behind what was taken.
+    /// Returns whether the side continues after the search.
     fn is_reached(&self) -> bool {
         self.left == 0
     }
 }
 
-/// Finds a sequence in chunks of another.
+/// Searches chunks of one sequence for another.
 struct Matcher {
     needle: Rows,
-    /// Bits of a row.
+    /// Bits per sample.
     width: usize,
     size: usize,
     forward: Arc<dyn Fft<f64>>,
@@ -211,7 +211,7 @@ impl Matcher {
         Matcher { needle, width, size, forward, inverse }
     }
 
-    /// Ranks the offsets at which the sequence lies within a chunk that begins at `base`.
+    /// Ranks the offsets at which the sequence lies within the chunk that begins at sample `base`.
     fn scan(&mut self, hay: &Rows, base: i64, best: &mut Vec<Candidate>) {
         let zero = Complex::new(0.0, 0.0);
         let mut product = vec![zero; self.size];
@@ -243,11 +243,10 @@ impl Matcher {
     }
 }
 
-/// The best candidate, if no other does nearly as well: the next has to differ in more than twice
-/// as many bits.
+/// Returns the best candidate, if it is unique: the second must differ in more than twice as many bits.
 ///
 /// # Errors
-/// When there is none, or another does as well.
+/// If there is none, or another is nearly as good.
 pub(super) fn decide(
     candidates: &[Candidate],
     side: usize,
@@ -281,7 +280,7 @@ pub(super) fn decide(
     Ok((*best, format!("correlation: offset {}; {next}", tell(best))))
 }
 
-/// One offset for all.
+/// Aligns both sides by one constant offset.
 pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     let (side, overhangs) = (plan.capture().unwrap_or(0), plan.capture().is_none());
     let (windows, longest, what) = match overhangs {

@@ -1,4 +1,4 @@
-//! Alignment by the first edge of a signal, and by the begin.
+//! Alignment by the first edge of a signal, or by the first sample.
 
 use tofsim::error::{Input, Result};
 
@@ -12,7 +12,7 @@ use super::alignment::Alignment;
 use super::survey::{counts_differ, survey, triggers_differ, windows_differ};
 use crate::words::Bits;
 
-/// The first edges of a signal belong together.
+/// Aligns the first edges of a signal.
 pub(super) fn alignment(plan: &Plan, signal: &str) -> Result<Alignment> {
     let pair = plan.matching.pair(signal)?;
     let edges = [first(plan, 0, pair)?, first(plan, 1, pair)?];
@@ -20,7 +20,7 @@ pub(super) fn alignment(plan: &Plan, signal: &str) -> Result<Alignment> {
     Ok(Alignment::shifted(edges[1] as i64 - edges[0] as i64, found))
 }
 
-/// Time between the first edges of a signal of two waveforms [fs].
+/// Returns the time between the first edges of a signal on both sides [fs].
 pub(super) fn shift(plan: &Plan, signal: &str) -> Result<(i128, String)> {
     let pair = &plan.matching.pairs[plan.matching.pair(signal)?];
     let mut edges = [0, 0];
@@ -55,7 +55,7 @@ fn first(plan: &Plan, side: usize, pair: usize) -> Result<u64> {
     Ok(edge.ok_or_else(never)?.index)
 }
 
-/// Tells, value by value, whether a pair has changed on a side from one that was known.
+/// Returns a detector of changes between known values of a pair on one side.
 fn changes(pair: &Pair, side: usize) -> impl FnMut(&SourceState) -> bool {
     let mut before = None::<Bits>;
     move |state| {
@@ -67,7 +67,7 @@ fn changes(pair: &Pair, side: usize) -> impl FnMut(&SourceState) -> bool {
     }
 }
 
-/// The first samples belong together, window by window; of waveforms those of the same time.
+/// Aligns the first samples of each window; waveforms by time.
 pub(super) fn start(plan: &Plan) -> Result<Alignment> {
     let found = "from the first sample on".to_owned();
     match plan.sources.map(|source| source.axis) {
@@ -90,7 +90,7 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
     }
 }
 
-/// From the first sample of each of two waveforms on that is not before the other's.
+/// Aligns two waveforms from the first sample of each that is not before the other's.
 fn same_time(plan: &Plan, ticks: [Tick; 2]) -> Result<Alignment> {
     let coarse = ticks[0].max(ticks[1]);
     let time = |side: usize, sample: Sample| ticks[side].convert(sample.at, coarse);
@@ -118,12 +118,12 @@ fn same_time(plan: &Plan, ticks: [Tick; 2]) -> Result<Alignment> {
     Ok(Alignment { pieces, found, offset, ..Alignment::default() })
 }
 
-/// The first sample that is looked at.
+/// Returns the first sample in the range of the comparison.
 pub(super) fn first_looked_at(plan: &Plan, side: usize) -> Result<Option<Sample>> {
     find(plan, side, |sample, _| plan.is_looked_at(side, sample))
 }
 
-/// The first sample of a side that is as wanted.
+/// Returns the first sample of a side that satisfies a predicate.
 fn find(
     plan: &Plan,
     side: usize,

@@ -1,4 +1,4 @@
-//! What a capture says of its windows and triggers.
+//! Windows and triggers of a capture.
 
 use tofsim::error::Result;
 
@@ -9,29 +9,29 @@ use crate::source::{Source, SourceFormat};
 pub struct Window {
     /// Number of its first sample.
     pub first: u64,
-    /// Number of its samples, if that is known.
+    /// Number of samples, if it is known.
     pub count: Option<u64>,
-    /// Number of the sample that triggered, in the buffer.
+    /// Number, in the buffer, of the sample that triggered.
     pub trigger: Option<u64>,
 }
 
-/// What a pass over a capture finds.
+/// Structure of a capture.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Survey {
     /// Windows.
     pub windows: Vec<Window>,
-    /// Number of samples, if that is known.
+    /// Number of samples, if it is known.
     pub samples: Option<u64>,
-    /// Samples at which others are missing.
+    /// Number of gaps.
     pub gaps: u64,
-    /// Last sample that something is said of.
+    /// Last sample that the capture mentions.
     pub last: Option<u64>,
 }
 
-/// Passes over a capture once.
+/// Reads a capture once to find its structure.
 ///
 /// # Errors
-/// When it cannot be read.
+/// If it cannot be read.
 pub fn survey(source: &Source) -> Result<Survey> {
     let mut survey = Survey::default();
     // Of a VCD, only the changes of all signals tell how far it goes.
@@ -61,13 +61,13 @@ pub fn survey(source: &Source) -> Result<Survey> {
     Ok(survey)
 }
 
-/// That the sides have not as many windows.
+/// Describes different numbers of windows, if they differ.
 pub(super) fn windows_differ(a: &[Window], b: &[Window]) -> Option<String> {
     let (a, b) = (a.len(), b.len());
     (a != b).then(|| format!("the first has {a} windows, the second {b}"))
 }
 
-/// That the windows of number `k` of both sides have not their triggers at the same place.
+/// Describes different trigger positions in window `k`, if they differ.
 pub(super) fn triggers_differ(k: usize, a: &Window, b: &Window) -> Option<String> {
     let [a, b] = [a, b].map(|window| window.trigger.map(|at| at - window.first));
     let tell = |at: Option<u64>| at.map_or("none".to_owned(), |at| at.to_string());
@@ -75,7 +75,7 @@ pub(super) fn triggers_differ(k: usize, a: &Window, b: &Window) -> Option<String
     (a != b).then(|| format!("window {k}: trigger {}", places()))
 }
 
-/// That the windows of number `k` of both sides have not as many samples.
+/// Describes different numbers of samples in window `k`, if they differ.
 pub(super) fn counts_differ(k: usize, a: &Window, b: &Window) -> Option<String> {
     let (a, b) = (a.count?, b.count?);
     (a != b).then(|| format!("window {k}: {a} samples in the first, {b} in the second"))

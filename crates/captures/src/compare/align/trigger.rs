@@ -1,5 +1,5 @@
-//! Alignment by trigger: a capture's marks against another's, or against what a logic analyser of
-//! the same set-up would store of the waveform.
+//! Alignment by trigger: the marks of a capture with those of another, or with the samples that a logic analyser of
+//! the same setup would store of the waveform.
 
 use tofsim::error::{Input, Result};
 
@@ -15,7 +15,7 @@ use super::alignment::Alignment;
 use super::edge::first_looked_at;
 use super::survey::{Survey, counts_differ, survey, triggers_differ, windows_differ};
 
-/// Brings the samples that triggered together.
+/// Aligns the samples that triggered.
 pub(super) fn alignment(plan: &Plan, time_from: Option<&str>) -> Result<Alignment> {
     match (plan.capture(), plan.sources[0].is_capture()) {
         (Some(side), _) => one_capture(plan, side, time_from),
@@ -29,7 +29,7 @@ pub(super) fn alignment(plan: &Plan, time_from: Option<&str>) -> Result<Alignmen
     }
 }
 
-/// What a capture says of its windows that triggered, and the samples that did.
+/// Returns the structure of a capture, restricted to windows that triggered, and the samples that did.
 fn triggered(plan: &Plan, side: usize) -> Result<(Survey, Vec<u64>)> {
     let source = plan.sources[side];
     let mut survey = survey(source)?;
@@ -67,7 +67,7 @@ fn captures(plan: &Plan) -> Result<Alignment> {
     Ok(Alignment { pieces, found, offset, differences, doubts: Vec::new() })
 }
 
-/// The pieces of a capture's side and the waveform's, in the order of the sides.
+/// Orders the pieces of a capture and of a waveform by side.
 fn ordered(side: usize, capture: Vec<Piece>, waveform: Vec<Piece>) -> [Vec<Piece>; 2] {
     if side == 0 { [capture, waveform] } else { [waveform, capture] }
 }
@@ -120,15 +120,15 @@ fn tell(plan: &Plan, side: usize, sample: Sample) -> String {
     Described::new(plan.sources[side]).place(sample.at)
 }
 
-/// What a logic analyser would store of a waveform.
+/// Samples that a logic analyser would store of a waveform.
 struct Stored {
-    /// The samples of each window, and how many more of it are from before the waveform's first.
+    /// Samples of each window, and the number of its samples before the waveform's first.
     pieces: Vec<(Piece, u64)>,
-    /// That a trigger came too early to count.
+    /// Remark that a trigger came too early to count.
     early: Option<String>,
 }
 
-/// What a logic analyser of that shape would store of a waveform.
+/// Determines the samples that a logic analyser of this shape would store of a waveform.
 fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     let Some(mut trigger) = plan.trigger[side].clone() else {
         let expected =
@@ -192,7 +192,7 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     Ok(Stored { pieces: windows.collect(), early })
 }
 
-/// The first sample of a waveform that triggers.
+/// Returns the first sample of a waveform that triggers.
 fn first(plan: &Plan, side: usize) -> Result<u64> {
     let shape = Shape { depth: 1, windows: 1, position: 0 };
     let stored = stored(plan, side, shape)?;
@@ -201,7 +201,8 @@ fn first(plan: &Plan, side: usize) -> Result<u64> {
     first.ok_or_else(|| never().into())
 }
 
-/// The samples of a capture that has a column that counts the clock, where sample `at` of the capture is sample `at_waveform` of the waveform.
+/// Aligns a capture with a column that counts clock cycles, given that its sample `at` is the waveform's sample
+/// `at_waveform`.
 pub(super) fn by_counter(
     plan: &Plan,
     counter: &str,

@@ -1,8 +1,8 @@
-//! Alignment of each window alone by best agreement, of all windows in one pass over the waveform.
+//! Alignment of each window separately for best agreement, for all windows in one pass over the waveform.
 //!
-//! Parts of the windows are looked for, by their hashes, in the waveform; where one is found its window
-//! is laid over. A window that differs from the waveform in so many places that none of its parts may be
-//! left is laid over all places, in a second pass.
+//! Sections of the windows are searched for in the waveform by their hashes; at each hit, the whole window is
+//! compared. A window that differs in so many samples that none of its sections may be intact is compared at all
+//! positions, in a second pass.
 
 mod hay;
 mod needle;
@@ -19,10 +19,10 @@ use super::survey::survey;
 use hay::{hash, pass, power};
 use needle::{Needle, packed};
 
-/// Windows that are listed one by one.
+/// Number of windows that are listed individually.
 const LISTED: usize = 8;
 
-/// An offset for each window, in the order of time.
+/// Determines an offset for each window, in order of time.
 pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     let Some(side) = plan.capture() else {
         let expected = "windows: expected a capture on one side and a waveform on the other";
@@ -95,10 +95,10 @@ fn longest(needles: &[Needle]) -> usize {
     needles.iter().map(Needle::length).max().unwrap_or(0)
 }
 
-/// For each hash the windows that have such a part, with the number of samples behind it.
+/// For each hash, the windows with such a section, and the number of samples after it.
 type Seeds = HashMap<u64, Vec<(usize, usize)>>;
 
-/// Lays windows over the places where one of their parts is found.
+/// Compares each window at the positions where one of its sections occurs.
 fn lay_over_seeds(
     plan: &Plan,
     side: usize,
@@ -134,7 +134,7 @@ fn lay_over_seeds(
     })
 }
 
-/// Lays the windows of which the best place is not clear over all places.
+/// Compares the windows without a unique best position at all positions.
 fn lay_over_all(
     plan: &Plan,
     side: usize,

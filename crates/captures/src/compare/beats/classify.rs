@@ -1,4 +1,4 @@
-//! What the places between words that are the same are: lost, repeated, extra or changed words.
+//! Classification of differing words: lost, repeated, extra or changed.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ pub(super) struct Classifier<'a> {
 }
 
 impl Classifier<'_> {
-    /// Counts what lies between the words that are the same, from `begin` to `end` of both sides.
+    /// Counts the differences between equal words, from `begin` to `end` of both sides.
     pub(super) fn count(
         &self,
         same: &[(usize, usize)],
@@ -60,7 +60,7 @@ impl Classifier<'_> {
         }
     }
 
-    /// Whether a word of the second side is the same as the one before it or after it.
+    /// Returns whether a word of the second side equals its predecessor or successor.
     fn repeats(&self, k: usize) -> bool {
         let words = &self.sides[1].words;
         let before = k.checked_sub(1).map(|before| words[before]);

@@ -1,30 +1,30 @@
-//! Where the words of a window lie in a longer sequence.
+//! Location of a window's words in a longer sequence.
 
 use std::collections::HashMap;
 
 use super::script::{End, Script, script};
 
-/// Words of the parts by which a window is found, the longest first.
+/// Lengths of the sections by which a window is located, longest first [words].
 const PARTS: [usize; 4] = [16, 8, 4, 1];
-/// Places of a part in the window that are looked at.
+/// Largest number of occurrences of a section in the window that are considered.
 const REPEATS: usize = 4;
-/// Places that are tried.
+/// Largest number of positions that are tried.
 const TRIED: usize = 8;
-/// How many words a part may be moved by others lost or added, to count for the same place.
+/// Distance between positions that count as one, because of lost or added words [words].
 const NEAR: i64 = 16;
 
-/// Where a window lies, as far as that is clear.
+/// Result of locating a window.
 #[derive(Debug)]
 pub(super) enum Placed {
-    /// The words that are the same, by their numbers in both.
+    /// Found: the equal words, by their numbers on both sides.
     Found(Script),
-    /// It does as well at several places: the first word's.
+    /// Ambiguous: the equally good positions of the first word.
     Ambiguous(Vec<i64>),
-    /// It does at none.
+    /// Not found.
     Nowhere,
 }
 
-/// Finds `window` in `whole`. With `both`, the ends of either are free, and not only those of `whole`.
+/// Locates `window` in `whole`. With `both`, either may extend beyond the other; otherwise only `whole` may.
 pub(super) fn place(window: &[u32], whole: &[u32], both: bool) -> Placed {
     let end = if both { End::Either } else { End::First };
     let mut tried: Vec<Script> = Vec::new();
@@ -61,7 +61,7 @@ pub(super) fn place(window: &[u32], whole: &[u32], both: bool) -> Placed {
     tried.into_iter().next().map_or(Placed::Nowhere, Placed::Found)
 }
 
-/// Parts that both have, one for each place where many of them lie, the most first.
+/// Returns common sections, one for each position that many of them indicate, most frequent first.
 fn anchors(window: &[u32], whole: &[u32], part: usize) -> Vec<(usize, usize)> {
     let mut parts: HashMap<&[u32], Vec<usize>> = HashMap::new();
     for (k, words) in window.windows(part).enumerate() {
@@ -92,7 +92,7 @@ fn anchors(window: &[u32], whole: &[u32], part: usize) -> Vec<(usize, usize)> {
     chosen.into_iter().map(|(_, at)| at).collect()
 }
 
-/// The script that goes through a word of both, with free ends.
+/// Returns the edit script that matches a given word of both sides, with free ends.
 fn around(window: &[u32], whole: &[u32], (a, b): (usize, usize), end: End) -> Script {
     let backward = |words: &[u32]| words.iter().rev().copied().collect::<Vec<_>>();
     // What lies further away than this cannot be reached with the edits that are looked for.

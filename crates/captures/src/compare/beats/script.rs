@@ -1,38 +1,38 @@
-//! The shortest edit script between two sequences (Myers 1986, greedy), in bounded memory.
+//! Shortest edit script between two sequences (Myers 1986, greedy), in bounded memory.
 
-/// Most edits that are looked for; the points that are kept take four bytes for half their square.
+/// Largest number of edits; the stored points take two bytes times its square.
 pub(super) const MOST_EDITS: usize = 4096;
-/// A point that lies outside of the sequences.
+/// Value of a point outside of the sequences.
 const NOWHERE: i32 = -1;
 
-/// Where a script may end.
+/// Condition for the end of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
-    /// At the ends of both.
+    /// The end of both sequences.
     Both,
-    /// At the end of the first: what is left of the second is no edit.
+    /// The end of the first sequence; the rest of the second is not an edit.
     First,
-    /// At the end of one.
+    /// The end of either sequence.
     Either,
 }
 
-/// Items that are the same, with how many edits there are.
+/// Equal items of two sequences, and the number of edits.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Script {
-    /// Places of the same items in both, ascending.
+    /// Positions of equal items in both sequences, ascending.
     pub(super) same: Vec<(usize, usize)>,
-    /// How much of each was gone through.
+    /// Number of items of each sequence that the script covers.
     pub(super) taken: [usize; 2],
     pub(super) edits: usize,
-    /// Whether it came to an end before there were too many edits.
+    /// Whether the script reached its end within the largest number of edits.
     pub(super) is_whole: bool,
 }
 
-/// The points that are furthest in the first sequence.
+/// Furthest points in the first sequence, for each number of edits and diagonal.
 struct Points {
-    /// Lengths of both.
+    /// Lengths of both sequences.
     lengths: [i64; 2],
-    /// For each number of edits `d` those on the diagonals -d, 2 - d .. d.
+    /// For each number of edits `d`, the points on the diagonals -d, 2 - d .. d.
     rows: Vec<Vec<i32>>,
 }
 
@@ -43,7 +43,7 @@ impl Points {
         (x != NOWHERE).then_some(x.into())
     }
 
-    /// Where diagonal `k` is entered by the `d`-th edit, and the diagonal that it comes from.
+    /// Returns the point at which the `d`-th edit enters diagonal `k`, and the diagonal from which it comes.
     fn entry(&self, d: i64, k: i64) -> Option<(i64, i64)> {
         if d == 0 {
             return Some((0, 0));
@@ -59,7 +59,7 @@ impl Points {
         }
     }
 
-    /// Goes back from the point of `d` edits on diagonal `k`.
+    /// Traces a script back from the point of `d` edits on diagonal `k`.
     fn trace(&self, d: i64, k: i64, is_whole: bool) -> Script {
         let (mut same, mut on) = (Vec::new(), k);
         let last = self.at(d, k).unwrap_or(0);
@@ -75,7 +75,7 @@ impl Points {
     }
 }
 
-/// The shortest script from `a` to `b`; up to where it comes with [`MOST_EDITS`] if that is not enough.
+/// Computes the shortest script from `a` to `b`, or the part that [`MOST_EDITS`] edits cover.
 pub(super) fn script(a: &[u32], b: &[u32], end: End) -> Script {
     let [n, m] = [a.len() as i64, b.len() as i64];
     let mut points = Points { lengths: [n, m], rows: Vec::new() };

@@ -1,4 +1,4 @@
-//! The words that a side accepts, one after the other.
+//! Sequence of the words that a side accepts.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -13,31 +13,31 @@ use super::super::pair::Pair;
 use super::super::plan::Plan;
 use super::super::samples::{Sample, Samples};
 
-/// Most beats of a side.
+/// Largest number of beats of a side.
 const MOST_BEATS: usize = 1 << 22;
 
-/// A word that was accepted.
+/// An accepted word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Beat {
     /// Number of the sample.
     pub(super) sample: u64,
-    /// Its place in the source.
+    /// Place in the source.
     pub(super) at: u64,
 }
 
-/// The beats of a side.
+/// Beats of a side.
 #[derive(Debug, Default)]
 pub(super) struct Stream {
     pub(super) beats: Vec<Beat>,
-    /// The number of each word in [`Words`].
+    /// Number of each beat's word in [`BeatWords`].
     pub(super) words: Vec<u32>,
     /// Beats of each window.
     pub(super) windows: Vec<Range<usize>>,
-    /// Samples that were looked at.
+    /// Number of samples read.
     pub(super) samples: usize,
 }
 
-/// The different words of both sides.
+/// Distinct words of both sides.
 #[derive(Debug, Default)]
 pub(super) struct Words {
     numbers: HashMap<Box<[u64]>, u32>,
@@ -45,7 +45,7 @@ pub(super) struct Words {
 }
 
 impl Words {
-    /// The number of the word that a side has, as the first side should have it.
+    /// Returns the number of a side's present word, in the first side's form.
     fn number(&mut self, pairs: &[&Pair], side: usize, samples: &Samples) -> u32 {
         let mut key = Vec::new();
         let mut bits = Bits::default();
@@ -69,13 +69,13 @@ impl Words {
         number
     }
 
-    /// A word for people.
+    /// Returns a word as text.
     pub(super) fn text(&self, number: u32) -> &str {
         &self.texts[number as usize]
     }
 }
 
-/// The values of a word, with their names if there are several.
+/// Formats the values of a word, with names if there are several signals.
 fn text(pairs: &[&Pair], side: usize, samples: &Samples) -> String {
     let mut bits = Bits::default();
     let values = pairs.iter().map(|pair| {
@@ -87,11 +87,10 @@ fn text(pairs: &[&Pair], side: usize, samples: &Samples) -> String {
     values.collect::<Vec<_>>().join(" ")
 }
 
-/// All beats of a side; of one that goes on as long as it is asked to, those of so many samples more
-/// than its first part.
+/// Reads all beats of a side. From a side of unlimited length, it reads `count` samples beyond its first part.
 ///
 /// # Errors
-/// When it cannot be read, or has too many.
+/// If the side cannot be read or has too many beats.
 pub(super) fn stream(
     plan: &Plan,
     side: usize,

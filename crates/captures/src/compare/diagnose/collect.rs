@@ -1,4 +1,4 @@
-//! The values of a window, in memory.
+//! Values of a window in memory, for diagnosis.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -13,37 +13,37 @@ use super::super::result::Comparison;
 use super::super::selection::Selected;
 use crate::words::Bits;
 
-/// Longest part of a window that is looked at [samples].
+/// Longest section of a window that is diagnosed [samples].
 const LONGEST: u64 = 1 << 17;
-/// Signals that are looked at one by one.
+/// Largest number of signals that are diagnosed individually.
 const COLUMNS: usize = 32;
 
-/// The values of a signal.
+/// Values of a signal.
 pub(super) struct Column {
-    /// Its name on its side.
+    /// Name on its side.
     pub(super) name: String,
-    /// Which pair it is of.
+    /// Index of its pair, if it has one.
     pub(super) pair: Option<usize>,
     pub(super) width: u32,
-    /// Values, or what stands for them where they are unknown or wide.
+    /// Values, or hashes of values that are unknown or wide.
     pub(super) values: Vec<u64>,
 }
 
-/// The values of a window.
+/// Values of a window.
 pub(super) struct Collected {
-    /// The window, for a sentence; nothing where there are none.
+    /// Description of the window, for a sentence; empty without windows.
     pub(super) window: String,
-    /// Its first sample that is looked at.
+    /// Number of the first sample.
     pub(super) first: u64,
     /// Both sides of the pairs that differ.
     pub(super) pairs: Vec<[Column; 2]>,
-    /// Signals of each side that have no partner.
+    /// Signals of each side without a partner.
     pub(super) unpaired: [Vec<Column>; 2],
-    /// For each side and sample what stands for the values of all pairs.
+    /// For each side and sample, a hash of the values of all pairs.
     pub(super) rows: [Vec<u64>; 2],
 }
 
-/// What stands for a value: itself, if it has 64 bits at most, all known.
+/// Returns the value if it has at most 64 bits, all known; otherwise a hash.
 fn key(bits: &Bits) -> u64 {
     if let ([value], true) = (&bits.value[..], bits.is_known()) {
         return *value;
@@ -53,7 +53,7 @@ fn key(bits: &Bits) -> u64 {
     hasher.finish()
 }
 
-/// Reads the window of the first difference, or the first one.
+/// Reads the window of the first difference or, without a difference, the first window.
 pub(super) fn collect(
     plan: &Plan,
     alignment: &Alignment,

@@ -1,4 +1,4 @@
-//! A column that was read in another radix than it was written in.
+//! Diagnosis of a column that was read in the wrong radix.
 
 use bitvec::prelude::*;
 
@@ -10,7 +10,7 @@ use super::super::plan::Plan;
 use super::super::result::Finding;
 use super::collect::{Collected, Column};
 
-/// Pairs that would be the same if one column were read in another radix.
+/// Finds pairs that would be equal if one column were read in another radix.
 pub(super) fn findings(plan: &Plan, collected: &Collected) -> Vec<Finding> {
     let mut findings = Vec::new();
     for columns in &collected.pairs {
@@ -39,14 +39,14 @@ pub(super) fn findings(plan: &Plan, collected: &Collected) -> Vec<Finding> {
     findings
 }
 
-/// The radix that a column says it has.
+/// Returns the radix that a column states.
 fn radix(plan: &Plan, side: usize, column: &Column) -> Option<Radix> {
     let part = plan.matching.pairs[column.pair?].sides[side].first()?;
     let id = plan.matching.slots[side].ids[part.signal];
     plan.sources[side].signals.iter().find(|signal| signal.id == id)?.radix
 }
 
-/// The values as they would be if their digits were of another radix.
+/// Returns the values that the digits of a column have in another radix.
 fn reread(column: &Column, from: Radix, to: Radix) -> Option<Vec<u64>> {
     let values = column.values.iter().map(|value| {
         let mut cell = Vec::new();

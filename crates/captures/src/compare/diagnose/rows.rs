@@ -1,16 +1,16 @@
-//! Samples that are missing, too many, or shifted.
+//! Diagnosis of missing, extra or shifted samples.
 
 use super::super::result::{Compared, Finding};
 use super::collect::Collected;
 
-/// Samples that may be missing or too many.
+/// Largest number of missing or extra samples.
 const STEP: usize = 64;
-/// Samples by which a window may be shifted.
+/// Largest shift of a window [samples].
 const SHIFT: usize = 4096;
-/// Samples that have to agree for a finding.
+/// Number of samples that must agree for a diagnosis.
 const FEWEST: usize = 16;
 
-/// What explains that whole samples differ.
+/// Finds an explanation for differences of whole samples.
 pub(super) fn finding(collected: &Collected, rest: &[&Compared]) -> Option<Finding> {
     let [a, b] = &collected.rows;
     let names: Vec<&str> = rest.iter().map(|pair| pair.name.as_str()).collect();
@@ -51,7 +51,7 @@ fn counted(samples: usize) -> &'static str {
     if samples == 1 { "sample" } else { "samples" }
 }
 
-/// Whether two sequences are the same as far as both go, and that is some way.
+/// Returns whether two sequences are equal over their common length, which must be long enough.
 fn agree(a: &[u64], b: &[u64]) -> bool {
     a.len().min(b.len()) >= FEWEST && a.iter().zip(b).all(|(a, b)| a == b)
 }

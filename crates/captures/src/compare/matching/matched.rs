@@ -1,4 +1,4 @@
-//! Which signals came together, and why others did not.
+//! Matched signals, and the reasons why others have no partner.
 
 use tofsim::error::{Input, Result};
 
@@ -8,58 +8,58 @@ use super::super::find::near;
 use super::super::pair::Pair;
 use super::super::parts::Slots;
 
-/// A signal that has no partner.
+/// A signal without a partner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unmatched {
-    /// 0 for the first side, 1 for the second.
+    /// Side: 0 for the first, 1 for the second.
     pub side: usize,
     /// Its name.
     pub name: String,
-    /// Its index in the source.
+    /// Index in the source.
     pub(crate) signal: usize,
-    /// Why.
+    /// Reason why it has no partner.
     pub reason: UnmatchedReason,
 }
 
-/// Why a signal has no partner.
+/// Reason why a signal has no partner.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum UnmatchedReason {
     /// The other side has no signal of that name.
     #[error("no signal of that name on the other side")]
     Alone,
-    /// The other side has several.
+    /// The other side has several signals of that name.
     #[error("several on the other side: {}", .0.join(", "))]
     Ambiguous(Vec<String>),
-    /// The other side's has another width.
+    /// The signal of the other side has another width.
     #[error("{0} bits here, {1} on the other side")]
     Width(u32, u32),
-    /// The other side has slices of it, but not so many of its bits.
+    /// The other side has slices of the signal, but not all of its bits.
     #[error("{0} of its bits are not on the other side")]
     Part(u32),
-    /// It is text or an event, or its partner is.
+    /// The signal or its partner is text or an event.
     #[error("text on one side only, or an event")]
     Text,
-    /// It was asked not to be compared.
+    /// The user excluded the signal.
     #[error("left out")]
     Ignored,
 }
 
-/// What came together, and what did not.
+/// Matched and unmatched signals.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Matching {
     pub(crate) pairs: Vec<Pair>,
     pub(crate) unmatched: Vec<Unmatched>,
-    /// Signals that each side has to read.
+    /// Signals to read from each side.
     pub(crate) slots: [Slots; 2],
-    /// Whether the map has the sides the other way round.
+    /// Whether the sides of the map are swapped.
     pub(crate) swapped: bool,
 }
 
 impl Matching {
-    /// The pair that a user calls so.
+    /// Returns the index of the pair that `text` names.
     ///
     /// # Errors
-    /// When there is none, or several.
+    /// If there is none, or several.
     pub(crate) fn pair(&self, text: &str) -> Result<usize> {
         let wanted = Name::new(text);
         let named = |name: &String| Name::new(name.clone()).common(&wanted) == Some(wanted.depth());

@@ -1,4 +1,4 @@
-//! Signals that belong together by their names.
+//! Matching of signals by name.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -8,11 +8,11 @@ use super::super::pair::{MatchedBy, Pair};
 use super::matched::{Matching, Unmatched, UnmatchedReason};
 use super::tails::{by_tail, ends};
 
-/// Pairs of names of which the last parts are the same that are looked at to find the scopes; those
-/// that are rare are the first.
+/// Largest number of name pairs with the same last part that are evaluated to find the common scopes, rare names
+/// first.
 const VOTES: usize = 1 << 16;
 
-/// The scopes of the two sides below which most names are the same: where a design hangs in a bench.
+/// Finds the scopes of both sides below which most names agree, such as the instance of the design in a test bench.
 fn scopes(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Option<[String; 2]> {
     let mut by_last: BTreeMap<&str, [Vec<usize>; 2]> = BTreeMap::new();
     for side in 0..2 {
@@ -42,7 +42,7 @@ fn scopes(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Option<[Strin
     (count >= 2 && scopes.iter().all(|scope| !scope.is_empty())).then_some(scopes)
 }
 
-/// The names as they are below those scopes, so that what hangs there has the same name.
+/// Replaces these scopes by a common name.
 fn below(names: &[Vec<Name>; 2], scopes: &[String; 2]) -> [Vec<Name>; 2] {
     [0, 1].map(|side| {
         let own = |name: &Name| match name.below(&scopes[side]) {
@@ -53,15 +53,15 @@ fn below(names: &[Vec<Name>; 2], scopes: &[String; 2]) -> [Vec<Name>; 2] {
     })
 }
 
-/// Stands for the scopes below which names are the same.
+/// Common name of the scopes below which names agree.
 const SHARED: &str = "*";
 
-/// Those of the other side whose names share the most parts with a signal's, and how well they do.
+/// Signals of the other side whose names have the most parts in common with a signal's.
 #[derive(Clone, Debug, Default)]
 struct Best {
     score: usize,
     found: Vec<usize>,
-    /// Names of the found, if they are not all of one signal.
+    /// Names of the signals found, if they are not the same signal.
     several: Option<Vec<String>>,
 }
 
@@ -75,7 +75,7 @@ impl Best {
     }
 }
 
-/// The best for each signal of each side; nothing for those that are no candidates.
+/// Finds the best partners of each candidate on each side.
 fn best(
     sides: [&Source; 2],
     names: &[Vec<Name>; 2],
@@ -111,14 +111,14 @@ fn best(
     best
 }
 
-/// How well two names do of which one is the end of the other.
+/// Rates two names of which one is a suffix of the other.
 fn score(a: &Name, b: &Name) -> usize {
     let parts = if a.is(b) { usize::MAX / 2 } else { a.depth().min(b.depth()) };
     // Verilog tells `drain` from `Drain`; other tools do not.
     2 * parts + usize::from(a.ends_exactly_as(b))
 }
 
-/// Matches the candidates by name, and says why the others are left.
+/// Matches candidates by name, and records the reasons for the others.
 pub(super) fn by_name(
     sides: [&Source; 2],
     own: &[Vec<Name>; 2],
@@ -190,7 +190,7 @@ pub(super) fn by_name(
     }
 }
 
-/// The names, if they are not all of one signal.
+/// Returns the names of some signals, if they are not the same signal.
 fn several(source: &Source, signals: &[usize]) -> Option<Vec<String>> {
     if signals.len() < 2 {
         return None;

@@ -1,4 +1,4 @@
-//! Signals that belong together because a map says so.
+//! Matching of signals by the rules of a map.
 
 use std::collections::HashSet;
 
@@ -15,7 +15,7 @@ use super::super::parts::{Part, Slots};
 use super::super::show::Show;
 use super::matched::Matching;
 
-/// Whether more of the map's names are found with the sides the other way round.
+/// Returns whether more of the map's names exist with the sides swapped.
 pub(super) fn is_swapped(sides: [&Source; 2], map: &SignalMap) -> bool {
     let found = |order: [usize; 2]| {
         let has = |side: usize, names: &[String]| {
@@ -28,10 +28,10 @@ pub(super) fn is_swapped(sides: [&Source; 2], map: &SignalMap) -> bool {
     found([1, 0]) > found([0, 1])
 }
 
-/// The pair that a rule names.
+/// Returns the pair that a rule names.
 ///
 /// # Errors
-/// When one side does not have it, or the widths differ.
+/// If a side does not have the signal, or the widths differ.
 pub(super) fn by_rule(
     sides: [&Source; 2],
     rule: &Rule,
@@ -69,7 +69,7 @@ pub(super) fn by_rule(
 }
 
 impl Pair {
-    /// Takes over what a rule says of how it is compared.
+    /// Applies the options of a rule to a pair.
     pub(super) fn follow(
         &mut self,
         rule: &Rule,

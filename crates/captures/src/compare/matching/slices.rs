@@ -1,4 +1,4 @@
-//! Slices of a signal on one side that are one signal on the other.
+//! Matching of slices of a signal on one side with the whole signal on the other.
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,10 +10,10 @@ use super::super::parts::Part;
 use super::super::show::Show;
 use super::matched::{Matching, Unmatched, UnmatchedReason};
 
-/// Matches what is left and has a range in its name with those bits of the other side's signal.
+/// Matches each remaining signal that has a range in its name with those bits of the other side's signal.
 ///
-/// A capture's columns may have the slices of one bus; the library that reads waveforms joins them.
-/// The bus has its partners then if the slices are all of it. Slices of what is left out are, too.
+/// The columns of a capture may be slices of one bus, which the waveform library joins. If the slices cover the whole
+/// bus, it counts as matched. Slices of an excluded signal are excluded too.
 pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
     let left_out = |left: &&Unmatched| left.reason == UnmatchedReason::Ignored;
     let ignored: HashSet<_> = matching.unmatched.iter().filter(left_out).map(key).collect();
@@ -63,7 +63,7 @@ fn key(left: &Unmatched) -> (usize, usize) {
     (left.side, left.signal)
 }
 
-/// Bits of a signal that are in one of those parts.
+/// Counts the bits of a signal that the parts cover.
 fn covered(parts: &mut [Part]) -> u32 {
     parts.sort_unstable_by_key(|part| part.low);
     let (mut count, mut top) = (0, 0);

@@ -1,24 +1,23 @@
-//! Signals whose names end alike, below scopes of which neither is in the other.
+//! Matching of signals by a common ending, below scopes that differ.
 
 use std::collections::{HashMap, HashSet};
 
 use crate::source::{Name, Source};
 
-/// A name and all its ends, the longest first.
+/// Returns a name and all its endings, longest first.
 pub(super) fn ends(text: &str) -> impl Iterator<Item = &str> {
     let inner = text.match_indices('.').map(|(place, _)| &text[place + 1..]);
     std::iter::once(text).chain(inner).filter(|end| !end.is_empty())
 }
 
-/// The one signal of a side whose names end so, or that there are several.
+/// The signal of a side with a given ending, or an indication that there are several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ending {
     One(usize),
     Several,
 }
 
-/// Pairs of signals that are left of both sides: the longest end of a name that there is on the other
-/// side too belongs to no third signal, be it left or not.
+/// Pairs remaining signals of both sides whose longest common ending belongs to no other signal, matched or not.
 pub(super) fn by_tail(
     sides: [&Source; 2],
     names: &[Vec<Name>; 2],
@@ -41,7 +40,7 @@ pub(super) fn by_tail(
     left[0].iter().filter_map(partner).collect()
 }
 
-/// All ends of the names of a side, and whose they are.
+/// Indexes the names of a side by all their endings.
 fn endings(source: &Source, names: &[Name], candidates: &[usize]) -> HashMap<String, Ending> {
     let mut endings: HashMap<String, Ending> = HashMap::new();
     for &k in candidates {

@@ -1,41 +1,40 @@
-//! What a comparison of beats has found.
+//! Result of a comparison of beats.
 
 use serde::Serialize;
 
-/// Differences that are listed one by one.
+/// Number of differences that are listed individually.
 const LISTED: usize = 64;
 
-/// What a comparison of beats has found.
+/// Result of a comparison of beats.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Beats {
     /// Signals of a word, by their names on the first side.
     pub signals: Vec<String>,
-    /// Beats of each side.
+    /// Number of beats of each side.
     pub counts: [u64; 2],
-    /// Beats that are the same.
+    /// Number of equal beats.
     pub same: u64,
-    /// Words of the first side that the second has not.
+    /// Number of words of the first side that the second lacks.
     pub lost: u64,
-    /// Words of the second side that it has once more.
+    /// Number of words that the second side repeats.
     pub repeated: u64,
-    /// Other words that the second side has more.
+    /// Number of other words that only the second side has.
     pub extra: u64,
-    /// Words that are others on the second side.
+    /// Number of words with another value on the second side.
     pub changed: u64,
-    /// Beats of each side before the first that is the same or after the last, which are no
-    /// difference.
+    /// Number of beats of each side before the first or after the last equal beat, which do not count as differences.
     pub outside: [u64; 2],
-    /// The first differences.
+    /// First differences.
     pub list: Vec<BeatDifference>,
 }
 
 impl Beats {
-    /// Whether nothing differs.
+    /// Returns whether there are no differences.
     pub fn is_same(&self) -> bool {
         self.differing() == 0
     }
 
-    /// How many words differ.
+    /// Returns the number of words that differ.
     pub fn differing(&self) -> u64 {
         self.lost + self.repeated + self.extra + self.changed
     }
@@ -54,22 +53,22 @@ impl Beats {
     }
 }
 
-/// How a beat differs.
+/// Kind of difference between beats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BeatKind {
-    /// The first side alone has it.
+    /// Only the first side has the word.
     Lost,
-    /// The second side has it once more than the first.
+    /// The second side repeats the word.
     Repeated,
-    /// The second side alone has it.
+    /// Only the second side has the word.
     Extra,
-    /// It has another value.
+    /// The word has another value.
     Changed,
 }
 
 impl BeatKind {
-    /// In a word.
+    /// Returns the name used in outputs.
     pub const fn word(self) -> &'static str {
         match self {
             BeatKind::Lost => "lost",
@@ -80,28 +79,28 @@ impl BeatKind {
     }
 }
 
-/// A beat that differs.
+/// A difference between beats.
 #[derive(Clone, Debug, Serialize)]
 pub struct BeatDifference {
-    /// How.
+    /// Kind of difference.
     pub kind: BeatKind,
-    /// Window.
+    /// Number of the window.
     pub window: usize,
-    /// The beat on each side, or the next one where a side has none.
+    /// The beat on each side, or the next one if a side lacks it.
     pub beats: [Option<BeatPlace>; 2],
-    /// The word of the first side.
+    /// Word of the first side.
     pub expected: Option<String>,
-    /// The word of the second side.
+    /// Word of the second side.
     pub got: Option<String>,
 }
 
-/// Where a beat is.
+/// Position of a beat.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct BeatPlace {
-    /// Its number among the beats.
+    /// Number of the beat.
     pub beat: u64,
-    /// Number of its sample.
+    /// Number of the sample.
     pub sample: u64,
-    /// Its place in the source: a tick or a sample.
+    /// Place in the source: a tick or a sample.
     pub at: u64,
 }

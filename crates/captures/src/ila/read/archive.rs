@@ -1,6 +1,6 @@
-//! `.ila` archives: names and radices from the CSV's head, values from the dump, places in it from
-//! the list of probes. What the dump does not have comes from the CSV or the VCD, and so does
-//! everything if it is damaged.
+//! Reader of `.ila` archives. Names and radices come from the head of the CSV, values from the dump, and their
+//! positions in it from the list of probes. Values that the dump lacks come from the CSV or the VCD; if the dump is
+//! damaged, all values do.
 
 mod entries;
 mod merge;
@@ -23,9 +23,9 @@ use super::vcd::Vcd;
 use entries::{Entries, LARGEST_ENTRY, text, whole};
 use merge::Merge;
 
-/// Most bytes of a list of probes.
+/// Size limit of a list of probes [bytes].
 const LARGEST_LIST: u64 = 1 << 23;
-/// Most bytes of a VCD.
+/// Size limit of a VCD [bytes].
 const LARGEST_VCD: u64 = 1 << 28;
 
 /// Opens an archive.
@@ -111,7 +111,7 @@ fn opened(
     Opened { form: CaptureForm::Archive, columns, radix_told, rows, notes }
 }
 
-/// The columns of a list of probes, one for each name.
+/// Returns the columns of a list of probes, one for each name.
 fn named(placed: Option<&[Placed]>) -> Option<Vec<Column>> {
     let mut columns: Vec<Column> = Vec::new();
     for (column, _) in placed? {
@@ -122,8 +122,8 @@ fn named(placed: Option<&[Placed]>) -> Option<Vec<Column>> {
     (!columns.is_empty()).then_some(columns)
 }
 
-/// The lowest bit of each column in the dump: by the list of probes, or one after the other if that
-/// makes as many bits as the dump has.
+/// Returns the lowest bit of each column in the dump: from the list of probes, or consecutively if that uses all bits
+/// of the dump.
 fn places(
     columns: &[Column],
     dump: Option<&Dump>,
@@ -147,16 +147,16 @@ fn places(
         .collect()
 }
 
-/// The parts of an archive, and what is wrong with some.
+/// Parts of an archive, and the errors of some.
 struct Parts {
     entries: Entries,
-    /// Name of each part that cannot be used, and why.
+    /// Name and error of each unusable part.
     faults: Vec<(&'static str, Error)>,
     notes: Vec<String>,
 }
 
 impl Parts {
-    /// A part, if it is there and sound.
+    /// Reads a part; returns `None` if it is missing or invalid.
     fn read<T>(
         &mut self,
         name: &'static str,
@@ -166,7 +166,7 @@ impl Parts {
         self.keep(name, result)
     }
 
-    /// What came of a part, or its fault kept.
+    /// Unwraps the result of a part, and records an error.
     fn keep<T>(&mut self, name: &'static str, result: Result<T>) -> Option<T> {
         result.map_err(|error| self.faults.push((name, error))).ok()
     }
@@ -177,7 +177,7 @@ impl Parts {
         })
     }
 
-    /// Says which parts are not used, and what the values were taken from instead of the dump.
+    /// Adds notes on the parts that are not used, and on the part that replaces the dump.
     fn say(&mut self, values: Option<&str>) {
         for (name, error) in self.faults.drain(..) {
             self.notes.push(format!("{name} is not used: {error}"));
@@ -187,7 +187,7 @@ impl Parts {
         }
     }
 
-    /// Everything from the VCD; `nameless` if there is a dump but nobody knows the names in it.
+    /// Reads everything from the VCD. `nameless` states that there is a dump, but no names for its bits.
     fn vcd_alone(mut self, nameless: bool) -> Result<Opened> {
         let vcd = self.vcd();
         let Some((vcd, (buffer, places))) = vcd.and_then(|vcd| {
@@ -206,7 +206,7 @@ impl Parts {
         Ok(opened(buffer, vcd.columns, places, false, self.notes))
     }
 
-    /// The error if no part can be read.
+    /// Returns the error for an archive without a usable part.
     fn nothing(&mut self) -> Error {
         if self.faults.is_empty() {
             let expected = "expected an entry waveform.dmp or waveform.csv in the archive";

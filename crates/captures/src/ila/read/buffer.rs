@@ -1,4 +1,4 @@
-//! The samples of an archive in memory: a row of bits for each channel.
+//! Samples of an archive in memory, stored as one row of bits per channel.
 
 use tofsim::error::Result;
 
@@ -7,38 +7,38 @@ use crate::words::bit;
 use super::line::Line;
 use super::opened::{CaptureRow, CaptureRows, Column, LARGEST};
 
-/// Samples, and what is said of them.
+/// Samples with their marks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Buffer {
     /// Number of samples.
     pub(super) samples: u64,
-    /// Samples with which the windows begin.
+    /// First sample of each window.
     pub(super) windows: Vec<u64>,
     /// Samples that triggered.
     pub(super) triggers: Vec<u64>,
-    /// Samples where nothing was stored.
+    /// Samples at which nothing was stored.
     pub(super) gaps: Vec<u64>,
-    /// Words of a channel's samples.
+    /// Words per channel.
     stride: usize,
-    /// Channel after channel, 64 samples to a word.
+    /// Bits of all channels, 64 samples per word.
     bits: Vec<u64>,
     channels: usize,
 }
 
 impl Buffer {
-    /// Of so many samples, without channels.
+    /// Sets the number of samples, while there are no channels.
     pub(super) fn size(&mut self, samples: u64) {
         self.samples = samples;
         self.stride = samples.div_ceil(64) as usize;
     }
 
-    /// Adds the channel that a line of a dump holds.
+    /// Adds the channel in a line of a dump.
     pub(super) fn channel(&mut self, line: &Line) -> Result<()> {
         self.channels += 1;
         line.channel(self.samples, &mut self.bits)
     }
 
-    /// Adds so many channels of 0, and tells the first; none if that is more than is held.
+    /// Adds `width` channels of zeros, and returns the number of the first; `None` if the size limit is exceeded.
     pub(super) fn add(&mut self, width: u32) -> Option<usize> {
         let low = self.channels;
         let channels = low + width as usize;
@@ -50,7 +50,7 @@ impl Buffer {
         Some(low)
     }
 
-    /// Keeps what a row says of its sample; one that has unknown bits counts as not stored.
+    /// Stores the marks of a row for its sample. A row with unknown bits counts as a gap.
     pub(super) fn mark(&mut self, row: &CaptureRow, sample: u64) {
         let is_unknown = row.gap || row.unknown.iter().any(|&word| word != 0);
         let marks = [
@@ -63,7 +63,7 @@ impl Buffer {
         }
     }
 
-    /// Sets the `width` channels from `low` on at a sample.
+    /// Sets `width` channels from `low` on at a sample.
     pub(super) fn put(&mut self, low: usize, width: u32, sample: u64, value: &[u64]) {
         for k in 0..width {
             let word = &mut self.bits[(low + k as usize) * self.stride + (sample / 64) as usize];
@@ -72,7 +72,7 @@ impl Buffer {
         }
     }
 
-    /// The `width` channels from `low` on at a sample, which is none of 0 bits.
+    /// Copies `width` channels from `low` on at a sample to `value`; the width is not 0.
     pub(super) fn get(&self, low: usize, width: u32, sample: u64, value: &mut [u64]) {
         for k in 0..width as usize {
             let word = self.bits[(low + k) * self.stride + (sample / 64) as usize];
@@ -80,13 +80,13 @@ impl Buffer {
         }
     }
 
-    /// The samples, laid out as `columns`, of which `places` are the lowest channels.
+    /// Returns the samples as rows of `columns`, whose lowest channels are `places`.
     pub(super) fn rows(self, columns: Vec<Column>, places: Vec<usize>) -> impl CaptureRows + use<> {
         BufferRows { buffer: self, columns, places, next: 0 }
     }
 }
 
-/// The samples one after the other.
+/// Iterator over the samples as rows.
 struct BufferRows {
     buffer: Buffer,
     columns: Vec<Column>,
@@ -119,7 +119,7 @@ impl CaptureRows for BufferRows {
     }
 }
 
-/// Sets the lowest bits.
+/// Sets the lowest `width` bits.
 fn ones(words: &mut [u64], width: u32) {
     words.iter_mut().enumerate().for_each(|(k, word)| *word = crate::words::ones(width, k));
 }

@@ -1,4 +1,4 @@
-//! CSV files, streamed.
+//! Streaming reader of CSV files.
 
 use std::io::{Read, Seek};
 
@@ -12,7 +12,7 @@ use super::order::Order;
 use super::survey::survey;
 use super::table::{Table, first_lines};
 
-/// Opens a CSV, which is read twice: only all of it tells which columns are numbers.
+/// Opens a CSV. It is read twice, because only the whole file shows which columns are numbers.
 pub(super) fn open<R: Read + Seek + Send + 'static>(
     source: String,
     mut file: R,
@@ -34,7 +34,7 @@ pub(super) fn open<R: Read + Seek + Send + 'static>(
     Ok(Opened { form, columns, radix_told, rows, notes })
 }
 
-/// The table from the first row below the heads on.
+/// Returns the table from the first row below the heads on.
 fn below<R: Read>(source: &str, file: R, heads: &Heads) -> Result<Table<R>> {
     let mut table = Table::new(source, file, heads.delimiter);
     for _ in 0..1 + usize::from(heads.radix_row) {
@@ -43,7 +43,7 @@ fn below<R: Read>(source: &str, file: R, heads: &Heads) -> Result<Table<R>> {
     Ok(table)
 }
 
-/// The rows below the heads.
+/// Rows below the heads.
 struct CsvRows<R> {
     table: Table<R>,
     heads: Heads,

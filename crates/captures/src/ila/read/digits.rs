@@ -1,22 +1,22 @@
-//! Digits of a cell, as bits.
+//! Parser of a cell's digits.
 
 use crate::words::{Bits, trim};
 
 use super::super::capture::Radix;
 
-/// What is wrong with a cell.
+/// Error in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
-    /// There is nothing in it.
+    /// The cell is empty.
     Empty,
-    /// A character that is no digit of the radix.
+    /// A character is not a digit of the radix.
     Digit,
-    /// More than the probe holds.
+    /// The value exceeds the probe's width.
     Wide,
 }
 
 impl Fault {
-    /// The fault in words.
+    /// Formats the error.
     pub(super) fn say(self, radix: Radix, width: u32) -> String {
         let word = radix.word();
         match self {
@@ -33,7 +33,7 @@ impl Fault {
     }
 }
 
-/// Reads a cell of a probe.
+/// Parses the cell of a probe.
 pub(crate) fn read(cell: &[u8], radix: Radix, width: u32) -> Result<Bits, Fault> {
     if cell.is_empty() {
         return Err(Fault::Empty);
@@ -54,7 +54,7 @@ pub(crate) fn read(cell: &[u8], radix: Radix, width: u32) -> Result<Bits, Fault>
     Ok(bits)
 }
 
-/// Whether a cell holds nothing but X.
+/// Returns whether a cell consists of X only.
 pub(super) fn is_unknown(cell: &[u8]) -> bool {
     !cell.is_empty() && cell.iter().all(is_x)
 }
@@ -63,7 +63,7 @@ fn is_x(byte: &u8) -> bool {
     matches!(byte, b'x' | b'X')
 }
 
-/// Digits of so many bits each, the lowest last.
+/// Parses digits of `size` bits each, least significant last.
 fn grouped(cell: &[u8], size: u32, width: u32, bits: &mut Bits) -> Result<(), Fault> {
     let digit = |byte: u8| char::from(byte).to_digit(1 << size);
     if !cell.iter().all(|byte| is_x(byte) || digit(*byte).is_some()) {

@@ -1,4 +1,4 @@
-//! `waveform.dmp`: a line of samples for each bit, held in memory as bits.
+//! Reader of `waveform.dmp`: one line of samples per bit, held in memory as bits.
 
 use std::io::BufRead;
 
@@ -8,19 +8,19 @@ use super::buffer::Buffer;
 use super::line::Line;
 use super::opened::{LARGEST, WIDEST_SAMPLE, damaged};
 
-/// What a dump holds.
+/// Contents of a dump.
 #[derive(Debug, Default)]
 pub(super) struct Dump {
     /// Name of the core.
     pub(super) core: String,
-    /// Bits of a sample.
+    /// Bits per sample.
     pub(super) width: u32,
-    /// The samples.
+    /// Samples.
     pub(super) buffer: Buffer,
 }
 
 impl Dump {
-    /// Reads a dump to its end.
+    /// Reads a dump.
     pub(super) fn read(source: &str, mut file: impl BufRead) -> Result<Self> {
         let (mut dump, mut bit) = (Dump::default(), 0);
         let (mut width, mut samples) = (None, None);

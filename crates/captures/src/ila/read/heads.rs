@@ -1,4 +1,4 @@
-//! The first rows of a CSV: names, ranges and radices.
+//! Header rows of a CSV: names, ranges and radices.
 
 use std::collections::HashSet;
 
@@ -8,31 +8,31 @@ use super::super::capture::Radix;
 use super::opened::{Column, WIDEST_PROBE, WIDEST_SAMPLE};
 use super::table::Row;
 
-/// The columns that every CSV begins with.
+/// First columns of every CSV.
 pub(super) const FIXED: [&str; 3] = ["Sample in Buffer", "Sample in Window", "TRIGGER"];
-/// Most probes of a capture.
+/// Largest number of probes.
 const MOST_PROBES: usize = 1 << 14;
-/// What the row of radices begins with, glued to the first radix.
+/// Prefix of the row of radices, directly followed by the first radix.
 const MARK: &[u8] = b"Radix - ";
 
-/// What is said of empty fields that spreadsheets add.
+/// Note on empty fields that spreadsheets add.
 pub(super) const TRAIL: &str = "empty fields at the end of lines are left out";
 
-/// What the first rows tell.
+/// Contents of the header rows.
 pub(super) struct Heads {
     pub(super) columns: Vec<Column>,
     /// Whether there is a row of radices.
     pub(super) radix_row: bool,
-    /// Whether the fourth column tells gaps.
+    /// Whether the fourth column marks gaps.
     pub(super) gap: bool,
-    /// What stands between two fields.
+    /// Field separator.
     pub(super) delimiter: u8,
-    /// What these rows have that Vivado does not write.
+    /// Notes on deviations from Vivado's format.
     pub(super) notes: Vec<String>,
 }
 
 impl Heads {
-    /// Reads the first lines of a file.
+    /// Parses the first lines of a file.
     pub(super) fn read(source: &str, [head, second]: &[Vec<u8>; 2]) -> Result<Self> {
         let mark = "\u{feff}".as_bytes();
         let bare = head.strip_prefix(mark);
@@ -96,7 +96,7 @@ impl Heads {
     }
 }
 
-/// What stands between the fields of a file with this first line, and what is to be said of it.
+/// Detects the field separator by the first line, with notes.
 fn delimiter(head: &[u8]) -> (u8, Vec<String>) {
     let first = FIXED[0].as_bytes();
     let bare = head.strip_prefix(b"\"").unwrap_or(head);
@@ -109,7 +109,7 @@ fn delimiter(head: &[u8]) -> (u8, Vec<String>) {
     }
 }
 
-/// That a row of radices has so many, and the right ones for the first columns.
+/// Checks the number of radices, and those of the fixed columns.
 fn check_radices(radices: &Row, expected: usize) -> Result<()> {
     if radices.len() != expected {
         let text = format!("{} radices, expected {expected}", radices.len());
@@ -123,7 +123,7 @@ fn check_radices(radices: &Row, expected: usize) -> Result<()> {
     Ok(())
 }
 
-/// A radix word; words of text have no radix.
+/// Parses a radix; columns of words have none.
 fn radix(word: &[u8]) -> Option<Option<Radix>> {
     match Radix::ALL.into_iter().find(|radix| radix.word().as_bytes() == word) {
         None if word == b"ASCII" => Some(None),
@@ -132,7 +132,10 @@ fn radix(word: &[u8]) -> Option<Option<Radix>> {
     }
 }
 
-/// Name and range of a head; else what was expected.
+/// Parses name and range of a column head.
+///
+/// # Errors
+/// Description of what was expected.
 pub(super) fn parse(head: &str) -> std::result::Result<Column, String> {
     let (name, lsb, width, vector) = match range(head) {
         None => (head, 0, 1, false),
@@ -154,7 +157,7 @@ pub(super) fn parse(head: &str) -> std::result::Result<Column, String> {
     Ok(Column { name, width, lsb, vector, ..Column::default() })
 }
 
-/// Splits `name[msb:lsb]`. Anything else in brackets belongs to the name.
+/// Splits `name[msb:lsb]`. Any other text in brackets belongs to the name.
 fn range(head: &str) -> Option<(&str, &str, &str)> {
     let (name, range) = head.strip_suffix(']')?.rsplit_once('[')?;
     let (msb, lsb) = range.split_once(':')?;

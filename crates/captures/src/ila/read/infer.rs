@@ -1,7 +1,7 @@
-//! Finds out in which radix a column is written, when the file does not tell.
+//! Inference of a column's radix, for files that do not state it.
 //!
-//! Hexadecimal digits are always as many as the width needs and decimals never begin with 0, so
-//! most columns leave one radix. Octal is considered only on demand: no such file is known.
+//! Hexadecimal values always have all digits of their width and decimal values have no leading zeros, so that one
+//! radix remains for most columns. Octal is considered only on request: no such file is known.
 
 use tofsim::error::{Input, Result};
 
@@ -10,20 +10,20 @@ use super::digits;
 use super::opened::Column;
 use super::table::Row;
 
-/// What is tried, first what is taken if all give the same values.
+/// Radices that are tried, in order of preference if all give the same values.
 const TRIED: [Radix; 5] = [Radix::Hex, Radix::Unsigned, Radix::Signed, Radix::Binary, Radix::Octal];
 
-/// What a column may be.
+/// Possible radices of a column.
 #[derive(Clone)]
 pub(super) struct Guess {
-    /// Radices of [`TRIED`].
+    /// Remaining radices of [`TRIED`].
     left: Vec<Radix>,
-    /// Whether binary numbers may still be of all digits, and of as few as they need.
+    /// Whether binary numbers may still have all digits, and no leading zeros.
     padded: bool,
     bare: bool,
     /// Whether there was a cell.
     pub(super) seen: bool,
-    /// A cell that has another value in each radix.
+    /// First cell whose value depends on the radix.
     telling: Option<Input>,
 }
 
@@ -34,7 +34,7 @@ impl Guess {
         Guess { left, padded: true, bare: true, seen: false, telling: None }
     }
 
-    /// Takes a cell of the column into account.
+    /// Evaluates a cell of the column.
     pub(super) fn take(&mut self, row: &Row, index: usize, column: &Column) -> Result<()> {
         let before = self.left.clone();
         if self.look(&row.field(index), column.width) {
@@ -59,8 +59,7 @@ impl Guess {
         names.join(" or ")
     }
 
-    /// Drops the radices that a cell does not allow; true if it is the first one that has another
-    /// value in each.
+    /// Excludes radices that do not fit a cell; returns true for the first cell whose value depends on the radix.
     fn look(&mut self, cell: &[u8], width: u32) -> bool {
         if digits::is_unknown(cell) {
             return false;
@@ -83,7 +82,7 @@ impl Guess {
         self.telling.is_none() && cell.len() - zeros > 1
     }
 
-    /// The radix of the column.
+    /// Decides on the radix of the column.
     pub(super) fn decide(&self, hint: Option<Radix>) -> Result<Radix> {
         if let Some(hint) = hint.filter(|hint| self.left.contains(hint)) {
             return Ok(hint);

@@ -1,4 +1,4 @@
-//! A line of a dump: a key, a colon, and text, numbers or samples.
+//! Lines of a dump: a key, a colon, and a text, numbers or samples.
 
 use std::fmt::Display;
 
@@ -7,27 +7,27 @@ use tofsim::error::{Error, Input, Result};
 /// Longest key [bytes].
 const LONGEST_KEY: usize = 64;
 
-/// The words of the banner.
+/// Title in the banner.
 const BANNER: &[u8] = b"ILA Data Dump";
 
-/// Whether a line is empty or one of the three that a dump begins with.
+/// Returns whether a line is empty or belongs to the banner.
 fn is_banner(line: &[u8]) -> bool {
     line == BANNER || line.iter().all(|&byte| byte == b'=')
 }
 
-/// A line that is not empty.
+/// A non-empty line.
 pub(super) struct Line<'a> {
     source: &'a str,
     number: usize,
     pub(super) key: String,
-    /// All of it, with its end.
+    /// Full text, including the line feed.
     text: &'a [u8],
-    /// Where the value begins.
+    /// Offset of the value [bytes].
     begin: usize,
 }
 
 impl<'a> Line<'a> {
-    /// From its text, with its end; `None` if there is nothing in it, or the banner.
+    /// Parses a line, including its line feed; returns `None` if it is empty or belongs to the banner.
     pub(super) fn new(source: &'a str, number: usize, text: &'a [u8]) -> Result<Option<Self>> {
         let colon = text.iter().take(LONGEST_KEY + 1).position(|&byte| byte == b':');
         let end = colon.unwrap_or(text.len().min(LONGEST_KEY));
@@ -42,12 +42,12 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// What is wrong from a column on.
+    /// Creates an error at a column.
     pub(super) fn fault(&self, column: usize, expected: impl Display) -> Input {
         Input::new(self.source, expected).at(self.number, column).field(&self.key)
     }
 
-    /// What stands behind the colon.
+    /// Returns the text after the colon.
     pub(super) fn value(&self) -> String {
         String::from_utf8_lossy(&self.text[self.begin..]).trim().to_owned()
     }
@@ -66,7 +66,7 @@ impl<'a> Line<'a> {
         self.value().split_ascii_whitespace().map(number).collect()
     }
 
-    /// Packs the samples of a bit.
+    /// Packs the samples of a channel.
     pub(super) fn channel(&self, samples: u64, bits: &mut Vec<u64>) -> Result<()> {
         let (mut count, first) = (0, bits.len());
         bits.resize(first + samples.div_ceil(64) as usize, 0);

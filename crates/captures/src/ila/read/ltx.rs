@@ -1,4 +1,4 @@
-//! `probes.ltx`: names, and where each probe's bits stand in a sample.
+//! Reader of `probes.ltx`: names of the probes, and their bits in a sample.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use tofsim::error::{Input, Result};
 use super::heads;
 use super::opened::{Column, WIDEST_PROBE};
 
-/// The probes of each core.
+/// Probes of each core.
 #[derive(Debug, Default)]
 pub(super) struct List(BTreeMap<String, Vec<ListedProbe>>);
 
@@ -17,7 +17,7 @@ pub(super) struct List(BTreeMap<String, Vec<ListedProbe>>);
 struct ListedProbe {
     /// Port of the core; a view of other probes has none.
     port: Option<u64>,
-    /// Its lowest bit in the port.
+    /// Lowest bit in the port.
     low: u64,
     column: Column,
 }
@@ -26,7 +26,7 @@ struct ListedProbe {
 pub(super) type Placed = (Column, usize);
 
 impl List {
-    /// Reads a list.
+    /// Parses a list.
     pub(super) fn read(source: &str, text: &str) -> Result<Self> {
         let document = Document::parse(text).map_err(|error| {
             let position = error.pos();
@@ -46,8 +46,8 @@ impl List {
         Ok(list)
     }
 
-    /// The probes of the core whose ports have `width` bits together, in the order of their bits.
-    /// A port is as wide as the probes on it need; several probes may share bits of it.
+    /// Returns the probes of the core whose ports have `width` bits in total, in order of their bits. A port is as
+    /// wide as its probes require; several probes may share bits.
     pub(super) fn placed(&self, core: &str, width: u32) -> Option<Vec<Placed>> {
         let mut fitting: Vec<_> = self.0.iter().collect();
         fitting.retain(|(_, probes)| bits(probes) == u64::from(width));
@@ -72,8 +72,7 @@ impl List {
     }
 }
 
-/// Where the one of `placed` stands that has this name and width. Vivado drops the index of a
-/// single net in some files and not in others.
+/// Finds the position of a probe with the given name and width. Vivado omits the index of a single net in some files.
 pub(super) fn place(placed: &[Placed], column: &Column) -> Option<usize> {
     let bare = |name: &str| indexed(name).map_or(name, |(name, _)| name).to_owned();
     let same = |other: &Column| other.name == column.name && other.lsb == column.lsb;
@@ -87,7 +86,7 @@ pub(super) fn place(placed: &[Placed], column: &Column) -> Option<usize> {
     find(&same).or_else(|| find(&near))
 }
 
-/// The ports of some probes, and their widths.
+/// Returns the ports of some probes, with their widths.
 fn ports(probes: &[ListedProbe]) -> BTreeMap<u64, u64> {
     let mut ports = BTreeMap::new();
     for probe in probes {
@@ -103,7 +102,10 @@ fn bits(probes: &[ListedProbe]) -> u64 {
     ports(probes).values().sum()
 }
 
-/// A probe, and the core that it belongs to; else what is wrong.
+/// Parses a probe and the name of its core.
+///
+/// # Errors
+/// If the element is invalid.
 fn listed(node: Node) -> std::result::Result<(String, ListedProbe), Input> {
     let fault = |expected: String| Input::new("", expected);
     let option = |id: &str| option(node, id);
@@ -138,7 +140,7 @@ fn option<'a>(probe: Node<'a, '_>, id: &str) -> Option<&'a str> {
     options.filter(|node| node.attribute("Id") == Some(id)).find_map(|node| node.attribute("value"))
 }
 
-/// The column of some nets, highest bit first. A bus counts down by one.
+/// Builds the column of some nets, highest bit first; the indices of a bus decrease by one.
 fn column(nets: &[&str]) -> std::result::Result<Column, String> {
     let indexed: Option<Vec<_>> = nets.iter().map(|net| indexed(net)).collect();
     if let Some(indexed) = indexed.filter(|_| nets.len() > 1) {

@@ -1,4 +1,4 @@
-//! A capture that is read: its columns, and its samples one after the other.
+//! An opened capture: its columns, and an iterator over its samples.
 
 use std::io;
 use std::ops::Range;
@@ -11,70 +11,70 @@ use super::super::capture::Radix;
 pub const WIDEST_PROBE: u32 = 4096;
 /// Widest sample [bits].
 pub const WIDEST_SAMPLE: u32 = 1 << 20;
-/// Largest capture, more than any FPGA's block RAM holds [bits].
+/// Size limit of a capture, larger than any FPGA's block RAM [bits].
 pub const LARGEST: u64 = 1 << 29;
 /// Longest word in a cell [bytes].
 pub const LONGEST_WORD: usize = 128;
-/// Most words of a column that are kept.
+/// Largest number of distinct words of a column that are kept.
 const MOST_STATES: usize = 256;
 
 /// A column of a capture: a probe, or a slice of one.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
-    /// Name without its range.
+    /// Name without range.
     pub name: String,
     /// Width [bits].
     pub width: u32,
-    /// Index of its lowest bit.
+    /// Index of the lowest bit.
     pub lsb: u32,
-    /// Whether it has a range, even of one bit.
+    /// Whether the name has a range, even for one bit.
     pub vector: bool,
-    /// How its values are shown; none if the file does not tell.
+    /// Radix of the values; `None` if the file does not state it.
     pub radix: Option<Radix>,
-    /// Whether its cells are words, or words among numbers, of which the bits are not known. A
-    /// row then has the bytes of the cell, the first lowest.
+    /// Whether cells are words, possibly among numbers, whose values are unknown. A row then has the bytes of the
+    /// cell, first one lowest.
     pub text: bool,
     /// Whether there are numbers among the words.
     pub mixed: bool,
-    /// The words in the file, with their bits if the file tells these.
+    /// Words in the file, with their values if the file states them.
     pub states: Vec<State>,
-    /// First word of its place in a row.
+    /// Index of its first word in a row.
     pub word: usize,
 }
 
-/// A word that stands for a value.
+/// A word that represents a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct State {
-    /// The word.
+    /// Text of the word.
     pub name: String,
-    /// The value, if it is known.
+    /// Value, if it is known.
     pub bits: Option<u64>,
 }
 
 impl Column {
-    /// Bits of its place in a row.
+    /// Returns the number of bits that it uses in a row.
     pub fn bits(&self) -> u32 {
         if self.text { 8 * LONGEST_WORD as u32 } else { self.width }
     }
 
-    /// Words of its place in a row.
+    /// Returns the number of words that it uses in a row.
     pub fn words(&self) -> usize {
         self.bits().div_ceil(64) as usize
     }
 
-    /// Its place in a row.
+    /// Returns the range of its words in a row.
     pub fn place(&self) -> Range<usize> {
         self.word..self.word + self.words()
     }
 
-    /// Keeps a word that is in the file, the first of them only.
+    /// Stores a word of the file, unless there are too many.
     pub(super) fn learn(&mut self, name: &str, bits: Option<u64>) {
         if self.states.len() < MOST_STATES && self.states.iter().all(|known| known.name != name) {
             self.states.push(State { name: name.to_owned(), bits });
         }
     }
 
-    /// Name and range, as the head of a column has them.
+    /// Returns name and range, as in the head of a column.
     pub fn head(&self) -> String {
         match self.vector {
             true => format!("{}[{}:{}]", self.name, self.lsb + (self.width - 1), self.lsb),
@@ -86,24 +86,24 @@ impl Column {
 /// A sample.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CaptureRow {
-    /// Its number in the buffer.
+    /// Sample number in the buffer.
     pub sample: u64,
-    /// Its number in its window.
+    /// Sample number in the window.
     pub in_window: u64,
-    /// Whether a window begins here.
+    /// Whether a window begins with this sample.
     pub window_start: bool,
-    /// Whether it triggered.
+    /// Whether this sample triggered.
     pub trigger: bool,
-    /// Whether nothing was stored here.
+    /// Whether this sample was not stored.
     pub gap: bool,
-    /// The values; each column begins at a word of its own.
+    /// Values; each column begins at a word boundary.
     pub value: Vec<u64>,
-    /// 1 where a bit of the value is not known.
+    /// Mask of the unknown bits.
     pub unknown: Vec<u64>,
 }
 
 impl CaptureRow {
-    /// Makes room for the values of those columns, all 0.
+    /// Sets all values to 0, with room for the given columns.
     pub(super) fn clear(&mut self, columns: &[Column]) {
         let words = columns.last().map_or(0, |last| last.word + last.words());
         for place in [&mut self.value, &mut self.unknown] {
@@ -113,38 +113,41 @@ impl CaptureRow {
     }
 }
 
-/// The samples of a file, one after the other.
+/// Iterator over the samples of a file.
 pub trait CaptureRows: Send {
-    /// Reads the next row into `row`; false at the end. A row that is wrong is an error.
+    /// Reads the next row into `row`; returns false at the end.
+    ///
+    /// # Errors
+    /// If the row is invalid.
     fn next(&mut self, row: &mut CaptureRow) -> Result<bool>;
 }
 
-/// The form of a file.
+/// File format of a capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CaptureForm {
     /// CSV with a row of radices.
     Csv,
-    /// CSV without that row.
+    /// CSV without a row of radices.
     LegacyCsv,
     /// Vivado's archive.
     Archive,
 }
 
-/// A file whose head has been read.
+/// A capture whose header has been read.
 pub struct Opened {
-    /// Its form.
+    /// File format.
     pub form: CaptureForm,
-    /// Its columns.
+    /// Columns.
     pub columns: Vec<Column>,
-    /// Whether the file tells the radices; otherwise they were inferred, or there are none.
+    /// Whether the file states the radices; otherwise they were inferred, or there are none.
     pub radix_told: bool,
-    /// The samples.
+    /// Samples.
     pub rows: Box<dyn CaptureRows>,
-    /// What was read otherwise than it is written by Vivado, or taken from another part.
+    /// Notes on deviations from Vivado's format, and on values taken from another part.
     pub notes: Vec<String>,
 }
 
-/// Gives each column its place in a row.
+/// Assigns each column its words in a row.
 pub(super) fn lay_out(columns: &mut [Column]) {
     let mut word = 0;
     for column in columns {
@@ -153,21 +156,21 @@ pub(super) fn lay_out(columns: &mut [Column]) {
     }
 }
 
-/// The bytes of a word as the value of a column of text.
+/// Stores the bytes of a word as the value of a text column.
 pub(super) fn put_word(cell: &[u8], place: &mut [u64]) {
     for (k, &byte) in cell.iter().enumerate() {
         place[k / 8] |= u64::from(byte) << (8 * (k % 8));
     }
 }
 
-/// The word that a value of a column of text is.
+/// Converts the value of a text column to a word.
 pub(crate) fn word(value: &[u64]) -> String {
     let bytes: Vec<u8> = value.iter().flat_map(|word| word.to_le_bytes()).collect();
     let end = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
     String::from_utf8_lossy(&bytes[..end]).into_owned()
 }
 
-/// An error of reading an entry.
+/// Creates the error for an unreadable entry.
 pub(super) fn damaged(source: &str, error: io::Error) -> Error {
     Input::new(source, format!("damaged: {error}")).into()
 }

@@ -1,21 +1,21 @@
-//! Whether the samples follow one another: numbers, windows, triggers.
+//! Check of the sequence of samples: numbers, windows, triggers.
 
-/// What the rows so far were.
+/// State of the sequence so far.
 #[derive(Debug, Default)]
 pub(super) struct Order {
-    /// Sample and place in its window of the last row.
+    /// Number of the last sample in the buffer and in its window.
     last: Option<(u64, u64)>,
-    /// Samples of a window, once one has ended that was seen from its beginning.
+    /// Samples per window, once a complete window has been read.
     depth: Option<u64>,
     whole: bool,
     triggered: bool,
 }
 
-/// Which of the fixed columns is wrong, and what was expected there.
+/// Index of the fixed column at fault, and what was expected.
 pub(super) type Fault = (usize, String);
 
 impl Order {
-    /// Takes the next sample; true if a window begins with it.
+    /// Checks the next sample; returns true if a window begins with it.
     pub(super) fn check(
         &mut self,
         sample: u64,
@@ -53,7 +53,7 @@ impl Order {
         Ok(starts)
     }
 
-    /// Takes the place in the window, after `following` - 1; true if a window begins.
+    /// Checks the number in the window, which should be `following` unless a window begins; returns true if one does.
     fn follow(&mut self, following: u64, in_window: u64) -> Result<bool, Fault> {
         let ends = self.depth == Some(following);
         let goes_on = in_window == following && !ends;
@@ -79,7 +79,7 @@ impl Order {
 mod tests {
     use super::*;
 
-    /// The sample in its window and the trigger, row by row; the buffer counts from 0.
+    /// Checks rows given as number in window and trigger; numbers in the buffer count from 0.
     fn check(rows: &[(u64, bool)]) -> Result<Vec<bool>, (usize, Fault)> {
         let mut order = Order::default();
         let row = |(row, &(in_window, trigger)): (usize, &(u64, bool))| {

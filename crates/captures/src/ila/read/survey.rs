@@ -1,9 +1,8 @@
-//! A first pass over a CSV: which columns have words in them, and which radix the others are in
-//! where the file does not tell.
+//! First pass over a CSV, which finds columns of words, and the radices of other columns if the file does not state
+//! them.
 //!
-//! Vivado puts words in quotes, which spreadsheets take off. So a word without them is one too, if
-//! it begins as a name does and cannot be a number. A file that has everything in quotes says
-//! nothing by them.
+//! Vivado puts words in quotes, which spreadsheets remove. An unquoted cell is therefore a word too if it begins as a
+//! name does and cannot be a number. In a file with quotes around everything, quotes have no meaning.
 
 use std::io::Read;
 
@@ -15,19 +14,19 @@ use super::infer::Guess;
 use super::opened::lay_out;
 use super::table::{Row, Table};
 
-/// What is found in a column.
+/// Findings about a column.
 struct Found {
     guess: Guess,
-    /// Whether there are words and numbers.
+    /// Whether there are words, and numbers.
     words: bool,
     numbers: bool,
-    /// Words without quotes, and the first of them.
+    /// Number of unquoted words, and the first of them.
     bare: u64,
     first_bare: Option<Input>,
 }
 
-/// Looks through the rest of `table`, and says in `heads` what the columns are. `hint` decides
-/// where several radices are left.
+/// Reads the rest of `table`, and stores the types of the columns in `heads`. `hint` decides between several possible
+/// radices.
 pub(super) fn survey(
     table: &mut Table<impl Read>,
     heads: &mut Heads,
@@ -91,7 +90,7 @@ pub(super) fn survey(
     Ok(())
 }
 
-/// Whether a cell begins as a name does and is no number: hexadecimal, or unknown.
+/// Returns whether a cell begins as a name does and is not a number, neither hexadecimal nor unknown.
 fn is_name(row: &Row, index: usize, radix: Option<Radix>) -> bool {
     let cell = row.field(index);
     let begins = cell.first().is_some_and(|&byte| byte.is_ascii_alphabetic() || byte == b'_');

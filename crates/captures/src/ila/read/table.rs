@@ -1,7 +1,7 @@
-//! The lines of a CSV as fields, each with its place for errors.
+//! Lines of a CSV as fields, with their positions for errors.
 //!
-//! All lines end alike, none is without bound or empty but the last ones, and quotes end on theirs.
-//! Empty fields at the end of a line, which spreadsheets add, are no fields.
+//! All lines have the same ending and a limited length, quotes end on the same line, and only the last lines may be
+//! empty. Empty fields at the end of a line, which spreadsheets add, are removed.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -14,24 +14,24 @@ use tofsim::error::{Error, Input, Result};
 /// Longest line [bytes].
 const LONGEST: usize = 1 << 22;
 
-/// A CSV, line by line.
+/// Reader of a CSV, line by line.
 pub(super) struct Table<R> {
     file: BufReader<R>,
-    /// The present line.
+    /// Present line.
     pub(super) row: Row,
-    /// Whether the first line ends with a carriage return too.
+    /// Whether lines end with a carriage return, once known.
     returns: Option<bool>,
-    /// Whether a line had empty fields too many.
+    /// Whether a line had additional empty fields.
     pub(super) trails: bool,
 }
 
-/// A line, without its end, and its fields.
+/// A line without its ending, and its fields.
 #[derive(Default)]
 pub(super) struct Row {
     source: String,
     line: usize,
     text: Vec<u8>,
-    /// What stands between two fields.
+    /// Field separator.
     delimiter: u8,
     fields: Vec<Range<usize>>,
 }
@@ -43,7 +43,7 @@ impl<R: Read> Table<R> {
         Table { file, row, returns: None, trails: false }
     }
 
-    /// Goes to the next row; false at the end.
+    /// Advances to the next row; returns false at the end.
     pub(super) fn advance(&mut self) -> Result<bool> {
         let mut empty = None;
         while self.next_line()? {
@@ -62,7 +62,7 @@ impl<R: Read> Table<R> {
         Ok(false)
     }
 
-    /// Goes to the next row, which has to have `fields` fields; false at the end.
+    /// Advances to the next row, which must have `fields` fields; returns false at the end.
     pub(super) fn advance_to(&mut self, fields: usize) -> Result<bool> {
         let more = self.advance()?;
         let found = self.row.len();
@@ -78,7 +78,7 @@ impl<R: Read> Table<R> {
         Ok(more)
     }
 
-    /// Reads a line; false if there is none.
+    /// Reads a line; returns false at the end.
     fn next_line(&mut self) -> Result<bool> {
         let Row { source, line, text, .. } = &mut self.row;
         text.clear();
@@ -112,14 +112,14 @@ impl<R: Read> Table<R> {
         Ok(true)
     }
 
-    /// The file, read to some place.
+    /// Unwraps the file, at an unspecified position.
     pub(super) fn into_inner(self) -> R {
         self.file.into_inner()
     }
 }
 
 impl Row {
-    /// The line of that number.
+    /// Splits a line with the given number.
     pub(super) fn new(source: &str, line: usize, text: &[u8], delimiter: u8) -> Self {
         let (source, text) = (source.to_owned(), text.to_owned());
         let mut row = Row { source, line, text, delimiter, fields: Vec::new() };
@@ -127,7 +127,7 @@ impl Row {
         row
     }
 
-    /// Takes the empty fields off the end; whether there are any.
+    /// Removes empty fields at the end; returns whether there were any.
     pub(super) fn take_trail(&mut self) -> bool {
         let end = (0..self.len()).rposition(|index| !self.field(index).is_empty());
         let before = self.len();
@@ -148,7 +148,7 @@ impl Row {
         self.fields.push(begin..self.text.len());
     }
 
-    /// Number of fields.
+    /// Returns the number of fields.
     pub(super) fn len(&self) -> usize {
         self.fields.len()
     }
@@ -157,12 +157,12 @@ impl Row {
         self.fields.get(index).map_or(&[], |range| &self.text[range.clone()])
     }
 
-    /// Whether a field stands in quotes.
+    /// Returns whether a field is quoted.
     pub(super) fn is_quoted(&self, index: usize) -> bool {
         self.spelled(index).starts_with(b"\"")
     }
 
-    /// A field without its quotes, empty if there is none.
+    /// Returns a field without its quotes; empty if there is none.
     pub(super) fn field(&self, index: usize) -> Cow<'_, [u8]> {
         let spelled = self.spelled(index);
         let Some(inside) = spelled.strip_prefix(b"\"") else { return spelled.into() };
@@ -176,25 +176,25 @@ impl Row {
         inside.iter().filter(stands).copied().collect()
     }
 
-    /// Whether a field says just that.
+    /// Returns whether a field equals a text.
     pub(super) fn is(&self, index: usize, text: &str) -> bool {
         *self.field(index) == *text.as_bytes()
     }
 
-    /// A field as a number, if it is one.
+    /// Parses a field as a number.
     pub(super) fn number(&self, index: usize) -> Option<u64> {
         let digits = self.field(index);
         let text = std::str::from_utf8(&digits).ok().filter(|text| !text.starts_with('+'))?;
         text.parse().ok()
     }
 
-    /// A field as text.
+    /// Returns a field as text.
     pub(super) fn text(&self, index: usize) -> Result<String> {
         String::from_utf8(self.field(index).into_owned())
             .map_err(|_| self.fault(index, "expected UTF-8 text").into())
     }
 
-    /// A fault in a field.
+    /// Creates an error at a field.
     pub(super) fn fault(&self, index: usize, expected: impl Display) -> Input {
         let begin = self.fields.get(index).map_or(0, |range| range.start);
         let column = String::from_utf8_lossy(&self.text[..begin]).chars().count() + 1;
@@ -203,14 +203,14 @@ impl Row {
         Input::new(&self.source, expected).at(self.line, column).value(value)
     }
 
-    /// A fault of the whole row.
+    /// Creates an error for the whole row.
     pub(super) fn row_fault(&self, expected: impl Display) -> Input {
         let line = String::from_utf8_lossy(&self.text);
         Input::new(&self.source, expected).at(self.line, 1).value(line)
     }
 }
 
-/// The first lines of a file, without their ends.
+/// Reads the first lines of a file, without their endings.
 pub(super) fn first_lines<const N: usize>(file: impl Read) -> io::Result<[Vec<u8>; N]> {
     let mut reader = BufReader::new(file);
     let mut lines = [const { Vec::new() }; N];

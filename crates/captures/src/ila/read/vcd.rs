@@ -1,7 +1,7 @@
-//! `waveform.vcd` of an archive, in Vivado's plain dialect: one flat scope, sample numbers for times.
+//! Reader of an archive's `waveform.vcd`, in Vivado's dialect: one flat scope, and sample numbers as times.
 //!
-//! It has the bits of every column, in the order of the CSV's, even of the views that System ILA
-//! makes of other probes; but it ends with the last change.
+//! It has the bits of every column, in the order of the CSV's columns, including views that System ILA derives from
+//! other probes, but it ends with the last change.
 
 use std::collections::HashMap;
 
@@ -11,24 +11,24 @@ use super::buffer::Buffer;
 use super::heads;
 use super::opened::Column;
 
-/// Names of the variables that are no probes: trigger, window, gap.
+/// Names of the variables that are not probes: trigger, window, gap.
 const MARKS: [&str; 3] = ["_TRIGGER", "_WINDOW", "_GAP"];
 
-/// Most samples of a file that alone says how many there are; Vivado's buffers have 2^17.
+/// Largest number of samples if only the VCD determines it; Vivado's buffers have 2^17.
 const DEEPEST: u64 = 1 << 20;
 
-/// A file that is read.
+/// Contents of a file.
 #[derive(Debug, Default)]
 pub(super) struct Vcd {
-    /// The probes.
+    /// Probes.
     pub(super) columns: Vec<Column>,
-    /// Changes of each probe, then of each mark: sample, and digits as bits.
+    /// Changes of each probe, then of each mark: sample, and value as words.
     changes: Vec<Vec<(u64, Vec<u64>)>>,
     last: u64,
 }
 
 impl Vcd {
-    /// Reads a file.
+    /// Parses a file.
     pub(super) fn read(source: &str, text: &str) -> Result<Self> {
         let mut vcd = Vcd::default();
         let mut ids: HashMap<&str, (usize, u32)> = HashMap::new();
@@ -92,7 +92,7 @@ impl Vcd {
         Ok(vcd)
     }
 
-    /// Puts a probe into the channels from `low` on; beyond the last change it stays as it is.
+    /// Copies a probe to the channels from `low` on; its last value extends to the end.
     pub(super) fn fill(&self, probe: usize, buffer: &mut Buffer, low: usize) {
         let changes = &self.changes[probe];
         for (k, (begin, value)) in changes.iter().enumerate() {
@@ -103,8 +103,8 @@ impl Vcd {
         }
     }
 
-    /// All samples up to the last change, with the lowest channel of each probe; none if they are
-    /// more than is held.
+    /// Returns all samples up to the last change, with the lowest channel of each probe; `None` if the size limit is
+    /// exceeded.
     pub(super) fn buffer(&self) -> Option<(Buffer, Vec<usize>)> {
         let mut buffer = Buffer::default();
         if self.last >= DEEPEST {
@@ -130,7 +130,7 @@ impl Vcd {
     }
 }
 
-/// Digits as bits; zeros may be missing in front.
+/// Parses binary digits; leading zeros may be missing.
 fn bits(digits: &str, width: u32) -> Option<Vec<u64>> {
     if digits.is_empty() || digits.len() > width as usize {
         return None;

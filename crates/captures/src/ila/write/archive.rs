@@ -1,4 +1,4 @@
-//! The `.ila` archive: the other forms in one ZIP file.
+//! Writer of the `.ila` archive: the other formats in one ZIP file.
 
 use std::io::{self, Seek, Write};
 
@@ -11,10 +11,10 @@ use super::dump::dump;
 use super::ltx::ltx;
 use super::vcd::vcd;
 
-/// Writes one of the files in it.
+/// Function that writes one of its files.
 type Form = fn(&mut dyn Write, &Capture) -> io::Result<()>;
 
-/// Writes a capture as Vivado's archive. Its entries carry no date.
+/// Writes a capture as Vivado's archive. Its entries have no date.
 pub fn archive(out: impl Write + Seek, capture: &Capture) -> io::Result<()> {
     let mut zip = ZipWriter::new(out);
     let options = SimpleFileOptions::default()

@@ -1,4 +1,4 @@
-//! The table: a row for each sample, with or without the row of radices.
+//! Writer of the CSV: one row per sample, with or without a row of radices.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use crate::words::extend;
 use super::super::capture::{Capture, Probe, Radix};
 use super::spill::spill;
 
-/// Writes a capture as Vivado's CSV; `radix_row` leaves out or puts in the second row.
+/// Writes a capture as Vivado's CSV; `radix_row` selects whether it has a second row with radices.
 pub fn csv(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<()> {
     head(out, capture, radix_row)?;
     let mut windows = capture.windows.iter().copied().peekable();
@@ -43,7 +43,7 @@ fn head(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<(
     table.flush()
 }
 
-/// The radix in which a probe's values are written: decimals end at 128 bits.
+/// Returns the radix in which a probe is written: decimal only up to 128 bits.
 fn shown(probe: &Probe) -> Radix {
     match probe.radix {
         Radix::Signed | Radix::Unsigned if probe.width > 128 => Radix::Hex,

@@ -1,4 +1,4 @@
-//! `waveform.dmp`: the archive's data, a line of samples for each bit.
+//! Writer of `waveform.dmp`, the archive's data: one line of samples per bit.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -6,12 +6,12 @@ use std::io::{self, Write};
 use super::super::capture::Capture;
 use super::spill::spill;
 
-/// What Vivado's dumps begin with.
+/// First lines of Vivado's dumps.
 const BANNER: &str = "=========================================\n              ILA Data Dump\n\
     =========================================\n";
 
-/// Writes a capture as Vivado's `waveform.dmp`. The keys up to `window_marks` are padded to one
-/// width and the others to another, as there; a blank ends a list of marks.
+/// Writes a capture as Vivado's `waveform.dmp`. As in Vivado's files, keys up to `window_marks` are padded to one
+/// width and the others to another, and a blank ends a list of marks.
 pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     let head: [(&str, &dyn Display); 7] = [
         ("core_id", &super::ltx::CORE),
@@ -42,7 +42,7 @@ pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     out.write_all(&text)
 }
 
-/// Numbers of samples, each with a blank after it.
+/// Formats sample numbers, each followed by a blank.
 fn marks(samples: &[usize]) -> String {
     samples.iter().map(|sample| format!("{sample} ")).collect()
 }

@@ -1,4 +1,4 @@
-//! `probes.ltx`: the names of the nets, bit by bit, in XML.
+//! Writer of `probes.ltx`: the names of the nets, bit by bit, in XML.
 
 use std::io::{self, Write};
 
@@ -6,9 +6,9 @@ use super::super::capture::Capture;
 
 /// Name of the core in the files of an archive.
 pub(super) const CORE: &str = "u_ila_0";
-/// The KC705's device, as a set of probes is called.
+/// Name of the KC705's device in a list of probes.
 const PART: &str = "xc7k325t_0";
-/// A core that was never built has none of its own.
+/// UUID of a core that was never built.
 const UUID: &str = "00000000000000000000000000000000";
 
 /// Writes the probes of a capture as Vivado's `probes.ltx`.
@@ -46,7 +46,7 @@ pub fn ltx(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     writeln!(out, "  </probeset>\n</probeData>")
 }
 
-/// A text as the value of an attribute.
+/// Escapes a text for an attribute.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

@@ -1,4 +1,4 @@
-//! The value change dump: one flat scope, sample numbers for times.
+//! Writer of the value change dump: one flat scope, and sample numbers as times.
 
 use std::io::{self, Write};
 
@@ -9,8 +9,8 @@ use tofsim::files::date;
 use super::super::capture::Capture;
 use super::spill::spill;
 
-/// Writes a capture as Vivado's VCD. `_TRIGGER` and `_WINDOW` turn over at every trigger and at
-/// every window but the first.
+/// Writes a capture as Vivado's VCD. `_TRIGGER` and `_WINDOW` toggle at every trigger and at every window but the
+/// first.
 pub fn vcd(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     head(out, capture)?;
     let [trigger_id, window_id, gap_id] =
@@ -67,7 +67,7 @@ fn head(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     writeln!(out, "$upscope $end\n$enddefinitions $end")
 }
 
-/// A number in base 94, lowest digit first.
+/// Formats a number in base 94, least significant digit first.
 fn identifier(mut number: usize) -> String {
     let mut identifier = String::new();
     while number > 0 || identifier.is_empty() {
@@ -77,7 +77,7 @@ fn identifier(mut number: usize) -> String {
     identifier
 }
 
-/// The line that says a value, of a vector without its leading zeros.
+/// Formats a value change, without the leading zeros of a vector.
 fn change(value: &BitSlice<u64>, identifier: &str) -> String {
     let digits = value[..value.last_one().map_or(1, |top| top + 1)].iter().by_vals().rev();
     let digits: String = digits.map(|bit| if bit { '1' } else { '0' }).collect();
@@ -104,7 +104,7 @@ mod tests {
         String::from_utf8(out).unwrap()
     }
 
-    /// Two windows of three samples; the last sample changes nothing.
+    /// Creates two windows of three samples; the last sample changes nothing.
     fn small() -> Capture {
         let mut capture = Capture::new(vec![
             probe("top/valid", 1, 0, false),

@@ -1,4 +1,4 @@
-//! The last samples of a waveform as packed bits, with hashes of any number of them.
+//! Rolling window over a waveform's samples as packed bits, with hashes of any number of them.
 
 use tofsim::error::Result;
 
@@ -6,21 +6,21 @@ use super::super::super::plan::Plan;
 use super::super::correlation::{PairBits, SearchEnd};
 use super::needle::packed;
 
-/// What hashes are powers of.
+/// Base of the polynomial hash.
 const BASE: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// The last samples.
+/// The most recent samples of a waveform.
 pub(super) struct Hay {
     rows: Vec<u64>,
     stride: usize,
-    /// Hash of all samples up to each, and before the first.
+    /// Hash of all samples up to each, preceded by the hash of none.
     hashes: Vec<u64>,
-    /// Number of the first sample that is here, and of the first there was.
+    /// Numbers of the first sample kept, and of the first sample of all.
     begin: u64,
     first: u64,
-    /// Samples that are kept.
+    /// Number of samples to keep.
     longest: usize,
-    /// How many samples are like the one before them, up to the last.
+    /// Number of samples, up to the last, that equal their predecessor.
     pub(super) steady: usize,
 }
 
@@ -40,23 +40,23 @@ impl Hay {
         }
     }
 
-    /// The number of the last sample.
+    /// Returns the number of the last sample.
     pub(super) fn last(&self) -> u64 {
         self.begin + self.hashes.len() as u64 - 2
     }
 
-    /// The number of the first of `length` samples of which the last is `end`, if there are so many.
+    /// Returns the number of the first of `length` samples that end with sample `end`, if there are as many.
     pub(super) fn first_of(&self, end: u64, length: usize) -> Option<u64> {
         (end + 1).checked_sub(length as u64).filter(|&first| first >= self.first)
     }
 
-    /// So many samples from `first` on, of those kept.
+    /// Returns `length` samples from `first` on, which must be kept.
     pub(super) fn samples(&self, first: u64, length: usize) -> &[u64] {
         let begin = (first - self.begin) as usize * self.stride;
         &self.rows[begin..begin + length * self.stride]
     }
 
-    /// The hash of the last `length` samples, where `power` is that of the base.
+    /// Returns the hash of the last `length` samples, where `power` is the base to the power of `length`.
     pub(super) fn hash(&self, length: usize, power: u64) -> Option<u64> {
         let last = self.hashes.len() - 1;
         let before = self.hashes[last.checked_sub(length)?];
@@ -64,13 +64,13 @@ impl Hay {
     }
 }
 
-/// The hash of some samples, as that of a waveform's last.
+/// Computes the hash of some samples.
 pub(super) fn hash(rows: &[u64], stride: usize) -> u64 {
     let rows = rows.chunks_exact(stride);
     rows.fold(0u64, |hash, row| hash.wrapping_mul(BASE).wrapping_add(mixed(row)))
 }
 
-/// The power of the base that goes with so many samples.
+/// Returns the base to the power of `length`.
 pub(super) fn power(length: usize) -> u64 {
     BASE.wrapping_pow(length as u32)
 }
@@ -83,7 +83,7 @@ fn mixed(row: &[u64]) -> u64 {
     row.iter().fold(1, mix)
 }
 
-/// Passes over a waveform; `seen` gets the last samples, `longest` of them at least, for each.
+/// Reads a waveform, and calls `seen` at each sample with at least the `longest` most recent samples.
 pub(super) fn pass(
     plan: &Plan,
     side: usize,

@@ -1,27 +1,27 @@
-//! A window as packed bits, and where it fits best.
+//! A window as packed bits, with its best positions in a waveform.
 
 use super::super::correlation::{Candidate, KEPT};
 
-/// Parts of a window by which its places are found.
+/// Number of sections by which a window is located.
 const SEEDS: usize = 16;
 
-/// A window, and where it fits best.
+/// A window with its best positions.
 pub(super) struct Needle {
-    /// The bits of its samples, one after the other.
+    /// Packed bits of its samples.
     rows: Vec<u64>,
-    /// Words of a sample.
+    /// Words per sample.
     stride: usize,
-    /// In which order samples are looked at: where something changes first, because there it differs
-    /// from most of the waveform.
+    /// Order in which samples are compared: those at which something changes come first, because they differ from
+    /// most of the waveform.
     order: Vec<usize>,
-    /// The best places and twice the bits that differ there, the best first.
+    /// Best positions with twice their number of differing bits, best first.
     best: Vec<(u64, u64)>,
-    /// Places where less than that differs [half bits] have been laid over, all of them.
+    /// Number of differing half bits below which all positions have been compared.
     sure: u64,
 }
 
 impl Needle {
-    /// Of samples, each of so many words.
+    /// Creates a window from samples of `stride` words.
     pub(super) fn new(rows: Vec<u64>, stride: usize) -> Needle {
         let row = |k: usize| &rows[k * stride..(k + 1) * stride];
         let changes = |&k: &usize| k > 0 && row(k) != row(k - 1);
@@ -29,13 +29,13 @@ impl Needle {
         Needle { order: [first, last].concat(), rows, stride, best: Vec::new(), sure: 0 }
     }
 
-    /// How many samples it has.
+    /// Returns the number of samples.
     pub(super) fn length(&self) -> usize {
         self.order.len()
     }
 
-    /// Parts in which something changes, with the number of samples behind them. What differs less than
-    /// there are such parts leaves one of them as it is.
+    /// Returns sections in which something changes, each with the number of samples after it. Fewer differences than
+    /// there are such sections leave at least one of them intact.
     pub(super) fn seeds(&mut self) -> Vec<(&[u64], usize)> {
         let (length, stride) = (self.length(), self.stride);
         let part = (length / SEEDS).max(1) * stride;
@@ -49,13 +49,13 @@ impl Needle {
         seeds
     }
 
-    /// All places will be laid over.
+    /// Restarts the search, with all positions to be compared.
     pub(super) fn begin_anew(&mut self) {
         self.best.clear();
         self.sure = u64::MAX;
     }
 
-    /// Takes the place `first` with those samples, if it is one of the best.
+    /// Compares the window with samples at position `first`, and keeps it if it is one of the best.
     pub(super) fn lay_over(&mut self, samples: &[u64], first: u64) {
         let worst = self.best.get(KEPT - 1).map_or(u64::MAX, |&(_, worst)| worst);
         let (stride, mut differing) = (self.stride, 0);
@@ -71,9 +71,9 @@ impl Needle {
         self.best.truncate(KEPT);
     }
 
-    /// The best that begin at `from` or later; `None` where others may do as well that are not known.
+    /// Returns the best positions from `from` on; `None` if unknown positions may be as good.
     ///
-    /// Those before `from` are told too, unless they do nearly as well.
+    /// Positions before `from` are included too, unless they are nearly as good.
     pub(super) fn candidates(&self, from: u64, width: usize) -> Option<Vec<Candidate>> {
         let &(_, best) = self.best.iter().find(|(first, _)| *first >= from)?;
         let dropped = self.best.get(KEPT - 1).map_or(u64::MAX, |&(_, worst)| worst);
@@ -91,7 +91,7 @@ impl Needle {
     }
 }
 
-/// Twice the number of bits that differ; one that is unknown on a side differs by half.
+/// Returns twice the number of differing bits; a bit that is unknown on one side counts half.
 #[inline]
 fn distance(a: &[u64], b: &[u64]) -> u64 {
     let half = a.len() / 2;
@@ -103,7 +103,7 @@ fn distance(a: &[u64], b: &[u64]) -> u64 {
     words.sum()
 }
 
-/// The bits of a sample: words of their values, then words of those that are unknown.
+/// Packs the bits of a sample: words of values, then words of unknown bits.
 pub(super) fn packed(bits: &[i8]) -> Vec<u64> {
     let words = bits.len().div_ceil(64);
     let mut row = vec![0; 2 * words];
@@ -126,7 +126,7 @@ mod tests {
         assert_eq!(distance(&packed(&[1; 70]), &packed(&[-1; 70])), 140);
     }
 
-    /// Samples of two bits.
+    /// Returns samples of two bits.
     fn rows(values: &[u8]) -> Vec<u64> {
         let bit = |value: u8, k: u8| (value >> k & 1) as i8 * 2 - 1;
         values.iter().flat_map(|&value| packed(&[bit(value, 0), bit(value, 1)])).collect()

@@ -1,4 +1,4 @@
-//! The entries of an archive, also of one that is cut off, or that lies in another zip.
+//! Entries of an archive, including one that is truncated or lies within another zip.
 
 use std::fs::File;
 use std::io::{Cursor, Read, Seek};
@@ -10,15 +10,15 @@ use tofsim::error::{Error, Input, Result};
 
 use super::super::opened::damaged;
 
-/// Most bytes of an entry that are read.
+/// Size limit of an entry [bytes].
 pub(super) const LARGEST_ENTRY: u64 = 1 << 30;
 
-/// A file, or what was in one.
+/// A seekable source of bytes.
 trait Bytes: Read + Seek + Send {}
 
 impl<T: Read + Seek + Send> Bytes for T {}
 
-/// An archive being read.
+/// Reader of an archive.
 pub(super) struct Entries {
     pub(super) source: String,
     /// Names of the entries.
@@ -28,12 +28,12 @@ pub(super) struct Entries {
 
 enum Content {
     Whole(ZipArchive<Box<dyn Bytes>>),
-    /// Its directory, which stands at the end, is not there.
+    /// A truncated archive without the directory at its end.
     Cut(Box<dyn Bytes>),
 }
 
 impl Entries {
-    /// The entries of a file, with what is to be said of it.
+    /// Opens the archive in a file, with notes.
     pub(super) fn open(source: String, file: File) -> Result<(Self, Vec<String>)> {
         let (mut entries, mut notes) = Entries::of(source, Box::new(file))?;
         let is_capture = |entries: &Entries| {
@@ -87,7 +87,7 @@ impl Entries {
         Ok((Entries { source, names, content: Content::Whole(zip) }, Vec::new()))
     }
 
-    /// Reads the entry of this name, in any directory; none if there is none.
+    /// Reads the entry of this name in any directory; returns `None` if there is none.
     pub(super) fn part<T>(
         &mut self,
         name: &str,
@@ -120,12 +120,12 @@ impl Entries {
     }
 }
 
-/// The last part of a path.
+/// Returns the last part of a path.
 fn last(path: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
-/// All of an entry, which may not be longer than a limit, whatever the archive says.
+/// Reads an entry of limited size, regardless of the size that the archive states.
 pub(super) fn whole(source: &str, entry: &mut dyn Read, limit: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     entry.take(limit + 1).read_to_end(&mut bytes).map_err(|error| damaged(source, error))?;
@@ -135,7 +135,7 @@ pub(super) fn whole(source: &str, entry: &mut dyn Read, limit: u64) -> Result<Ve
     }
 }
 
-/// The same as text.
+/// Reads an entry of limited size as text.
 pub(super) fn text(source: &str, entry: &mut dyn Read, limit: u64) -> Result<String> {
     let bytes = whole(source, entry, limit)?;
     String::from_utf8(bytes).map_err(|_| Input::new(source, "expected UTF-8 text").into())

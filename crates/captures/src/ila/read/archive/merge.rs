@@ -1,4 +1,4 @@
-//! Puts the parts of an archive together: what stands in the dump, and what the CSV and the VCD add.
+//! Merging of an archive's parts: the dump, completed by the CSV and the VCD.
 
 use tofsim::error::Result;
 
@@ -7,29 +7,29 @@ use super::super::digits;
 use super::super::opened::{CaptureRow, Column, Opened, word};
 use super::super::vcd::Vcd;
 
-/// An archive's samples on their way into memory.
+/// Samples of an archive under construction.
 pub(super) struct Merge<'a> {
     buffer: Buffer,
     columns: Vec<Merged>,
     vcd: Option<&'a Vcd>,
-    /// Whether there is a CSV that numbers can be taken from.
+    /// Whether there is a CSV with usable numbers.
     has_table: bool,
     notes: &'a mut Vec<String>,
 }
 
-/// A column on its way.
+/// A column under construction.
 struct Merged {
     column: Column,
-    /// Its lowest channel, once it has one.
+    /// Lowest channel, once it has one.
     place: Option<usize>,
-    /// Whether its bits are in another part than the table.
+    /// Whether its bits come from another part than the CSV.
     has_bits: bool,
-    /// Cells that differ from its bits, and the sample of the first.
+    /// Number of cells that differ from its bits, and the sample of the first.
     differing: (u64, u64),
 }
 
 impl<'a> Merge<'a> {
-    /// Of the samples of a dump, if there is one, with the lowest channels of the columns in it.
+    /// Creates a merge, with the samples of a dump if there is one, and the lowest channels of the columns in it.
     pub(super) fn new(
         buffer: Option<Buffer>,
         columns: Vec<Column>,
@@ -52,7 +52,7 @@ impl<'a> Merge<'a> {
         merge
     }
 
-    /// Puts what has no place yet into channels of its own, from the VCD.
+    /// Copies columns without channels from the VCD.
     fn fill(&mut self) {
         let Some(vcd) = self.vcd else { return };
         let mut filled = Vec::new();
@@ -71,8 +71,8 @@ impl<'a> Merge<'a> {
         }
     }
 
-    /// Takes what the CSV has: names of values, and what stands nowhere else. Without a dump also
-    /// the samples, of which there are `most` or fewer.
+    /// Reads the CSV: names of values, and values that no other part has. Without a dump it also determines the
+    /// samples, of which there are at most `most`.
     pub(super) fn table(&mut self, mut table: Opened, most: Option<u64>) -> Result<()> {
         self.notes.append(&mut table.notes);
         if let Some(most) = most {
@@ -114,7 +114,7 @@ impl<'a> Merge<'a> {
         }
     }
 
-    /// Takes a row of the CSV.
+    /// Processes a row of the CSV.
     fn row(&mut self, row: &CaptureRow, sample: u64) {
         for Merged { column, place, has_bits, differing } in &mut self.columns {
             let (Some(low), value) = (*place, &row.value[column.place()]) else { continue };
@@ -143,7 +143,7 @@ impl<'a> Merge<'a> {
         }
     }
 
-    /// Notes the columns whose cells are not their bits.
+    /// Adds notes on columns whose cells differ from their bits.
     fn disagreements(&mut self) {
         for Merged { column, differing: (count, first), .. } in &self.columns {
             if *count > 0 {
@@ -157,7 +157,7 @@ impl<'a> Merge<'a> {
         }
     }
 
-    /// The samples, the columns that have values, and their lowest channels.
+    /// Returns the samples, the columns that have values, and their lowest channels.
     pub(super) fn finish(self) -> (Buffer, Vec<Column>, Vec<usize>) {
         let (mut columns, mut places, mut lost) = (Vec::new(), Vec::new(), Vec::new());
         for Merged { mut column, place, has_bits, .. } in self.columns {
@@ -179,7 +179,7 @@ impl<'a> Merge<'a> {
     }
 }
 
-/// Names in a note.
+/// Formats names for a note.
 fn listed(names: &[String]) -> String {
     const LISTED: usize = 8;
     let more = names.len().saturating_sub(LISTED);
