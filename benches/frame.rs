@@ -1,5 +1,5 @@
-//! What a frame costs: `cargo bench`. An iteration of `cycle` is one cycle of clk_sys, so that its
-//! time is nanoseconds per cycle; `shots` gives shots per second.
+//! Benchmark of a frame: `cargo bench`. An iteration of `cycle` is one cycle of clk_sys, so that its time is in
+//! nanoseconds per cycle; `shots` reports shots per second.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -16,7 +16,7 @@ fn frame(setup: &Setup) -> u64 {
     black_box(done.expect("a built-in scenario runs")).cycles
 }
 
-/// Time of `cycles` cycles, from as many whole frames as they fill at least.
+/// Measures the time of `cycles` cycles, in whole frames that contain at least as many.
 fn time_of_cycles(setup: &Setup, cycles: u64) -> Duration {
     let (begun, mut done) = (Instant::now(), 0);
     while done < cycles {

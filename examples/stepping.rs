@@ -1,4 +1,5 @@
-//! A frame cycle by cycle: prints the first ten TDC codes, and when the estimator begins and ends.
+//! A frame simulated cycle by cycle: prints the first ten TDC codes, and the cycles in which the estimator starts and
+//! finishes.
 
 use std::ops::ControlFlow;
 

@@ -1,4 +1,4 @@
-//! Where built peers are kept, by a hash of what they are built from.
+//! Cache of compiled peers, by a hash of their inputs.
 
 use std::collections::hash_map::DefaultHasher;
 use std::fs;
@@ -13,15 +13,15 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// Opens or makes the cache in `target`.
+    /// Opens or creates the cache in `target`.
     pub fn new(target: &Path) -> Result<Self> {
         let folder = target.join("peers");
         fs::create_dir_all(&folder)?;
         Ok(Cache { folder })
     }
 
-    /// The folder of what `build` makes of `sources` with `flags`, built if it is not there yet.
-    /// `build` gets the folder to work in.
+    /// Returns the folder with the output of `build` for these `sources` and `flags`, building it if necessary.
+    /// `build` receives the folder to work in.
     pub fn get(
         &self,
         name: &str,

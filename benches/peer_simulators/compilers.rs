@@ -1,4 +1,4 @@
-//! Builds all peers, two at a time.
+//! Compilation of all peers, two at a time.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,17 +9,17 @@ use crate::builds::Cache;
 use crate::contender::Contender;
 use crate::{Result, icarus, verilator, versions};
 
-/// Which Verilog.
+/// Variant of the Verilog sources.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sources {
-    /// `rtl_ref`.
+    /// The sources in `rtl_ref`.
     Reference,
-    /// The same with the fastest coding of the decoder's ones count.
+    /// The sources in `rtl_ref`, with the fastest coding of the decoder's ones count.
     FastDecoder,
 }
 
 impl Sources {
-    /// The files.
+    /// Returns the files.
     pub fn files(self, root: &Path) -> Result<Vec<PathBuf>> {
         let ours = root.join("benches/peer_simulators/rtl");
         let mut files = Vec::new();
@@ -42,14 +42,14 @@ impl Sources {
     }
 }
 
-/// A path as the tools want it, whatever their folder.
+/// Formats an absolute path for the tools.
 pub fn absolute(path: &Path) -> String {
     std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf()).display().to_string()
 }
 
 type Job<'a> = Box<dyn FnOnce() -> Result<Vec<Contender>> + Send + 'a>;
 
-/// Builds the peers. Verilator has to be there; what else is missing is a note.
+/// Builds the peers. Verilator is required; any other missing tool becomes a note.
 pub fn peers(root: &Path, cache: &Cache, quick: bool) -> Result<(Vec<Contender>, Vec<String>)> {
     if versions::first_line("verilator", "--version").is_none() {
         return Err("verilator is missing: apt-get install verilator".into());
@@ -65,7 +65,7 @@ pub fn peers(root: &Path, cache: &Cache, quick: bool) -> Result<(Vec<Contender>,
 
 type Built<'a> = (&'a str, Result<Vec<Contender>>);
 
-/// Runs jobs in two threads; the results come in the order of the jobs.
+/// Runs jobs in two threads, and returns their results in order.
 fn side_by_side<'a>(jobs: Vec<(&'a str, Job<'a>)>) -> Vec<Built<'a>> {
     let queue = Mutex::new(jobs.into_iter().enumerate());
     let done = Mutex::new(Vec::new());

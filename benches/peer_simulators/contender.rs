@@ -1,4 +1,4 @@
-//! A simulator, as it stands in the table.
+//! Simulators to compare.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,17 +11,17 @@ use tofsim::sim::setup::Setup;
 use crate::run::{self, Output};
 use crate::{Expected, Result};
 
-/// Shots of a frame, if nothing else is said.
+/// Default number of shots per frame.
 pub const SHOTS: u64 = 30_000;
-/// Shots of a short frame.
+/// Number of shots of a short frame.
 pub const FEW_SHOTS: u64 = 300;
 
-/// What is timed.
+/// Kind of work to time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Work {
-    /// A frame, every cycle.
+    /// A frame, simulating every cycle.
     Cycle,
-    /// A frame, cycles without an event skipped.
+    /// A frame, skipping cycles without an event.
     CycleSkip,
     /// A frame, shot by shot.
     Shot,
@@ -34,11 +34,11 @@ pub enum Work {
 }
 
 impl Work {
-    /// In the order of the report.
+    /// All kinds, in the order of the report.
     pub const ALL: [Work; 6] =
         [Work::Cycle, Work::CycleSkip, Work::Shot, Work::Histogram, Work::Vcd, Work::Fst];
 
-    /// Its name in the report.
+    /// Returns its name in the report.
     pub fn name(self) -> &'static str {
         match self {
             Work::Cycle => "cycle",
@@ -50,7 +50,7 @@ impl Work {
         }
     }
 
-    /// The work of a peer that stands against it.
+    /// Returns the kind of work of a peer with which to compare.
     pub fn of_peer(self) -> Work {
         match self {
             Work::Vcd | Work::Fst => self,
@@ -58,7 +58,7 @@ impl Work {
         }
     }
 
-    /// Where its waveform goes, if it has one.
+    /// Returns the path of its waveform, if it writes one.
     pub fn waveform(self, folder: &Path) -> Option<PathBuf> {
         match self {
             Work::Vcd => Some(PathBuf::from("/dev/null")),
@@ -68,31 +68,31 @@ impl Work {
     }
 }
 
-/// How a peer is called.
+/// Method of running a peer.
 #[derive(Clone, Debug)]
 pub enum Call {
     /// A driver with the arguments and output of `protocol.h`.
     Driver(PathBuf),
-    /// `vvp` with that file.
+    /// `vvp` with the given file.
     Vvp(PathBuf),
 }
 
 /// A peer.
 #[derive(Clone, Debug)]
 pub struct Contender {
-    /// Its name.
+    /// Name of the simulator.
     pub simulator: &'static str,
-    /// Which sources and which driver.
+    /// Sources and driver.
     pub variant: &'static str,
-    /// What it does.
+    /// Kind of work.
     pub work: Work,
-    /// How it is called.
+    /// Method of running it.
     pub call: Call,
-    /// Frames of a timing.
+    /// Number of frames per timing.
     pub frames: u64,
-    /// Shots of a frame.
+    /// Number of shots per frame.
     pub shots: u64,
-    /// Takes seconds, and gets fewer rounds.
+    /// Whether it takes seconds, and has fewer rounds.
     pub is_slow: bool,
 }
 
@@ -107,7 +107,7 @@ impl fmt::Display for Contender {
 }
 
 impl Contender {
-    /// Runs that many frames.
+    /// Runs a number of frames.
     pub fn run(&self, context: &Context, frames: u64) -> Result<Output> {
         let waveform = self.work.waveform(&context.folder);
         match &self.call {
@@ -121,7 +121,7 @@ impl Contender {
         }
     }
 
-    /// A timing, checked [ms for a frame of 30,000 shots].
+    /// Times the peer, and checks its results [ms per frame of 30,000 shots].
     pub fn time(&self, context: &Context) -> Result<f64> {
         let output = self.run(context, self.frames)?;
         let expected = context.expected(self.shots);
@@ -131,23 +131,23 @@ impl Contender {
     }
 }
 
-/// What the runs at one laser rate share.
+/// Settings shared by all runs at one laser rate.
 pub struct Context {
-    /// Where the ROMs' paths start.
+    /// Folder to which the ROMs' paths are relative.
     pub root: PathBuf,
-    /// Where files go.
+    /// Folder of output files.
     pub folder: PathBuf,
-    /// The laser's rate.
+    /// Laser repetition rate.
     pub laser_freq: u8,
-    /// tofsim, set up.
+    /// Setup of tofsim.
     pub setup: Setup,
     photons: PathBuf,
-    /// By shots of a frame.
+    /// Expected results, by shots per frame.
     expected: BTreeMap<u64, Expected>,
 }
 
 impl Context {
-    /// Runs tofsim for the photons and for what the peers have to give.
+    /// Runs tofsim for the photons and the expected results.
     pub fn new(root: &Path, folder: &Path, laser_freq: u8) -> Result<Self> {
         let (root, folder) = (root.to_path_buf(), folder.to_path_buf());
         let photons = folder.join(format!("photons_{laser_freq}.txt"));
@@ -159,7 +159,7 @@ impl Context {
         Ok(Context { root, folder, laser_freq, setup, photons, expected })
     }
 
-    /// What frames of so many shots have to give.
+    /// Returns the expected results of frames with `shots` shots.
     pub fn expected(&self, shots: u64) -> &Expected {
         &self.expected[&shots]
     }

@@ -1,4 +1,4 @@
-//! tofsim's photons, and what a peer has to make of them.
+//! Photons from tofsim, and the results expected of a peer.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -13,19 +13,19 @@ use tofsim::sim::shot_recorder::Shot;
 use crate::Result;
 use crate::run::PeerFrame;
 
-/// A frame, the same again and again.
+/// Expected result of a frame, which repeats.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Expected {
-    /// The estimator's word, 36 bits.
+    /// Depth word of the estimator, 36 bits.
     pub depth: u64,
-    /// Shots of a frame.
+    /// Number of shots per frame.
     pub shots: u64,
-    /// From the end of a frame to that of the next [cycles of clk_sys].
+    /// Cycles between the ends of two frames [cycles of clk_sys].
     pub period: u64,
 }
 
 impl Expected {
-    /// Runs a frame and writes its photons: a line a shot, from the laser edge, or -1 [fs].
+    /// Runs a frame and writes its photons: one line per shot, the time from the laser edge or -1 [fs].
     pub fn of(setup: &Setup, photons: &Path) -> Result<Self> {
         let mut list = String::new();
         let mut frames = Vec::new();
@@ -53,7 +53,7 @@ impl Expected {
         Ok(Expected { depth, shots, period: frame.frame_cycles + 1 })
     }
 
-    /// Compares a peer's frames, from the first after power-up.
+    /// Checks a peer's frames, from the first after power-up.
     pub fn check(&self, frames: &[PeerFrame]) -> Result<()> {
         if frames.is_empty() {
             return Err("no frame came".into());

@@ -1,4 +1,4 @@
-//! Icarus Verilog on `rtl_ref`.
+//! Icarus Verilog with the sources in `rtl_ref`.
 
 use std::path::Path;
 use std::process::Command;
@@ -11,7 +11,7 @@ use crate::{Result, run};
 /// Options of every build.
 pub const OPTIONS: &str = "-g2012 -s bench";
 
-/// Builds it; in a hurry with frames of few shots.
+/// Builds the peer; with `quick`, for frames of few shots.
 pub fn contender(root: &Path, cache: &Cache, quick: bool) -> Result<Contender> {
     let shots = if quick { FEW_SHOTS } else { SHOTS };
     let bench = root.join("benches/peer_simulators");

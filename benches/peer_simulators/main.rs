@@ -1,7 +1,7 @@
-//! tofsim beside Verilator and Icarus on the same frames: `benches/peers` (`--help`).
+//! Benchmark of tofsim, Verilator and Icarus on the same frames: `benches/peers` (`--help`).
 //!
-//! Builds the peers, checks that all give tofsim's depth, shots and cycles, then times them in turn
-//! on one core. tofsim draws its photons on the fly; the peers have them in memory.
+//! It builds the peers, checks that all produce tofsim's depth, shots and cycles, and times them in turn on one core.
+//! tofsim draws its photons on the fly; the peers have them in memory.
 
 mod builds;
 mod compilers;
@@ -27,7 +27,7 @@ use expected::Expected;
 use report::Report;
 use rounds::Plan;
 
-/// What can go wrong.
+/// Any error.
 type Fault = Box<dyn std::error::Error + Send + Sync>;
 /// Shorthand.
 type Result<T> = std::result::Result<T, Fault>;
@@ -42,13 +42,13 @@ pub struct Args {
     /// Print one JSON object instead of tables
     #[arg(long)]
     json: bool,
-    /// End within two minutes: fewer repetitions, and Icarus on frames of 300 shots
+    /// Finish within two minutes: fewer repetitions, and Icarus with frames of 300 shots
     #[arg(long)]
     quick: bool,
     /// Core to run on [default: the last one]
     #[arg(long, value_name = "N")]
     core: Option<usize>,
-    /// As cargo calls us
+    /// Flag that cargo passes to benchmarks
     #[arg(long, hide = true)]
     bench: bool,
 }
@@ -80,14 +80,17 @@ fn compare(args: &Args) -> Result<()> {
     report.print(args.json)
 }
 
-/// Where photons and waveforms go: memory, if there is a place in it.
+/// Creates a folder for photons and waveforms, in memory if possible.
 fn scratch() -> Result<tempfile::TempDir> {
     let memory = Path::new("/dev/shm");
     let folder = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() };
     Ok(folder?)
 }
 
-/// That every peer gives tofsim's frames; the error names those which do not.
+/// Checks that every peer produces tofsim's frames.
+///
+/// # Errors
+/// The names of the peers that do not.
 fn check(peers: &[Contender], context: &Context) -> Result<()> {
     let mut differing = Vec::new();
     for peer in peers.iter().filter(|peer| peer.work == Work::Cycle && !peer.is_slow) {

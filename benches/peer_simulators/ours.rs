@@ -1,4 +1,4 @@
-//! tofsim's side: a function for each kind of work.
+//! tofsim's implementation of each kind of work.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -16,12 +16,12 @@ use tofsim::waves::{WaveFormat, Waves};
 use crate::Result;
 use crate::contender::Work;
 
-/// A timing lasts at least about so long.
+/// Approximate minimum duration of a timing.
 const LONG_ENOUGH: Duration = Duration::from_millis(60);
-/// Frames of a timing at most.
+/// Largest number of frames of a timing.
 const MOST_FRAMES: u32 = 10_000;
 
-/// Frames that make a timing long enough.
+/// Returns the number of frames for a sufficiently long timing.
 pub fn frames(work: Work, setup: &Setup, folder: &Path) -> Result<u64> {
     let begun = Instant::now();
     run(work, setup, 1, folder)?;
@@ -29,7 +29,7 @@ pub fn frames(work: Work, setup: &Setup, folder: &Path) -> Result<u64> {
     Ok(LONG_ENOUGH.as_nanos().div_ceil(took).clamp(1, MOST_FRAMES.into()) as u64)
 }
 
-/// A timing [ms a frame].
+/// Times one kind of work [ms per frame].
 pub fn time(work: Work, setup: &Setup, frames: u64, folder: &Path) -> Result<f64> {
     let begun = Instant::now();
     run(work, setup, frames, folder)?;
@@ -47,17 +47,17 @@ fn run(work: Work, setup: &Setup, frames: u64, folder: &Path) -> Result<()> {
     }
 }
 
-/// Every cycle.
+/// Simulates every cycle.
 fn cycle(setup: &Setup, frames: u64) -> Result<()> {
     at(Stepping::EveryCycle, setup, frames)
 }
 
-/// Idle cycles skipped.
+/// Skips idle cycles.
 fn cycle_skip(setup: &Setup, frames: u64) -> Result<()> {
     at(Stepping::SkipIdle, setup, frames)
 }
 
-/// Shot by shot.
+/// Simulates shot by shot.
 fn shot(setup: &Setup, frames: u64) -> Result<()> {
     at(Stepping::LeapShots, setup, frames)
 }
@@ -67,7 +67,7 @@ fn at(stepping: Stepping, setup: &Setup, frames: u64) -> Result<()> {
     Ok(())
 }
 
-/// The frame's histogram at once; the probabilities are worked out once for all frames.
+/// Draws each frame's histogram at once; the probabilities are computed once for all frames.
 fn histogram(setup: &Setup, frames: u64) -> Result<()> {
     let histograms = Histograms::new(setup)?;
     for index in 0..frames {
@@ -76,7 +76,7 @@ fn histogram(setup: &Setup, frames: u64) -> Result<()> {
     Ok(())
 }
 
-/// Every cycle, every signal of the whole run in a waveform.
+/// Simulates every cycle, and writes every signal to a waveform.
 fn waveform(setup: &Setup, frames: u64, format: WaveFormat, path: Option<&Path>) -> Result<()> {
     let path = path.ok_or("a waveform needs a path")?;
     let (entries, encoder) = (hierarchy::entries(&setup.params), &setup.params.tdc.decoder.encoder);

@@ -1,4 +1,4 @@
-//! Keeps this process, and what it starts from then on, to one core.
+//! Pinning of this process and its children to one core.
 
 use std::num::NonZero;
 use std::process::{self, Command};
@@ -7,7 +7,7 @@ use std::thread;
 use crate::Result;
 use crate::run;
 
-/// Pins to `core`, or the last one. Returns what to say about it.
+/// Pins the process to `core` or the last core, and returns a description.
 pub fn pin(core: Option<usize>) -> Result<String> {
     let cores = thread::available_parallelism().map_or(1, NonZero::get);
     let core = core.unwrap_or(cores - 1);

@@ -1,4 +1,4 @@
-//! Medians, spreads and ratios, as tables or as JSON.
+//! Medians, spreads and ratios, as tables or JSON.
 
 use std::env;
 
@@ -13,24 +13,24 @@ use crate::{Result, icarus, verilator, versions};
 const PHOTONS_OF_PEERS: &str = "in memory";
 const PHOTONS_OF_TOFSIM: &str = "drawn on the fly";
 
-/// What is printed.
+/// Results to print.
 pub struct Report {
     notes: Vec<String>,
     pinned: String,
     measured: Vec<(u8, Vec<Measured>)>,
 }
 
-/// tofsim and Verilator at the same work.
+/// tofsim and Verilator at the same kind of work.
 struct Row {
     work: Work,
     laser_freq: u8,
     tofsim_ms: f64,
-    /// The fastest of Verilator's models.
+    /// Median of the fastest Verilator model [ms].
     verilator_ms: f64,
 }
 
 impl Report {
-    /// Without timings yet.
+    /// Creates a report without timings.
     pub fn new(notes: Vec<String>, pinned: String) -> Self {
         Report { notes, pinned, measured: Vec::new() }
     }
@@ -40,7 +40,7 @@ impl Report {
         self.measured.push((laser_freq, measured.to_vec()));
     }
 
-    /// Prints it: to stdout, but notes beside JSON to stderr.
+    /// Prints the report to stdout; beside JSON, notes go to stderr.
     pub fn print(&self, json: bool) -> Result<()> {
         let notes = self.notes.iter().chain([&self.pinned]);
         if json {
@@ -145,7 +145,7 @@ fn is_verilator(peer: Option<&Contender>) -> bool {
     peer.is_some_and(|peer| peer.simulator == "verilator")
 }
 
-/// The shortest median of those peers, or of tofsim, at that work [ms].
+/// Returns the shortest median among the selected contenders at a kind of work [ms].
 fn best(measured: &[Measured], work: Work, of: impl Fn(Option<&Contender>) -> bool) -> f64 {
     let same = |one: &&Measured| one.work == work && of(one.peer.as_ref());
     measured.iter().filter(same).map(Measured::median).fold(f64::NAN, f64::min)
@@ -176,7 +176,7 @@ fn plain(header: &[&str]) -> Table {
     table
 }
 
-/// Aligns columns to the right, from the given one on.
+/// Right-aligns the columns from `from` on.
 fn right(mut table: Table, from: usize) -> Table {
     for column in table.column_iter_mut().skip(from) {
         column.set_cell_alignment(CellAlignment::Right);
@@ -184,7 +184,7 @@ fn right(mut table: Table, from: usize) -> Table {
     table
 }
 
-/// Three digits that count.
+/// Formats a number with three significant digits.
 fn digits(value: f64) -> String {
     let decimals =
         if value >= 100.0 { 0 } else { (2.0 - value.log10().floor()).clamp(0.0, 6.0) as usize };

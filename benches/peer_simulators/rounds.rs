@@ -1,34 +1,34 @@
-//! The timings: one of each contender a round, so that all see the same machine.
+//! Timings in rounds, one of each contender per round, so that all see the same machine load.
 
 use std::time::Instant;
 
 use crate::contender::{Contender, Context, Work};
 use crate::{Result, ours};
 
-/// Rounds that are made even if time is short.
+/// Smallest number of rounds, even if time is short.
 const FEWEST: usize = 2;
 
-/// How many rounds.
+/// Number of rounds, and time limit.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// Rounds.
+    /// Number of rounds.
     pub rounds: usize,
-    /// Rounds of contenders that take seconds.
+    /// Number of rounds for contenders that take seconds.
     pub slow_rounds: usize,
-    /// When the last round has to begin.
+    /// Time after which no round begins.
     pub until: Option<Instant>,
 }
 
-/// A contender's timings.
+/// Timings of a contender.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// The peer, or tofsim.
+    /// Peer; `None` for tofsim.
     pub peer: Option<Contender>,
-    /// What was timed.
+    /// Kind of work.
     pub work: Work,
-    /// Each timing, sorted [ms].
+    /// Timings, sorted [ms].
     times: Vec<f64>,
-    /// Frames of a timing.
+    /// Number of frames per timing.
     frames: u64,
 }
 
@@ -55,23 +55,23 @@ impl Measured {
         self.peer.as_ref().is_some_and(|peer| peer.is_slow)
     }
 
-    /// Who.
+    /// Returns the name of the contender.
     pub fn name(&self) -> String {
         self.peer.as_ref().map_or_else(|| "tofsim".into(), Contender::to_string)
     }
 
-    /// Median [ms].
+    /// Returns the median [ms].
     pub fn median(&self) -> f64 {
         let (half, last) = (self.times.len() / 2, self.times.len().saturating_sub(1));
         (self.at(half) + self.at(last - last.min(half))) / 2.0
     }
 
-    /// Shortest [ms].
+    /// Returns the shortest timing [ms].
     pub fn min(&self) -> f64 {
         self.at(0)
     }
 
-    /// Longest [ms].
+    /// Returns the longest timing [ms].
     pub fn max(&self) -> f64 {
         self.at(self.times.len().saturating_sub(1))
     }
@@ -80,7 +80,7 @@ impl Measured {
         self.times.get(index).copied().unwrap_or(f64::NAN)
     }
 
-    /// How many timings.
+    /// Returns the number of timings.
     pub fn count(&self) -> usize {
         self.times.len()
     }

@@ -1,4 +1,4 @@
-//! Calls a peer and reads what it prints.
+//! Execution of a peer, and parsing of its output.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
@@ -6,27 +6,27 @@ use std::time::Instant;
 
 use crate::Result;
 
-/// A frame that a peer has finished.
+/// A frame of a peer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PeerFrame {
-    /// The estimator's word, 36 bits.
+    /// Depth word of the estimator, 36 bits.
     pub depth: u64,
-    /// Shots of the frame.
+    /// Number of shots in the frame.
     pub shots: u64,
-    /// Edge of clk_sys, from the first, at which `algo_done` rose.
+    /// Number of the edge of clk_sys at which `algo_done` rose.
     pub edge: u64,
 }
 
-/// What a run gave.
+/// Output of a run.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// Its frames.
+    /// Frames.
     pub frames: Vec<PeerFrame>,
     /// Time of the frames [s].
     pub seconds: f64,
 }
 
-/// A driver that times itself (`protocol.h`).
+/// Runs a driver, which times itself (`protocol.h`).
 pub fn driver(command: &mut Command) -> Result<Output> {
     let text = stdout(command)?;
     let seconds = text.lines().find_map(|line| line.strip_prefix("seconds ")).unwrap_or("");
@@ -34,7 +34,7 @@ pub fn driver(command: &mut Command) -> Result<Output> {
     Ok(Output { frames: frames(&text)?, seconds })
 }
 
-/// Icarus, which cannot: the time from its line `begin` to its end.
+/// Runs Icarus, and measures the time from its line `begin` to its end.
 pub fn vvp(command: &mut Command) -> Result<Output> {
     let mut child = command.stdout(Stdio::piped()).spawn()?;
     let (mut text, mut begun) = (String::new(), None);
@@ -53,7 +53,7 @@ pub fn vvp(command: &mut Command) -> Result<Output> {
     }
 }
 
-/// What a command prints, if it ends well.
+/// Returns the standard output of a successful command.
 pub fn stdout(command: &mut Command) -> Result<String> {
     let output = command.output().map_err(|fault| format!("cannot run {command:?}: {fault}"))?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();

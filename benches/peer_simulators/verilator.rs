@@ -1,4 +1,4 @@
-//! Verilator, on `rtl_ref` as it stands and with the fastest decoder.
+//! Verilator, with the sources in `rtl_ref` and with the fastest decoder.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,10 +10,10 @@ use crate::{Result, run};
 
 /// Options of every build.
 pub const COMMON: &str = "--cc --exe --build -O3 --x-assign fast --x-initial fast --noassert";
-/// Options of the C++ compiler for all that runs each cycle.
+/// C++ compiler options for code that runs in each cycle.
 pub const OPT_FAST: &str = "-O3 -march=native";
 
-/// A way to build the model.
+/// A variant of the model.
 pub struct Variant {
     name: &'static str,
     variant: &'static str,
@@ -25,7 +25,7 @@ pub struct Variant {
     frames: u64,
 }
 
-/// The model as a user gets it.
+/// The model with default options.
 const REFERENCE: Variant = Variant {
     name: "verilator_ref",
     variant: "rtl_ref",
@@ -37,7 +37,7 @@ const REFERENCE: Variant = Variant {
     frames: 2,
 };
 
-/// The ways that are timed.
+/// Variants to time.
 pub const VARIANTS: [Variant; 4] = [
     REFERENCE,
     Variant {
@@ -69,7 +69,7 @@ pub const VARIANTS: [Variant; 4] = [
 ];
 
 impl Variant {
-    /// Builds it.
+    /// Builds the peer.
     pub fn contender(&self, root: &Path, cache: &Cache) -> Result<Contender> {
         let bench = root.join("benches/peer_simulators");
         let verilog = self.sources.files(root)?;
@@ -90,7 +90,7 @@ impl Variant {
         })
     }
 
-    /// What its build depends on beside its sources.
+    /// Returns the inputs of the build other than its sources.
     fn flags(&self) -> Vec<String> {
         let own = [self.define, self.link, OPT_FAST, COMMON];
         own.iter().chain(self.options).map(|flag| flag.to_string()).collect()

@@ -1,5 +1,5 @@
-//! The functions that are called from outside. Every one of them takes any argument: what is wrong becomes an error
-//! of the handle, or of null where there is none.
+//! The exported C functions. Each accepts any argument: invalid ones become an error of the handle, or of null if
+//! there is none.
 #![allow(unsafe_code, reason = "strings and vectors of C are read here")]
 
 use std::ffi::{CStr, c_char, c_int, c_longlong, c_void};
@@ -11,10 +11,10 @@ use crate::held::{What, delete, errors, make, with};
 use crate::photons::Source;
 use crate::told::{self, check_version};
 
-/// The text of a string of C.
+/// Returns the text of a C string.
 ///
 /// # Safety
-/// It is null, or ends with a zero.
+/// The pointer is null, or the string ends with a zero.
 unsafe fn text<'a>(what: &str, string: *const c_char) -> Result<&'a str, String> {
     if string.is_null() {
         return Err(format!("{what} is null"));
@@ -24,10 +24,10 @@ unsafe fn text<'a>(what: &str, string: *const c_char) -> Result<&'a str, String>
     string.to_str().map_err(|_| format!("{what} is not UTF-8: {}", string.to_string_lossy()))
 }
 
-/// A vector of bits, the lowest word first.
+/// Returns a bit vector, least significant word first.
 ///
 /// # Safety
-/// It is null, or has so many words.
+/// The pointer is null, or the vector has `count` words.
 unsafe fn vector<'a>(what: &str, words: *const u32, count: usize) -> Result<&'a [u32], String> {
     match (count, words.is_null()) {
         (0, _) => Ok(&[]),

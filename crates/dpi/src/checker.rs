@@ -1,4 +1,4 @@
-//! A block of the model beside one of the bench's.
+//! A model block that runs in parallel with the bench's block.
 
 use tofsim_rtl::block::{Block, Mismatch};
 
@@ -6,7 +6,7 @@ use crate::told;
 
 pub struct Checker {
     pub block: Block,
-    /// Bits of the next step's outputs that are neither 0 nor 1.
+    /// Mask of the next step's output bits that are neither 0 nor 1.
     pub unknown: Vec<u32>,
 }
 
@@ -16,7 +16,7 @@ impl Checker {
         Ok(Checker { block, unknown: Vec::new() })
     }
 
-    /// Whether the bench's port is as wide as the model's.
+    /// Checks that the bench's port has the width of the model's.
     pub fn check_port(&self, name: &str, bits: i32) -> Result<(), String> {
         let block = self.block.name();
         let Some(port) = self.block.ports().iter().find(|port| port.name == name) else {
@@ -32,7 +32,7 @@ impl Checker {
         }
     }
 
-    /// Compares outputs just before an edge, and takes it; a sentence for each that differs.
+    /// Compares outputs just before an edge, processes the edge, and returns a message for each output that differs.
     pub fn step(
         &mut self,
         edge: i32,

@@ -1,4 +1,4 @@
-//! What handles stand for, and the errors of each.
+//! Objects behind handles, and the errors of each.
 
 use std::collections::BTreeMap;
 use std::ffi::CString;
@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use crate::checker::Checker;
 use crate::photons::Source;
 
-/// What has been made, by the numbers that are its handles; 0 has the errors of what could not be.
+/// All objects, by handle; 0 has the errors of objects that could not be created.
 static HELD: Mutex<All> = Mutex::new(All { last: 0, held: BTreeMap::new() });
 
 struct All {
@@ -16,7 +16,7 @@ struct All {
     held: BTreeMap<usize, Held>,
 }
 
-/// What a handle stands for.
+/// An object behind a handle.
 #[derive(Default)]
 pub struct Held {
     pub errors: Vec<CString>,
@@ -25,7 +25,7 @@ pub struct Held {
 
 #[derive(Default)]
 pub enum What {
-    /// What belongs to none.
+    /// No object, only errors.
     #[default]
     Nothing,
     Checker(Box<Checker>),
@@ -33,7 +33,7 @@ pub enum What {
 }
 
 impl Held {
-    /// Keeps an error, of which a zero would be the end in C.
+    /// Records an error. Zeros in its text, which would end a C string, are replaced.
     pub fn say(&mut self, error: impl ToString) {
         let text = error.to_string().replace('\0', " ");
         self.errors.extend(CString::new(text));
@@ -54,7 +54,7 @@ impl Held {
     }
 }
 
-/// Makes something; its handle, or 0.
+/// Creates an object, and returns its handle, or 0.
 pub fn make(function: &str, run: impl FnOnce() -> Result<What, String>) -> usize {
     let made = guarded(run);
     let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
@@ -72,7 +72,7 @@ pub fn make(function: &str, run: impl FnOnce() -> Result<What, String>) -> usize
     }
 }
 
-/// Does something with what a handle stands for; `otherwise` if that fails, which is kept as an error.
+/// Calls a function with the object behind a handle. If it fails, the error is recorded and `otherwise` is returned.
 pub fn with<T>(
     function: &str,
     handle: usize,
@@ -98,7 +98,7 @@ pub fn with<T>(
     })
 }
 
-/// Does something with the errors of a handle, or of none.
+/// Calls a function with the errors of a handle, or of null.
 pub fn errors<T>(handle: usize, run: impl FnOnce(&mut Vec<CString>) -> T) -> T {
     let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
     let known = all.held.contains_key(&handle);
@@ -106,13 +106,13 @@ pub fn errors<T>(handle: usize, run: impl FnOnce(&mut Vec<CString>) -> T) -> T {
     run(&mut held.errors)
 }
 
-/// Takes a handle back.
+/// Deletes the object behind a handle.
 pub fn delete(handle: usize) {
     let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
     all.held.remove(&handle);
 }
 
-/// A panic is an error like others.
+/// Converts a panic to an error.
 fn guarded<T>(run: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());

@@ -1,8 +1,8 @@
-//! tofsim inside somebody else's bench: blocks of the model beside theirs, and photons for their design, behind
-//! functions of C that SystemVerilog imports.
+//! tofsim within a test bench: model blocks that run in parallel with the design's, and photons for the design,
+//! behind C functions that SystemVerilog imports.
 //!
-//! `border` holds what is called from outside; all else is plain Rust. A handle is a number that is looked up, so
-//! that a null, stale or foreign one is an error with a name and nothing worse, and no panic gets out.
+//! `border` contains the exported functions; the rest is plain Rust. A handle is a number that is looked up, so that
+//! a null, stale or foreign one is merely an error, and panics do not cross the boundary.
 
 mod border;
 mod checker;

@@ -1,4 +1,4 @@
-//! Photons and the detector for a design of the bench's.
+//! Photons and the detector, for the bench's design.
 
 use tofsim::sim::photons::{Photons, Shown};
 
@@ -18,7 +18,7 @@ impl Source {
         Ok(())
     }
 
-    /// The next change of `tdc_stop` that no edge comes before [fs], or -1.
+    /// Returns the next change of `tdc_stop` that precedes the coming edge or coincides with it [fs], or -1.
     pub fn next_change(&mut self) -> i64 {
         self.photons.next_change().map_or(-1, |time| time.fs() as i64)
     }

@@ -1,4 +1,4 @@
-//! What a bench tells in words and numbers.
+//! Conversion of arguments from the bench.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use tofsim::Setup;
 use tofsim::kernel::Time;
 use tofsim_rtl::golden::model::Edge;
 
-/// The scenario of a text: its name or path, and in further lines `key=value` overrides.
+/// Loads a scenario from its name or path, followed by `key=value` overrides in further lines.
 pub fn setup(text: &str) -> Result<Arc<Setup>, String> {
     let mut lines = text.lines().map(str::trim);
     let name = lines.next().unwrap_or_default();
@@ -14,7 +14,7 @@ pub fn setup(text: &str) -> Result<Arc<Setup>, String> {
     Setup::load(name, &set).map(Arc::new).map_err(|error| error.to_string())
 }
 
-/// Whether the other side was written by this version.
+/// Checks that the caller was written for this version.
 pub fn check_version(version: &str) -> Result<(), String> {
     let own = env!("CARGO_PKG_VERSION");
     match version == own {
@@ -25,7 +25,7 @@ pub fn check_version(version: &str) -> Result<(), String> {
     }
 }
 
-/// What an edge's number in C means; 0 is none, a look only.
+/// Converts the C number of an edge; 0 is a comparison without an edge.
 pub fn edge(number: i32) -> Result<Option<Edge>, String> {
     match number {
         0 => Ok(None),
@@ -36,7 +36,7 @@ pub fn edge(number: i32) -> Result<Option<Edge>, String> {
     }
 }
 
-/// An instant of the bench's clock [fs].
+/// Converts a time of the bench [fs].
 pub fn instant(time_fs: i64) -> Result<Time, String> {
     match u64::try_from(time_fs) {
         Ok(fs) if fs < u64::MAX / 2 => Ok(Time::from_fs(fs)),

@@ -1,4 +1,4 @@
-//! The functions as a program in C calls them.
+//! Tests of the functions, called as from C.
 #![allow(unsafe_code, reason = "the functions take pointers")]
 
 use std::ffi::{CStr, CString, c_void};
@@ -17,7 +17,7 @@ fn new(version: &CStr, scenario: &str, block: &str) -> *mut c_void {
     unsafe { tofsim_new(version.as_ptr(), scenario.as_ptr(), block.as_ptr()) }
 }
 
-/// The last error of a handle.
+/// Returns the last error of a handle.
 fn error(handle: *mut c_void) -> String {
     let last = tofsim_get_error(handle, tofsim_get_num_errors(handle) - 1);
     unsafe { CStr::from_ptr(last) }.to_str().unwrap().to_owned()

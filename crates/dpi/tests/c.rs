@@ -1,4 +1,4 @@
-//! The example in C, with either library.
+//! Tests of the C example, with the shared and the static library.
 
 use std::process::Command;
 

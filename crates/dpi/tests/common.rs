@@ -1,4 +1,4 @@
-//! Benches with checkers, compiled by Verilator and run.
+//! Benches with checkers, compiled and run with Verilator.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,12 +7,12 @@ use std::sync::Arc;
 use tofsim::Setup;
 use tofsim_rtl::checkers::{Checkers, blocks_of};
 
-/// The root of the repository.
+/// Returns the root of the repository.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
-/// The folder with the library: that of the tests, since what they are built with is put nowhere else.
+/// Returns the folder of the library, which is that of the test executables.
 pub fn library() -> PathBuf {
     let own = std::env::current_exe().unwrap();
     let folder = own.parent().unwrap().to_owned();
@@ -20,7 +20,7 @@ pub fn library() -> PathBuf {
     folder
 }
 
-/// The design: every file of rtl_ref but the tops of boards, which have primitives of their makers.
+/// Returns the files of the design: all of rtl_ref except the board tops, which use vendor primitives.
 pub fn design() -> Vec<PathBuf> {
     let files = std::fs::read_dir(root().join("rtl_ref")).unwrap().map(|file| file.unwrap().path());
     let is_board = |name: &str| ["kc705_top.v", "ecp5_top.v"].contains(&name);
@@ -32,7 +32,7 @@ pub fn design() -> Vec<PathBuf> {
     files
 }
 
-/// Writes the checkers of a scenario, for those blocks or all.
+/// Writes the checkers of a scenario, for the given blocks or all.
 pub fn write(folder: &Path, (scenario, set): (&str, &[&str]), blocks: Option<&[&str]>) {
     let setup = Arc::new(Setup::load(scenario, set).unwrap());
     let all: Vec<_> = blocks_of(&setup).iter().map(|spec| spec.name).collect();
@@ -45,7 +45,7 @@ pub fn write(folder: &Path, (scenario, set): (&str, &[&str]), blocks: Option<&[&
     std::fs::write(folder.join("tofsim_vpi.v"), checkers.verilog()).unwrap();
 }
 
-/// Builds and runs the example's bench with a design by the Makefile that `tofsim dpi` writes.
+/// Builds and runs the example's bench with a design, by the Makefile that `tofsim dpi` writes.
 pub fn make(folder: &Path, target: &str, design: &[PathBuf], plusargs: &str) -> Run {
     let own = [
         ("crates/cli/src/verbs/dpi/bench.mk", "Makefile"),
@@ -75,13 +75,13 @@ pub fn make(folder: &Path, target: &str, design: &[PathBuf], plusargs: &str) -> 
     Run { text: text(&run.stdout) + &text(&run.stderr), is_fine: run.status.success() }
 }
 
-/// What a simulation printed, and whether it came to its end.
+/// Output of a simulation, and whether it reached its end.
 pub struct Run {
     pub text: String,
     pub is_fine: bool,
 }
 
-/// Compiles files with the checkers in a folder; the program.
+/// Compiles files with the checkers in a folder, and returns the program.
 pub fn compile(folder: &Path, top: &str, files: &[PathBuf], options: &[&str]) -> PathBuf {
     let checkers =
         ["tofsim_pkg.sv", "tofsim_photons.sv", "tofsim_checkers.sv"].map(|name| folder.join(name));

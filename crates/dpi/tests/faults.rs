@@ -1,4 +1,5 @@
-//! Planted faults of tests/mutants.list: a bench of golden vectors and a checker find each at the same place.
+//! Tests with planted faults of tests/mutants.list: a bench of golden vectors and a checker find each fault at the
+//! same place.
 
 use std::path::PathBuf;
 
@@ -10,7 +11,7 @@ use tofsim_rtl::golden::{Setting, blocks};
 
 use super::common::{Run, compile, design, root, run, write};
 
-/// Blocks whose vectors are of ROMs or of a calibration that the scenario does not have.
+/// Blocks whose vectors use ROMs or a calibration that the scenario does not have.
 const OTHERS: [&str; 7] = [
     "tdc_calibration",
     "tdc_decoder",
@@ -21,7 +22,7 @@ const OTHERS: [&str; 7] = [
     "tansig",
 ];
 
-/// A fault: the file, the text around it, and what it changes.
+/// A fault: the file, the surrounding text, and its replacement.
 #[derive(Clone, Debug)]
 struct Fault {
     file: String,
@@ -51,7 +52,7 @@ impl Fault {
     }
 }
 
-/// The faults of the KC705 that a bench can tell, of blocks whose vectors are of a scenario's ROMs.
+/// Returns the KC705's faults that a bench can detect, in blocks whose vectors use the scenario's ROMs.
 fn faults() -> Vec<Fault> {
     let list = std::fs::read_to_string(root().join("tests/mutants.list")).unwrap();
     let own = list.lines().take_while(|line| !line.starts_with("scenario: "));
@@ -60,12 +61,13 @@ fn faults() -> Vec<Fault> {
     faults.filter(|fault| !OTHERS.contains(&fault.block())).collect()
 }
 
-/// The cycle that a line begins with.
+/// Returns the cycle number at the start of a line.
 fn cycle(line: &str) -> &str {
     line.split_once(',').unwrap().0
 }
 
-/// Cycle, port, expected and got of the mismatches of the first cycle that has one, as `of` reads a line.
+/// Returns cycle, port, expected and actual value of the mismatches in the first cycle that has one; `of` parses a
+/// line.
 fn first<'a>(run: &'a Run, of: impl Fn(&'a str) -> Option<&'a str>) -> Vec<String> {
     let lines: Vec<_> = run.text.lines().filter_map(of).collect();
     let same = lines.iter().filter(|line| cycle(line) == cycle(lines[0]));
@@ -77,7 +79,7 @@ fn first<'a>(run: &'a Run, of: impl Fn(&'a str) -> Option<&'a str>) -> Vec<Strin
     same.map(without_time).collect()
 }
 
-/// Whether the bench and the checker see a fault, if they agree about it.
+/// Returns whether the bench and the checker detect a fault, if they agree.
 fn seen(fault: &Fault) -> Result<bool, String> {
     let (spec, folder) = (blocks::find(fault.block()).unwrap(), tempfile::tempdir().unwrap());
     // As many shots as the block's vectors have; of the whole, a frame as the scenario has it.
@@ -113,7 +115,7 @@ fn seen(fault: &Fault) -> Result<bool, String> {
     }
 }
 
-/// Plants each `every`th fault and asks that at least so many are seen.
+/// Plants every `every`th fault, and asserts that at least `least` are detected.
 fn plant(every: usize, least: usize) {
     let faults: Vec<_> = faults().into_iter().step_by(every).collect();
     let seen: Vec<_> = faults.par_iter().map(seen).collect();

@@ -1,4 +1,4 @@
-//! The header is that of the functions.
+//! Test that the C header matches the functions.
 
 use std::path::Path;
 

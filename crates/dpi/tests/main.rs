@@ -1,4 +1,4 @@
-//! What a bench sees of the library.
+//! Tests of the library as a bench sees it.
 
 mod abi;
 mod c;

@@ -1,8 +1,8 @@
-//! What a bench that does not fit is told.
+//! Tests of the errors for a bench that does not match.
 
 use super::common::{compile, design, root, run, write};
 
-/// The reference's frame controller with its checker, after a change of the checker's package.
+/// Returns the output of the reference's frame controller with its checker, after a change of the checker's package.
 fn said(scenario: (&str, &[&str]), change: impl Fn(String) -> String) -> String {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), scenario, Some(&["frame_ctrl"]));

@@ -1,4 +1,4 @@
-//! The whole reference design with photons and all checkers, as docs/bench.md has it.
+//! Tests of the complete reference design with photons and all checkers, as in docs/bench.md.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use super::common::{Run, compile, design, make, root, run, write};
 
 const SHOTS: &[&str] = &["firmware.shots_per_frame=300"];
 
-/// Its frames as the bench prints them.
+/// Returns the frames as the bench prints them.
 fn frames(count: u64) -> String {
     let setup = Setup::load("kc705", SHOTS).unwrap();
     let frames = tofsim::Run::new(&setup).frames(count).unwrap();
@@ -18,19 +18,19 @@ fn frames(count: u64) -> String {
         .collect()
 }
 
-/// That of a simulation.
+/// Returns the frames in a simulation's output.
 fn printed(run: &Run) -> String {
     let lines = run.text.lines().filter(|line| line.starts_with("frame "));
     lines.map(|line| format!("{line}\n")).collect()
 }
 
-/// The design with a fault in its frame controller: it leaves Clear a word too early.
+/// Returns the design with a fault in its frame controller: it leaves Clear one word too early.
 fn faulty(folder: &Path) -> Vec<PathBuf> {
     let fault = ["(!(&clear_addr))", "(!(&clear_addr[BinBits-1:1]))"];
     with_fault(folder, "frame_ctrl.v", fault)
 }
 
-/// The design with another text at one place of a file.
+/// Returns the design with a text of one file replaced.
 fn with_fault(folder: &Path, name: &str, [old, new]: [&str; 2]) -> Vec<PathBuf> {
     let mut files = design();
     files.retain(|path| !path.ends_with(name));

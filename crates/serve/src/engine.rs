@@ -1,4 +1,4 @@
-//! The thread that simulates, and how the others ask it for something.
+//! The simulating thread, and its request queue.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
@@ -13,42 +13,42 @@ use crate::options::Options;
 use crate::session::request::Request;
 use crate::session::{Reply, Session};
 
-/// Requests that may wait.
+/// Capacity of the request queue.
 const WAITING: usize = 64;
-/// Cycles between two looks at requests: a millisecond.
+/// Number of cycles simulated between checks for requests, about a millisecond.
 const CYCLES: u64 = 1 << 14;
-/// The longest time between two states of a frame that takes long.
+/// Longest time between two published states during a long frame.
 const SHOWN_EVERY: Duration = Duration::from_millis(100);
 
-/// A request, and where its answer goes.
+/// A request, with the channel for its answer.
 struct Asked {
     request: Request,
     answer: oneshot::Sender<Result<Reply>>,
 }
 
-/// What asks the thread that simulates.
+/// Handle of the simulating thread.
 #[derive(Clone)]
 pub struct Engine {
     asked: SyncSender<Asked>,
     states: watch::Receiver<Arc<str>>,
 }
 
-/// Why there is no answer.
+/// Reason why a request has no answer.
 #[derive(Debug)]
 pub enum NoAnswer {
-    /// Too many requests wait.
+    /// The request queue is full.
     Busy,
-    /// The request is wrong, or nothing can be done about it.
+    /// The request is invalid or cannot be carried out.
     Refused(Error),
     /// The thread has ended.
     Gone,
 }
 
 impl Engine {
-    /// Begins a run at power-up.
+    /// Starts a run at power-up.
     ///
     /// # Errors
-    /// When the scenario cannot be run.
+    /// If the scenario cannot be run.
     pub fn start(options: Options) -> Result<Self> {
         let pause = Duration::from_secs(1) / options.rate;
         let mut session = Session::new(options)?;
@@ -60,10 +60,10 @@ impl Engine {
         Ok(Engine { asked, states })
     }
 
-    /// Asks for something, and waits for the answer.
+    /// Sends a request, and waits for the answer.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why there is no answer.
     pub async fn ask(&self, request: Request) -> std::result::Result<Reply, NoAnswer> {
         let (answer, answered) = oneshot::channel();
         self.asked.try_send(Asked { request, answer }).map_err(|error| match error {
@@ -73,23 +73,23 @@ impl Engine {
         answered.await.map_err(|_| NoAnswer::Gone)?.map_err(NoAnswer::Refused)
     }
 
-    /// The states to come; who is slow misses some, and the newest is always there.
+    /// Returns a receiver of the run's states. A slow receiver may miss states, but always sees the newest.
     pub fn states(&self) -> watch::Receiver<Arc<str>> {
         self.states.clone()
     }
 }
 
-/// The thread that simulates.
+/// State of the simulating thread.
 struct Thread {
     session: Session,
     requests: Receiver<Asked>,
     show: watch::Sender<Arc<str>>,
-    /// From the begin of a frame to that of the next one at least.
+    /// Shortest time between the starts of two frames.
     pause: Duration,
 }
 
 impl Thread {
-    /// Until nobody can ask any more.
+    /// Runs until all handles have been dropped.
     fn run(mut self) {
         let (mut begun, mut shown) = (Instant::now(), Instant::now());
         loop {
@@ -120,7 +120,7 @@ impl Thread {
         }
     }
 
-    /// Answers until then, and all that wait.
+    /// Answers requests until the given time, and then all that are queued.
     fn answer_until(&mut self, until: Instant) -> std::result::Result<(), Gone> {
         loop {
             let left = until.saturating_duration_since(Instant::now());
@@ -145,5 +145,5 @@ impl Thread {
     }
 }
 
-/// Nobody can ask any more.
+/// Indication that all handles have been dropped.
 struct Gone;

@@ -1,4 +1,4 @@
-//! What browsers see: the page, states as they come, and requests.
+//! The HTTP server: the page, a stream of states, and requests.
 
 mod answers;
 mod assets;
@@ -30,12 +30,12 @@ use crate::engine::Engine;
 use guard::Guard;
 use shared::Shared;
 
-/// Longest request [bytes]; a set-up of a capture is by far the longest.
+/// Size limit of a request; a probe configuration is by far the longest [bytes].
 const LONGEST: usize = 1 << 16;
-/// Browsers that may follow the run at once.
+/// Largest number of browsers that may follow the run at once.
 const FOLLOWERS: usize = 32;
 
-/// The page, about to be served.
+/// A server that is ready to run.
 pub struct Server {
     listener: TcpListener,
     guard: Arc<Guard>,
@@ -43,10 +43,10 @@ pub struct Server {
 }
 
 impl Server {
-    /// Listens on this computer's own address; port 0 is any that is free.
+    /// Binds to a port on the loopback address; port 0 selects any free one.
     ///
     /// # Errors
-    /// When the port is taken, or the system has no random numbers.
+    /// If the port is taken, or the system has no random numbers.
     pub async fn bind(engine: Engine, port: u16) -> Result<Self> {
         let address = SocketAddr::from((Ipv4Addr::LOCALHOST, port));
         let taken = |error: std::io::Error| Input::new("--port", error).value(port);
@@ -56,15 +56,15 @@ impl Server {
         Ok(Server { listener, guard: Arc::new(guard), engine })
     }
 
-    /// The page's address, with its secret.
+    /// Returns the page's URL, including its token.
     pub fn url(&self) -> String {
         self.guard.url()
     }
 
-    /// Serves the page for as long as the program runs.
+    /// Serves the page until the program ends.
     ///
     /// # Errors
-    /// When the system refuses to go on.
+    /// If the system reports an error.
     pub async fn run(self) -> Result<()> {
         let app = router(self.engine, &self.guard);
         let served = axum::serve(self.listener, app).await;
@@ -94,7 +94,7 @@ fn router(engine: Engine, guard: &Arc<Guard>) -> Router {
         .layer(middleware::from_fn_with_state(Arc::clone(guard), guard::check))
 }
 
-/// States as they come, the present one first.
+/// Streams states as server-sent events, starting with the present one.
 async fn events(State(shared): State<Shared>) -> Response {
     let Ok(place) = shared.followers.try_acquire_owned() else {
         let expected = format!("{FOLLOWERS} browsers follow the run already");

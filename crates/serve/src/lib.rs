@@ -1,7 +1,7 @@
 //! The acquisition computer of the thesis (section 2.4) as a page in a browser on this computer.
 //!
-//! One thread simulates ([`session`], driven by [`engine`]); the others answer browsers ([`http`]). Every browser
-//! sees the same run.
+//! One thread simulates ([`session`], driven by [`engine`]); others answer browsers ([`http`]). All browsers see the
+//! same run.
 
 pub mod engine;
 pub mod http;

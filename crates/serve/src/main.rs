@@ -14,9 +14,9 @@ use tofsim_serve::Options;
 use tofsim_serve::engine::Engine;
 use tofsim_serve::http::Server;
 
-/// Usage or input error.
+/// Exit status for a usage or input error.
 const FAULT: u8 = 2;
-/// Ended by Ctrl-C or from outside.
+/// Exit status for an interruption by Ctrl-C or a signal.
 const INTERRUPTED: u8 = 130;
 
 fn main() -> ExitCode {
@@ -54,7 +54,7 @@ fn serve(options: &Options) -> Result<()> {
     })
 }
 
-/// Prints where the page is.
+/// Prints the page's URL.
 fn say(options: &Options, setup: &Setup, url: &str) -> Result<()> {
     let line = match options.json {
         false => url.to_owned(),

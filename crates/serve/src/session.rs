@@ -1,4 +1,4 @@
-//! The run that every browser sees: what is done to it, and what has become of it.
+//! The run that all browsers see, and the requests that act on it.
 
 mod actions;
 mod analyser;
@@ -40,10 +40,10 @@ mod state;
 
 pub use file::File;
 
-/// Last instant of a run: well within what [`Time`] can count.
+/// Largest simulated time of a run, within the range of [`Time`].
 const LONGEST: Time = Time::from_ns(8 << 40);
 
-/// What a request is answered with.
+/// Answer to a request.
 #[derive(Clone, Debug)]
 pub enum Reply {
     /// The state as JSON.
@@ -52,27 +52,27 @@ pub enum Reply {
     File(File),
 }
 
-/// The run that every browser sees.
+/// The run that all browsers see.
 pub struct Session {
     options: Options,
-    /// The scenario as it was read at the start.
+    /// Scenario as loaded at the start.
     base: Loaded,
-    /// What the scene has been asked to be.
+    /// Changes of the scene, by key.
     scene: BTreeMap<String, f64>,
-    /// The switches.
+    /// Control signals.
     pins: Pins,
     live: Live,
-    /// Of the present frame, and of the next one if that is another.
+    /// Instrument of the present frame; the next one may differ.
     now: Arc<Instrument>,
     next: Option<Arc<Instrument>>,
-    /// At power-up, with the control signals since.
+    /// Setup at power-up, with all changes of control signals since then.
     origin: Arc<Setup>,
     changes: Vec<Control>,
     exact: bool,
     causes: Causes,
     keyframe: Keyframe,
     finished: Option<Finished>,
-    /// Whether a control signal has changed in the present frame.
+    /// Whether a control signal has changed during the present frame.
     mixed: bool,
     frame: Option<FrameView>,
     frame_notes: Vec<String>,
@@ -87,10 +87,10 @@ pub struct Session {
 }
 
 impl Session {
-    /// At power-up.
+    /// Creates a run at power-up.
     ///
     /// # Errors
-    /// When the scenario cannot be run.
+    /// If the scenario cannot be run.
     pub fn new(options: Options) -> Result<Self> {
         let base = options.load(&[])?;
         let setup = Arc::new(Setup::new(base.clone())?);
@@ -128,10 +128,10 @@ impl Session {
         })
     }
 
-    /// Does what a browser asks for.
+    /// Carries out a request.
     ///
     /// # Errors
-    /// What is wrong with the request; nothing has happened then.
+    /// If the request is invalid; it then has no effect.
     pub fn answer(&mut self, request: Request) -> Result<Reply> {
         match request {
             Request::Run(request) => self.run(&request)?,
@@ -151,23 +151,23 @@ impl Session {
         Ok(Reply::State(self.state()))
     }
 
-    /// Whether frames follow each other.
+    /// Returns whether the run is running rather than stopped.
     pub fn is_running(&self) -> bool {
         self.running
     }
 
-    /// Whether the firmware is kept from a frame's end for as long as the switches stay.
+    /// Returns whether the control signals prevent the frame from ending.
     pub fn is_held(&self) -> bool {
         self.held().is_some()
     }
 
-    /// How much of the present frame has gone by [1].
+    /// Returns the completed fraction of the present frame [1].
     pub fn part_of_frame(&self) -> f64 {
         let shots = self.live.setup().shots(1).max(1);
         (self.live.shots_of_frame() as f64 / shots as f64).min(1.0)
     }
 
-    /// Goes on for so many cycles, or to the end of a frame; whether one has ended.
+    /// Simulates up to `cycles` cycles, or to the end of a frame; returns whether a frame ended.
     pub fn advance(&mut self, cycles: u64) -> bool {
         let began = Instant::now();
         let ended = self.step(cycles);
@@ -256,7 +256,7 @@ impl Session {
         Ok(File::of_waves(format, finished.waves(shot, format, signals)?))
     }
 
-    /// The run so far as a scenario.
+    /// Returns the run so far as a scenario.
     fn scenario(&self) -> File {
         let mut scenario = self.origin.scenario.clone();
         scenario.control.extend(self.changes.iter().cloned());

@@ -1,4 +1,4 @@
-//! The logic analyser's files are those of `tofsim ila capture`.
+//! Test that the logic analyser's files equal those of `tofsim ila capture`.
 
 use std::path::Path;
 use std::process::Command;
@@ -10,7 +10,8 @@ use tofsim::{Run, Setup};
 use tofsim_captures::ila::export::{CaptureFormat, export};
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, capture};
 
-/// A run in which signals have changed and the analyser has triggered; the capture as the page shows it.
+/// Runs until the analyser is full, with changes of control signals before, and returns the capture as the page shows
+/// it.
 fn captured(server: &Server, request: &str) -> Value {
     server.frames(1);
     server.act("control", "{\"laser_freq\":1}");

@@ -1,4 +1,4 @@
-//! What is done to the run shows in its frames.
+//! Tests that requests affect the frames of the run.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! How fast it is, and what it holds on to.
+//! Tests of speed and memory.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ fn ten_frames_a_second_by_shots_and_five_by_cycles() {
     }
 }
 
-/// Memory of a process [kB].
+/// Returns the memory of a process [kB].
 fn resident_kb(id: u32) -> u64 {
     let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap();
     let line = status.lines().find(|line| line.starts_with("VmRSS:")).unwrap();

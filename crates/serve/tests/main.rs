@@ -1,4 +1,4 @@
-//! The page as a browser and its server see it.
+//! Tests of the page, from the browser's and from the server's side.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! The page in a browser.
+//! Tests of the page in a browser.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::common::Server;
 use super::common::chromium::Chromium;
 
-/// Where pictures go, if somebody wants to look at them.
+/// Returns the folder for screenshots, if the environment sets one.
 fn pictures() -> Option<PathBuf> {
     let folder = PathBuf::from(std::env::var_os("TOFSIM_SCREENSHOTS")?);
     std::fs::create_dir_all(&folder).unwrap();

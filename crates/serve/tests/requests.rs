@@ -1,4 +1,4 @@
-//! What is asked for wrongly is refused with what was expected, and changes nothing.
+//! Tests that invalid requests are refused with a reason, and have no effect.
 
 use std::process::Command;
 

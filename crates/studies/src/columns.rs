@@ -1,4 +1,4 @@
-//! What a point can give: the columns of a sweep's table by name.
+//! Columns of a sweep's table: the quantities that a point can yield, by name.
 
 use tofsim::error::{Result, hint};
 use tofsim::files::toml::Checked;
@@ -20,36 +20,36 @@ pub struct Column {
     pub name: String,
     /// Unit.
     pub unit: &'static str,
-    /// What it is.
+    /// Meaning, as a phrase.
     pub meaning: &'static str,
-    /// Where it comes from.
+    /// Origin of its values.
     pub quantity: Quantity,
 }
 
-/// Where a value comes from.
+/// Origin of a column's values.
 #[derive(Clone, Copy, Debug)]
 pub enum Quantity {
-    /// The scenario, without a run.
+    /// Expected value from the scenario, without a simulation.
     Expected(fn(&Setup) -> Result<Option<f64>>),
-    /// The hits of the frames.
+    /// Hits of the simulated frames.
     Hits(fn(&Tally) -> Figure),
-    /// How long a frame takes, which no noise moves.
+    /// Duration of a frame, which is not random.
     Duration(fn(&Tally) -> f64),
-    /// What the estimator of that place makes of them.
+    /// Errors of the estimator with the given index.
     Errors(usize, fn(&Errors) -> Figure),
 }
 
 impl Column {
-    /// Whether noise moves its values, so that they have standard errors.
+    /// Returns whether the values are random, and therefore have standard errors.
     pub fn is_random(&self) -> bool {
         matches!(self.quantity, Quantity::Hits(_) | Quantity::Errors(..))
     }
 }
 
-/// A column of [`Quantity::Expected`]: name, unit, meaning, value.
+/// Definition of a column of [`Quantity::Expected`]: name, unit, meaning, function.
 type Expected = (&'static str, &'static str, &'static str, fn(&Setup) -> Result<Option<f64>>);
 
-/// What a scenario is expected to give.
+/// Columns of expected values.
 const EXPECTED: [Expected; 16] = [
     ("signal_per_shot", "1", "Detected laser photons of a shot, S_p of eq. 3.14", |setup| {
         Ok(Some(setup.budget.signal_per_shot))
@@ -122,7 +122,7 @@ const EXPECTED: [Expected; 16] = [
     }),
 ];
 
-/// What frames give: name, unit, meaning, quantity.
+/// Columns of simulated frames: name, unit, meaning, origin.
 const OF_FRAMES: [(&str, &str, &str, Quantity); 6] = [
     (
         "hits_per_frame",
@@ -157,10 +157,10 @@ const OF_FRAMES: [(&str, &str, &str, Quantity); 6] = [
     ("frame_ms", "ms", "The same in time", Quantity::Duration(|tally| tally.frame_ms)),
 ];
 
-/// A column of [`Quantity::Errors`]: its name after the estimator's, unit, meaning, value.
+/// Definition of a column of [`Quantity::Errors`]: name after the estimator's, unit, meaning, function.
 type OfErrors = (&'static str, &'static str, &'static str, fn(&Errors) -> Figure);
 
-/// What an estimator gives.
+/// Columns of an estimator.
 const OF_ERRORS: [OfErrors; 6] = [
     ("bias_mm", "mm", "Mean error of the depths, b of eq. 4.1", Errors::bias),
     ("sd_mm", "mm", "Standard deviation of the depths, sigma of eq. 4.1", Errors::sd),
@@ -170,7 +170,7 @@ const OF_ERRORS: [OfErrors; 6] = [
     ("outlier_rate", "1", "Part of the depths that are far off, or negative", Errors::outlier_rate),
 ];
 
-/// All columns that a fidelity and estimators give.
+/// Returns all columns of a fidelity and some estimators.
 pub fn all(fidelity: Fidelity, estimators: &[EstimatorKind]) -> Vec<Column> {
     let expected = EXPECTED.iter().map(|&(name, unit, meaning, of)| {
         let (name, quantity) = (name.to_owned(), Quantity::Expected(of));
@@ -192,10 +192,10 @@ pub fn all(fidelity: Fidelity, estimators: &[EstimatorKind]) -> Vec<Column> {
     }
 }
 
-/// Those of the known columns that a plan asks for, in their own order; all if it asks for none.
+/// Selects the columns that a plan requests, in the order of `known`; all if it requests none.
 ///
 /// # Errors
-/// When it asks for one that there is not.
+/// If a requested column does not exist.
 pub fn chosen(checked: &Checked, asked: &[String], known: &[Column]) -> Result<Vec<Column>> {
     if asked.is_empty() {
         return Ok(known.to_vec());
@@ -221,19 +221,19 @@ pub fn chosen(checked: &Checked, asked: &[String], known: &[Column]) -> Result<V
     Ok(chosen.map(|(column, _)| column.clone()).collect())
 }
 
-/// How many times an exposure could be stronger and still within its limit.
+/// Returns the ratio of the limit to the exposure.
 fn margin(exposure: &tofsim::optics::eye_safety::Exposure) -> Option<f64> {
     exposure.limit_w.map(|limit_w| limit_w / exposure.average_w)
 }
 
-/// Distance of an echo at the end of the histogram.
+/// Returns the distance of an echo at the end of the histogram.
 fn range_m(setup: &Setup) -> Option<f64> {
     use tofsim::optics::budget::LIGHT_M_S;
     let end = setup.bins().spans().iter().map(|span| span.until).max()?;
     (end > setup.budget.delay).then(|| (end - setup.budget.delay).seconds() * LIGHT_M_S / 2.0)
 }
 
-/// The first avalanches around the echo, where shots do not depend on each other.
+/// Returns the distribution of first avalanches around the echo, if shots are independent.
 fn first_photon(setup: &Setup) -> Option<FirstPhoton> {
     setup.chances()?;
     FirstPhoton::new(&setup.budget, &Hazard::new(&setup.budget))

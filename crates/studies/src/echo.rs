@@ -1,4 +1,4 @@
-//! Where a frame's hits lie around the echo.
+//! Mean of a frame's hits around the echo.
 
 use tofsim::optics::closed_form::Span;
 use tofsim::optics::first_photon::{FirstPhoton, around_the_echo};
@@ -7,11 +7,11 @@ use tofsim::sim::setup::Setup;
 
 use crate::figure::{Figure, mean};
 
-/// The bins around the echo, and the mean of the hits in them, frame by frame.
+/// Bins around the echo, and the mean time of the hits in them for each frame.
 #[derive(Clone, Debug, Default)]
 pub struct EchoShift {
     bins: Vec<Bin>,
-    /// The mean of each frame that has hits there [mm].
+    /// Mean of each frame that has hits there, as a distance [mm].
     means: Vec<f64>,
 }
 
@@ -19,14 +19,14 @@ pub struct EchoShift {
 #[derive(Clone, Copy, Debug)]
 struct Bin {
     code: usize,
-    /// How much of it lies there [1].
+    /// Fraction of the bin that lies there [1].
     part: f64,
-    /// How far the middle of that lies from the light's mean arrival [mm].
+    /// Middle of that part, relative to the light's mean arrival [mm].
     shift_mm: f64,
 }
 
 impl EchoShift {
-    /// Of a setup's frames, none of which was seen yet.
+    /// Determines the bins of a setup.
     pub fn new(setup: &Setup) -> Self {
         let [begin, end] = around_the_echo(&setup.budget);
         let arrival_ps = setup.budget.mean_arrival.fs() as f64 * 1e-3;
@@ -42,7 +42,7 @@ impl EchoShift {
         EchoShift { bins, means: Vec::new() }
     }
 
-    /// Takes the next frame.
+    /// Adds a frame.
     pub fn take(&mut self, frame: &Frame) {
         let (mut hits, mut sum) = (0.0, 0.0);
         for &Bin { code, part, shift_mm } in &self.bins {
@@ -55,7 +55,7 @@ impl EchoShift {
         }
     }
 
-    /// The mean over frames [mm].
+    /// Returns the mean over frames [mm].
     pub fn mean(&self) -> Figure {
         mean(self.means.iter().copied())
     }

@@ -1,20 +1,20 @@
-//! What an estimator makes of the frames of a run.
+//! Statistics of an estimator's errors over frames.
 
 use tofsim_learn::evaluation::Spread;
 
 use crate::figure::{Figure, mean};
 
-/// What an estimator makes of frames.
+/// Statistics of an estimator's errors over frames.
 #[derive(Clone, Debug)]
 pub struct Errors {
     spread: Spread,
-    /// Mean squared error, and its standard error; none without a truth [mm^2].
+    /// Mean squared error with its standard error; empty without a true distance [mm^2].
     mse_mm2: Figure,
     has_truth: bool,
 }
 
 impl Errors {
-    /// Of depths less a truth, those of failures missing; what is further off than `limit_m` is an outlier [m].
+    /// Computes statistics of depth errors, which are missing for failures. Errors beyond `limit_m` are outliers [m].
     pub fn of(errors_m: &[Option<f64>], truth_m: Option<f64>, limit_m: f64) -> Errors {
         let judged = errors_m.iter().map(|error| (*error, truth_m.unwrap_or(f64::INFINITY)));
         let spread = Spread::judged(judged, limit_m);
@@ -23,23 +23,23 @@ impl Errors {
         Errors { spread, mse_mm2: mean(squares_mm2), has_truth: truth_m.is_some() }
     }
 
-    /// Mean error [mm].
+    /// Returns the mean error [mm].
     pub fn bias(&self) -> Figure {
         self.where_known(Figure::new(self.spread.mean_mm, self.spread.mean_se_mm))
     }
 
-    /// Twice the standard deviation [mm].
+    /// Returns twice the standard deviation [mm].
     pub fn two_sd(&self) -> Figure {
         Figure::new(self.spread.two_sd_mm, self.spread.two_sd_se_mm)
     }
 
-    /// Standard deviation [mm].
+    /// Returns the standard deviation [mm].
     pub fn sd(&self) -> Figure {
         let Figure { value, se, .. } = self.two_sd();
         Figure::new(value.map(|two| two / 2.0), se.map(|two| two / 2.0))
     }
 
-    /// Root of the mean squared error [mm].
+    /// Returns the root mean square error [mm].
     pub fn root_mse(&self) -> Figure {
         let Figure { value, se, .. } = self.mse_mm2;
         let root = value.map(f64::sqrt);
@@ -47,12 +47,12 @@ impl Errors {
         self.where_known(Figure::new(root, se))
     }
 
-    /// Part of the frames without a depth [1].
+    /// Returns the fraction of frames without a depth [1].
     pub fn failure_rate(&self) -> Figure {
         part(self.spread.failures, self.spread.failures + self.spread.estimates)
     }
 
-    /// Part of the depths that are far off [1].
+    /// Returns the fraction of depths that are outliers [1].
     pub fn outlier_rate(&self) -> Figure {
         self.where_known(part(self.spread.outliers, self.spread.estimates))
     }
@@ -62,7 +62,7 @@ impl Errors {
     }
 }
 
-/// A part of so many, with the standard error of a binomial number.
+/// Returns a fraction with its binomial standard error.
 fn part(of_them: u64, all: u64) -> Figure {
     if all == 0 {
         return Figure::default();

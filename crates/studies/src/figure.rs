@@ -1,24 +1,24 @@
-//! A number and how well it is known.
+//! Values with standard errors.
 
-/// A value with its standard error, where there is one.
+/// A value with its standard error, if it has one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// The value, in the column's unit.
+    /// Value, in the column's unit.
     pub value: Option<f64>,
-    /// Its standard error.
+    /// Standard error.
     pub se: Option<f64>,
-    /// Of a rate what it is a part of [1].
+    /// Number of cases, if it is a rate [1].
     pub of: Option<f64>,
 }
 
 impl Figure {
-    /// A value with its standard error.
+    /// Creates a value with its standard error.
     pub fn new(value: Option<f64>, se: Option<f64>) -> Self {
         Figure { value, se, of: None }
     }
 }
 
-/// The mean of numbers, with its standard error.
+/// Computes the mean of numbers, with its standard error.
 pub fn mean(numbers: impl Iterator<Item = f64> + Clone) -> Figure {
     let count = numbers.clone().count() as f64;
     if count == 0.0 {
@@ -30,8 +30,8 @@ pub fn mean(numbers: impl Iterator<Item = f64> + Clone) -> Figure {
     Figure::new(Some(mean), se)
 }
 
-/// The figure of several repeats: their mean, with the standard error that their scatter shows; of one, or where no noise
-/// moves it, the first.
+/// Combines repeats: their mean, with the standard error derived from their scatter; the first one if there is only
+/// one or the values are not random.
 pub fn of_repeats(
     is_random: bool,
     mut repeats: impl ExactSizeIterator<Item = Figure> + Clone,
@@ -42,8 +42,7 @@ pub fn of_repeats(
     mean(repeats.filter_map(|figure| figure.value))
 }
 
-/// The mean of figures that do not depend on each other, or of rates the rate over all that they are parts of; of one,
-/// itself.
+/// Combines scenes with independent errors: the mean of their values or, for rates, the rate over all cases.
 pub fn mean_of_scenes(figures: impl Iterator<Item = Figure>) -> Figure {
     let (mut all, mut sum, mut variance) = (0.0, 0.0, Some(0.0));
     for figure in figures {

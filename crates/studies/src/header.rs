@@ -1,11 +1,11 @@
-//! Which columns a plan's table has.
+//! Columns of a plan's table.
 
 use crate::plan::Plan;
 use crate::plan::axis::Axis;
 use crate::plan::file::Refused;
 use crate::table::{Field, Kind};
 
-/// The columns of a plan's table.
+/// Returns the columns of a plan's table.
 pub fn header(plan: &Plan) -> Vec<Field> {
     let axis = |axis: &Axis| {
         let kind = if axis.is_text { Kind::Text } else { Kind::Number };

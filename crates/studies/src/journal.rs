@@ -1,7 +1,7 @@
-//! The finished points of a sweep, a line each as they come: what a sweep goes on from after it was killed.
+//! Journal of a sweep: one line per finished point, from which a killed sweep resumes.
 //!
-//! The first line says what the sweep is. A line that was being written when the system stopped has no end, and is cut
-//! off. While a sweep writes it holds the file, so that there are never two.
+//! The first line identifies the sweep. An incomplete last line is discarded. The file is locked while a sweep writes
+//! to it.
 
 use std::fs::{File, TryLockError};
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -15,7 +15,7 @@ use tofsim::note::Note;
 
 use crate::table::{Cell, Row};
 
-/// A journal to which points are added.
+/// A journal that is open for appending.
 pub struct Journal {
     path: PathBuf,
     file: Mutex<File>,
@@ -24,14 +24,14 @@ pub struct Journal {
 /// A finished point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Entry {
-    /// The cells of its row, the first of which is the point's number.
+    /// Cells of its row; the first one is the number of the point.
     pub cells: Vec<Cell>,
-    /// What its values lie outside of.
+    /// Notes on its values.
     pub notes: Vec<Note>,
 }
 
 impl Entry {
-    /// Number of the point.
+    /// Returns the number of the point.
     pub fn point(&self) -> Option<u64> {
         match self.cells.first() {
             Some(Cell::Whole(point)) => Some(*point),
@@ -39,13 +39,13 @@ impl Entry {
         }
     }
 
-    /// Its row.
+    /// Converts the entry to a row.
     pub fn into_row(self) -> Option<Row> {
         Some(Row { point: self.point()?, cells: self.cells })
     }
 }
 
-/// What a journal begins with.
+/// First line of a journal.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Head {
     schema: String,
@@ -55,11 +55,11 @@ struct Head {
 const SCHEMA: &str = "tofsim.sweep-journal/1";
 
 impl Journal {
-    /// Begins a journal, or goes on with the one that is there; `about` says what the sweep is. Shows `take` the number
-    /// of every point that is in it.
+    /// Opens the journal of the sweep that `about` identifies, or creates it, and passes the number of every finished
+    /// point to `take`.
     ///
     /// # Errors
-    /// When it cannot be written, another sweep writes to it, it is another sweep's, or damaged.
+    /// If it cannot be written, is locked by another process, is damaged, or belongs to another sweep.
     pub fn open(path: &Path, about: &str, mut take: impl FnMut(u64)) -> Result<Self> {
         let options = File::options().read(true).append(true).create(true).open(path);
         let mut file = options.map_err(Error::io(path, "write"))?;
@@ -97,20 +97,20 @@ impl Journal {
         Ok(Journal { path: path.to_owned(), file: Mutex::new(file) })
     }
 
-    /// Adds a finished point.
+    /// Appends a finished point.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn add(&self, entry: &Entry) -> Result<()> {
         let line = serde_json::json!(entry).to_string() + "\n";
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.write_all(line.as_bytes()).map_err(Error::io(&self.path, "write"))
     }
 
-    /// Shows `take` all points in the order of their numbers.
+    /// Passes all points to `take`, in order of their numbers.
     ///
     /// # Errors
-    /// When it cannot be read, or `take` fails.
+    /// If the journal cannot be read, or `take` fails.
     pub fn in_order(&self, mut take: impl FnMut(Entry) -> Result<()>) -> Result<()> {
         let file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let mut places = Vec::new();
@@ -140,7 +140,7 @@ impl Journal {
         Ok(())
     }
 
-    /// Removes it.
+    /// Deletes the journal.
     pub fn remove(self) -> Result<()> {
         std::fs::remove_file(&self.path).map_err(Error::io(&self.path, "remove"))
     }
@@ -152,7 +152,7 @@ enum Line {
     Entry(Entry),
 }
 
-/// Shows `take` every whole line with its number and where it begins; returns where the last one ends.
+/// Passes every complete line to `take`, with its number and offset, and returns the end of the last one.
 fn scan(
     path: &Path,
     mut file: &File,

@@ -1,8 +1,8 @@
-//! Sweeps: a scenario at many points, what comes of each, and where a limit is just met.
+//! Sweeps: evaluation of a scenario over a parameter grid, and search for the value that just meets a limit.
 //!
-//! A [`Plan`] says which keys of a scenario take which values, and what is wanted of each point. A [`Sweep`] works the
-//! points out on all cores, keeps each finished one in a journal, and in the end writes a table of one row a point.
-//! [`merge`] makes one table of those of a sweep's shards.
+//! A [`Plan`] defines the values of scenario keys and the quantities to compute at each point. A [`Sweep`] evaluates
+//! the points on all cores, keeps each finished one in a journal, and writes a table with one row per point.
+//! [`merge`] combines the tables of a sweep's shards.
 
 pub mod columns;
 pub mod echo;

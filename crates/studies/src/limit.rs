@@ -1,4 +1,4 @@
-//! A limit on a column: `peak.failure_rate < 0.1`.
+//! Limits on a column, such as `peak.failure_rate < 0.1`.
 
 use std::fmt;
 
@@ -10,28 +10,28 @@ use crate::columns::Column;
 /// A limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// The column's name.
+    /// Name of the column.
     pub column: String,
-    /// How the value has to lie to the number.
+    /// Relation of the value to the number.
     pub relation: Relation,
-    /// The number, in the column's unit.
+    /// Number, in the column's unit.
     pub number: f64,
 }
 
-/// How a value has to lie to a number.
+/// Relation of a value to a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
-    /// Below it.
+    /// Less than.
     Below,
-    /// Below it, or as large.
+    /// Less than or equal to.
     AtMost,
-    /// Above it.
+    /// Greater than.
     Above,
-    /// Above it, or as large.
+    /// Greater than or equal to.
     AtLeast,
 }
 
-/// Relations as a plan has them, the longer ones first.
+/// Operators of the relations, longer ones first.
 const RELATIONS: [(&str, Relation); 4] = [
     ("<=", Relation::AtMost),
     (">=", Relation::AtLeast),
@@ -40,10 +40,10 @@ const RELATIONS: [(&str, Relation); 4] = [
 ];
 
 impl Limit {
-    /// From the text that stands at a key of a plan.
+    /// Parses a limit at a key of a plan.
     ///
     /// # Errors
-    /// When it is no limit, or on no column.
+    /// If it is not a limit, or its column does not exist.
     pub fn parse(checked: &Checked, key: &str, text: &str, known: &[Column]) -> Result<Self> {
         let found = RELATIONS.iter().find_map(|(sign, relation)| {
             let (column, number) = text.split_once(sign)?;
@@ -63,7 +63,7 @@ impl Limit {
         Ok(Limit { column: column.to_owned(), relation, number })
     }
 
-    /// Whether a value meets it; none does not.
+    /// Returns whether a value meets the limit; a missing value does not.
     pub fn is_met(&self, value: Option<f64>) -> bool {
         let Some(value) = value else { return false };
         match self.relation {
@@ -74,8 +74,8 @@ impl Limit {
         }
     }
 
-    /// How near a value is to the limit, larger being worse: the part of it that is used up, or how far it is away
-    /// where the limit is 0; infinite without a value.
+    /// Returns how close a value is to violating the limit, larger being worse: the used fraction of the limit, or
+    /// the distance if the limit is 0; infinite without a value.
     pub fn use_of(&self, value: Option<f64>) -> f64 {
         let Some(value) = value else { return f64::INFINITY };
         let is_upper = matches!(self.relation, Relation::Below | Relation::AtMost);

@@ -1,4 +1,4 @@
-//! One table of those of a sweep's shards.
+//! Merging of the tables of a sweep's shards.
 
 use std::path::{Path, PathBuf};
 
@@ -13,14 +13,14 @@ use crate::table::reader::TableReader;
 /// The tables of all shards of a sweep.
 pub struct Shards {
     tables: Vec<(PathBuf, TableReader)>,
-    /// What the sweep is about, as JSON.
+    /// Identity of the sweep, as JSON.
     pub about: String,
 }
 
-/// The files of shards in folders, and files that are named themselves.
+/// Returns the shards' files in the given folders, and the files that are given directly.
 ///
 /// # Errors
-/// When a folder cannot be read, or has none.
+/// If a folder cannot be read, or contains no shard.
 pub fn files(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for path in given {
@@ -48,10 +48,10 @@ pub fn files(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
 }
 
 impl Shards {
-    /// Opens the tables, and sees that all are there and belong together.
+    /// Opens the tables, and checks that they are complete and belong together.
     ///
     /// # Errors
-    /// When one is damaged or missing, there twice, or another sweep's.
+    /// If one is damaged, missing, duplicate, or from another sweep.
     pub fn open(files: &[PathBuf]) -> Result<Self> {
         let mut tables: Vec<Option<(PathBuf, TableReader)>> = Vec::new();
         let mut first: Option<(PathBuf, String, u64)> = None;
@@ -106,11 +106,10 @@ impl Shards {
         Ok(Shards { tables, about })
     }
 
-    /// Writes their rows, in order, as the table that the sweep would have written as a whole. `comment` is the first
-    /// line of its CSV file.
+    /// Writes all rows, in order, as the table of the whole sweep; `comment` is the first line of its CSV file.
     ///
     /// # Errors
-    /// When a table is damaged or lacks rows, or the files cannot be written.
+    /// If a table is damaged or lacks rows, or the files cannot be written.
     pub fn write(mut self, folder: &Path, comment: &str) -> Result<Vec<PathBuf>> {
         let fields = self.tables[0].1.fields.clone();
         let path = folder.join("sweep.parquet");

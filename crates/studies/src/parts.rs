@@ -1,4 +1,4 @@
-//! The finished points of a sweep under way as Parquet files, to be looked at before it is whole.
+//! Intermediate Parquet files with the finished points of an unfinished sweep.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,22 +8,22 @@ use tofsim::files::output::create_directory;
 
 use crate::table::{Field, Row, parquet_file};
 
-/// A folder of such files, one for each block of points that came together.
+/// A folder of such files, one per block of finished points.
 pub struct Parts {
     folder: PathBuf,
     fields: Vec<Field>,
 }
 
 impl Parts {
-    /// In the folder `sweep.parts` of another; what is there from before stays.
+    /// Uses the folder `sweep.parts` within `folder`; earlier files in it are kept.
     pub fn new(folder: &Path, fields: Vec<Field>) -> Self {
         Parts { folder: folder.join("sweep.parts"), fields }
     }
 
-    /// Writes some rows, in the order of their points.
+    /// Writes a block of rows, in order of their points.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn add(&self, mut rows: Vec<Row>) -> Result<()> {
         rows.sort_by_key(|row| row.point);
         let Some(first) = rows.first() else { return Ok(()) };
@@ -34,10 +34,10 @@ impl Parts {
         file.finish()?.commit()
     }
 
-    /// Removes them.
+    /// Deletes the folder.
     ///
     /// # Errors
-    /// When the folder cannot be removed.
+    /// If it cannot be deleted.
     pub fn remove(&self) -> Result<()> {
         match fs::remove_dir_all(&self.folder) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {

@@ -1,4 +1,4 @@
-//! A plan: which points of a scenario, and what is wanted of them.
+//! Plans: the points of a sweep, and the quantities to compute at each.
 
 pub mod axis;
 pub mod builtin;
@@ -24,39 +24,39 @@ use fault::at_key;
 use file::{PlanFile, Plot, PlotKind};
 use search::Search;
 
-/// What is to be worked out.
+/// A checked plan.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Built-in name, or the file's stem.
     pub name: String,
-    /// The plan as its file has it.
+    /// Text of the plan's file.
     pub text: String,
-    /// What the file says, with the defaults.
+    /// Contents of the file, with defaults.
     pub file: PlanFile,
-    /// The scenario, by built-in name or path.
+    /// Scenario, by built-in name or path.
     pub scenario: String,
-    /// Keys that are the same at all points: the plan's, and after them the command line's.
+    /// Overrides for all points: the plan's, followed by those of the command line.
     pub set: Vec<String>,
-    /// Seed of the whole.
+    /// Seed of the sweep.
     pub seed: u64,
-    /// Estimators that look at each histogram.
+    /// Estimators that evaluate each histogram.
     pub estimators: Vec<EstimatorKind>,
-    /// The points.
+    /// Points.
     pub points: Combination,
-    /// Scenes of each point, over which values are means, an assignment for each key.
+    /// Scenes over which each point is averaged, as an assignment for each key.
     pub mean_over: Vec<Vec<String>>,
-    /// What is looked for at each, if something is.
+    /// Search at each point, if there is one.
     pub search: Option<Search>,
-    /// What a point gives, in the order of the table.
+    /// Columns to compute, in the order of the table.
     pub outputs: Vec<Column>,
 }
 
 impl Plan {
-    /// Reads a plan that comes with the program, by name, or a file, with `key=value` overrides of the scenario and a
-    /// seed in place of its own.
+    /// Loads a built-in plan by name or a plan file by path, with `key=value` overrides of the scenario and an
+    /// optional seed.
     ///
     /// # Errors
-    /// When there is no such plan, it says what no plan can say, or the scenario has no such key or value.
+    /// If there is no such plan, it is invalid, or the scenario has no such key or value.
     pub fn load(name: &str, set: &[String], seed: Option<u64>) -> Result<Self> {
         if let Some(text) = builtin::plan(name) {
             return Plan::parse(name, &format!("plan {name}"), text, Path::new(""), set, seed);
@@ -73,10 +73,10 @@ impl Plan {
         Plan::parse(&stem, name, &text, path.parent().unwrap_or(Path::new("")), set, seed)
     }
 
-    /// The same from the text of a plan's file: `source` is what errors call it, `folder` where its paths begin.
+    /// Parses the text of a plan file. Errors name it as `source`; paths in it are relative to `folder`.
     ///
     /// # Errors
-    /// As [`Plan::load`].
+    /// If it is invalid, or the scenario has no such key or value.
     pub fn parse(
         name: &str,
         source: &str,
@@ -91,10 +91,10 @@ impl Plan {
         Plan::checked(name, text, (checked, file, scenario), overrides, seed)
     }
 
-    /// The same where the scenario, by built-in name or path from `folder`, is not where the plan says.
+    /// Parses the text of a plan file, but uses another scenario, by built-in name or path relative to `folder`.
     ///
     /// # Errors
-    /// As [`Plan::load`].
+    /// If it is invalid, or the scenario has no such key or value.
     pub fn parse_for(
         name: &str,
         source: &str,
@@ -153,18 +153,18 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The scenario with what is the same at all points.
+    /// Loads the scenario with the overrides for all points.
     ///
     /// # Errors
-    /// When it is none any more.
+    /// If it is no longer valid.
     pub fn base(&self) -> Result<Loaded> {
         self.loaded(&[])
     }
 
-    /// The scenario at a point.
+    /// Loads the scenario of a point.
     ///
     /// # Errors
-    /// When its settings do not go together.
+    /// If its settings are inconsistent.
     pub fn loaded(&self, settings: &[String]) -> Result<Loaded> {
         let set: Vec<_> = self.set.iter().chain(settings).cloned().collect();
         let mut loaded = scenario::load(&self.scenario, &set)?;
@@ -172,7 +172,7 @@ impl Plan {
         Ok(loaded)
     }
 
-    /// Names of the columns that a plot can show.
+    /// Returns the names of the columns that a plot can use.
     fn shown(&self) -> Vec<String> {
         let axes = self.points.axes.iter().map(|axis| axis.key.clone());
         let found = self.search.iter().map(|search| search.key.clone());
@@ -205,7 +205,7 @@ impl Plan {
     }
 }
 
-/// That the command line sets nothing that the plan varies.
+/// Checks that the overrides do not set a key that the plan varies.
 fn check_overrides(file: &PlanFile, overrides: &[String]) -> Result<()> {
     let searched = file.search.iter().flat_map(|search| {
         [&search.key].into_iter().chain(search.over.iter().map(|axis| &axis.key))
@@ -222,7 +222,7 @@ fn check_overrides(file: &PlanFile, overrides: &[String]) -> Result<()> {
     Ok(())
 }
 
-/// A name as it is, and a path as seen from the plan's folder.
+/// Resolves a path relative to the plan's folder; a name is returned unchanged.
 fn from_folder(name: &str, folder: &Path) -> String {
     let is_path = name.contains(['/', '.']) && Path::new(name).is_relative();
     let path = if is_path { folder.join(name) } else { PathBuf::from(name) };

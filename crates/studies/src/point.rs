@@ -1,4 +1,4 @@
-//! A point of a plan: worked out, and as a row of the table.
+//! Evaluation of a plan's point, and its row in the table.
 
 use std::sync::atomic::AtomicBool;
 
@@ -22,21 +22,21 @@ use crate::plan::search::{Answer, Search};
 use crate::table::{Cell, Row};
 use crate::trial::{Outcome, Trial};
 
-/// Bits of a point's seed, so that a double holds it.
+/// Bits of a point's seed, so that it fits a double.
 const SEED_BITS: u32 = 53;
 
-/// What a point comes to.
+/// Result of a point.
 pub struct Worked {
     /// Its row.
     pub row: Row,
-    /// What its values lie outside of.
+    /// Notes on its values.
     pub notes: Vec<Note>,
 }
 
-/// Works a point out.
+/// Evaluates a point.
 ///
 /// # Errors
-/// When the scenario refuses it and the plan does not keep such points, or it is stopped.
+/// If the scenario is refused and the plan does not keep such points, or the sweep is stopped.
 pub fn work(plan: &Plan, point: u64, stop: Option<&AtomicBool>) -> Result<Worked> {
     let at = Point { plan, point, settings: plan.points.settings(point), stop };
     match (at.work(), plan.file.refused) {
@@ -58,11 +58,11 @@ struct Point<'a> {
     stop: Option<&'a AtomicBool>,
 }
 
-/// What a search found in all repeats; nothing without one.
+/// Results of a search in all repeats; empty without a search.
 #[derive(Default)]
 struct Searched {
     cells: Vec<Cell>,
-    /// The settings at which outputs are shown.
+    /// Settings at which the outputs are computed.
     settings: Vec<String>,
 }
 
@@ -96,7 +96,7 @@ impl Point<'_> {
         Ok(Worked { row: Row { point: self.point, cells }, notes })
     }
 
-    /// The cells that say which point it is.
+    /// Returns the cells that identify the point.
     fn head(&self) -> Vec<Cell> {
         let values = self.plan.points.values(self.point);
         let axes =
@@ -113,8 +113,8 @@ impl Point<'_> {
         Worked { row: Row { point: self.point, cells }, notes: Vec::new() }
     }
 
-    /// Seed of a repeat in a scene of the plan: of the whole, or found from that and the settings, so that other points
-    /// of the plan do not move it.
+    /// Returns the seed of a repeat in a scene: the plan's, or one derived from it and the settings, so that it does
+    /// not depend on the other points.
     fn seed(&self, scene: &[String], repeat: u64) -> u64 {
         let first = match self.plan.file.common_random_numbers {
             true => self.plan.seed,
@@ -135,7 +135,7 @@ impl Point<'_> {
         Ok(loaded)
     }
 
-    /// What a repeat gives, in the mean over the plan's scenes.
+    /// Computes the columns of a repeat, averaged over the plan's scenes.
     fn measure(&self, columns: &[&Column], further: &[String], repeat: u64) -> Result<Outcome> {
         let trial = Trial::new(self.plan, columns.to_vec(), self.stop);
         let (mut figures, mut notes) = (Vec::new(), Vec::new());
@@ -194,7 +194,7 @@ impl Point<'_> {
         Ok(Searched { cells, settings })
     }
 
-    /// For each limit whether it is met at a value in a scene, and how much of it is used up.
+    /// Returns for each limit whether a value meets it in a scene, and the used fraction of the limit.
     fn uses(
         &self,
         search: &Search,
@@ -212,7 +212,7 @@ impl Point<'_> {
             .collect())
     }
 
-    /// The scene that is nearest to a limit, or furthest beyond one.
+    /// Returns the scene that is closest to violating a limit, or violates one most.
     fn tightest(&self, search: &Search, value: f64, scenes: &[Vec<String>]) -> Result<usize> {
         let mut worst = (f64::NEG_INFINITY, 0);
         for (k, scene) in scenes.iter().enumerate().filter(|_| scenes.len() > 1) {
@@ -226,7 +226,7 @@ impl Point<'_> {
     }
 }
 
-/// The cell of an axis's value, which is as TOML has it.
+/// Creates the cell of an axis value, which is given in TOML.
 fn axis_cell(axis: &Axis, value: &str) -> Cell {
     if !axis.is_text {
         return Cell::number(value.parse().ok());
@@ -247,7 +247,7 @@ fn add(notes: &mut Vec<Note>, more: Vec<Note>) {
     }
 }
 
-/// The codes of notes, each once, with spaces between.
+/// Formats the distinct codes of notes, separated by spaces.
 fn codes(notes: &[Note]) -> String {
     let mut codes: Vec<_> = notes.iter().map(|note| note.code.to_string()).collect();
     codes.sort();

@@ -1,17 +1,17 @@
-//! One of several parts of a sweep.
+//! Shards of a sweep.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// Most shards of a sweep.
+/// Largest number of shards of a sweep.
 const MOST: u64 = 1_000_000;
 
-/// Every so many points of a sweep, from one of the first on.
+/// Every `count`-th point of a sweep, starting with the `index`-th.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// Which one, from 1.
+    /// Number of the shard, from 1.
     pub index: u64,
-    /// Of how many.
+    /// Number of shards.
     pub count: u64,
 }
 
@@ -19,17 +19,17 @@ impl Shard {
     /// The whole sweep.
     pub const WHOLE: Shard = Shard { index: 1, count: 1 };
 
-    /// The numbers of its points, of a sweep of so many.
+    /// Returns the numbers of its points, for a sweep of `of` points.
     pub fn points(self, of: u64) -> impl Iterator<Item = u64> + Clone {
         (self.index - 1..of).step_by(self.count as usize)
     }
 
-    /// How many these are.
+    /// Returns the number of its points, for a sweep of `of` points.
     pub fn size(self, of: u64) -> u64 {
         of.saturating_sub(self.index - 1).div_ceil(self.count)
     }
 
-    /// The stem of its files.
+    /// Returns the stem of its file names.
     pub fn stem(self) -> String {
         match self {
             Shard::WHOLE => "sweep".to_owned(),

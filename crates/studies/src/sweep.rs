@@ -1,4 +1,4 @@
-//! Works out the points of a plan on all cores, and writes their table.
+//! Evaluation of a plan's points on all cores, and output of their table.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,12 +20,13 @@ use crate::table::csv_file::CsvFile;
 use crate::table::reader::TableReader;
 use crate::table::{Row, parquet_file};
 
-/// Key of what a table is about in its metadata, as JSON.
+/// Metadata key of a table's provenance, as JSON.
 pub const ABOUT: &str = "tofsim.sweep";
-/// Key of which shard it is.
+/// Metadata key of a table's shard.
 pub const SHARD: &str = "tofsim.shard";
 
-/// Of what a table is about, which sweep it is: all but the command, which names the same plan in many ways.
+/// Returns the part of a table's provenance that identifies the sweep: everything but the command, which can name the
+/// same plan in many ways.
 pub fn identity(about: &str) -> String {
     match serde_json::from_str::<serde_json::Map<_, _>>(about) {
         Ok(mut all) => {
@@ -36,32 +37,32 @@ pub fn identity(about: &str) -> String {
     }
 }
 
-/// A sweep into a folder.
+/// A sweep that writes to a folder.
 pub struct Sweep<'a> {
-    /// What is worked out.
+    /// Plan to evaluate.
     pub plan: &'a Plan,
-    /// Which part of it.
+    /// Shard to evaluate.
     pub shard: Shard,
-    /// What the table is about, as JSON: the same for all shards of a sweep.
+    /// Provenance of the table, as JSON, equal for all shards of a sweep.
     pub about: String,
-    /// The first line of the CSV file.
+    /// First line of the CSV file.
     pub comment: String,
 }
 
-/// A sweep under way.
+/// A sweep that has begun.
 pub struct Begun {
-    /// Takes finished points.
+    /// Journal to which finished points are added.
     pub journal: Journal,
-    /// Of each point of the shard whether it is in the journal from before.
+    /// Whether each point of the shard was already in the journal.
     pub is_there: Vec<bool>,
-    /// How many are.
+    /// Number of these points.
     pub resumed: u64,
 }
 
-/// Works out some points of a plan, in that order, on all threads of the current pool.
+/// Evaluates some points of a plan, in order, on all threads of the current pool.
 ///
 /// # Errors
-/// When a point is refused, or it is stopped.
+/// If a point is refused, or the sweep is stopped.
 pub fn work_out(plan: &Plan, points: &[u64], stop: Option<&AtomicBool>) -> Result<Vec<Entry>> {
     let of_point = |point: &u64| {
         if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
@@ -73,32 +74,32 @@ pub fn work_out(plan: &Plan, points: &[u64], stop: Option<&AtomicBool>) -> Resul
     points.par_iter().map(of_point).collect()
 }
 
-/// What a sweep comes to.
+/// Result of a sweep.
 #[derive(Debug, Default)]
 pub struct Finished {
-    /// The files.
+    /// Paths of the output files.
     pub files: Vec<PathBuf>,
-    /// The rows of a table that is not large.
+    /// Rows of the table, unless it is large.
     pub rows: Vec<Row>,
-    /// What values lie outside of, with the first point's words, and at how many points.
+    /// Notes with the text of the first point, and the number of points of each.
     pub notes: Vec<(Note, u64)>,
-    /// Points that were there already.
+    /// Number of points that were already finished.
     pub resumed: u64,
 }
 
-/// Rows that are kept in memory to be shown.
+/// Largest number of rows that are kept in memory for display.
 pub const SHOWN: usize = 10_000;
 
-/// Told how many more points are done.
+/// Callback that receives the number of newly finished points.
 pub type Done<'a> = &'a (dyn Fn(u64) + Sync);
 
 impl Sweep<'_> {
-    /// The table of the shard in a folder.
+    /// Returns the path of the shard's table in a folder.
     pub fn table(&self, folder: &Path) -> PathBuf {
         folder.join(format!("{}.parquet", self.shard.stem()))
     }
 
-    /// Whether a folder has both tables of this very sweep: it may have been killed between the two.
+    /// Returns whether a folder contains both tables of this sweep; a killed sweep may have written only one.
     pub fn is_done(&self, folder: &Path) -> bool {
         let path = self.table(folder);
         let is_own = |table: TableReader| {
@@ -107,10 +108,11 @@ impl Sweep<'_> {
         path.with_extension("csv").is_file() && TableReader::open(&path).is_ok_and(is_own)
     }
 
-    /// Works out what is not in the folder's journal, on all threads of the current pool, and writes the table.
+    /// Evaluates the points that are not in the folder's journal, on all threads of the current pool, and writes the
+    /// table.
     ///
     /// # Errors
-    /// When a point is refused, a file cannot be written, or it is stopped: finished points stay in the journal.
+    /// If a point is refused, a file cannot be written, or the sweep is stopped. Finished points stay in the journal.
     pub fn run(
         &self,
         folder: &Path,
@@ -128,10 +130,10 @@ impl Sweep<'_> {
         self.finish(folder, begun)
     }
 
-    /// Begins a journal in the folder, or goes on with the one that is there, for who works points out elsewhere.
+    /// Opens or creates the journal in the folder, for points that are evaluated elsewhere.
     ///
     /// # Errors
-    /// When it is another sweep's, another process writes to it, or it cannot be written.
+    /// If it belongs to another sweep, is locked by another process, or cannot be written.
     pub fn begin(&self, folder: &Path, restart: bool) -> Result<Begun> {
         let path = folder.join(format!("{}.journal", self.shard.stem()));
         if restart && path.exists() {
@@ -151,20 +153,20 @@ impl Sweep<'_> {
         Ok(Begun { journal, is_there, resumed })
     }
 
-    /// Writes the table of a journal that has all points, and removes that.
+    /// Writes the table of a complete journal, and deletes the journal.
     ///
     /// # Errors
-    /// When a file cannot be read or written.
+    /// If a file cannot be read or written.
     pub fn finish(&self, folder: &Path, begun: Begun) -> Result<Finished> {
         let finished = self.write(folder, &begun.journal)?;
         begun.journal.remove()?;
         Ok(Finished { resumed: begun.resumed, ..finished })
     }
 
-    /// Works out all points, in memory.
+    /// Evaluates all points in memory.
     ///
     /// # Errors
-    /// When a point is refused, or it is stopped.
+    /// If a point is refused, or the sweep is stopped.
     pub fn in_memory(&self, stop: Option<&AtomicBool>, done: Done) -> Result<Finished> {
         let entries = Mutex::new(Vec::new());
         let size = self.shard.size(self.plan.points.count());
@@ -183,7 +185,7 @@ impl Sweep<'_> {
         Ok(finished)
     }
 
-    /// Works out the points that are not there, and hands each on when it is done.
+    /// Evaluates the unfinished points, and passes each result on.
     fn each(
         &self,
         is_there: &[bool],

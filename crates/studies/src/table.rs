@@ -1,4 +1,4 @@
-//! A table of rows that come in order: Parquet and CSV.
+//! Tables that are written row by row: Parquet and CSV.
 
 pub mod csv_file;
 pub mod parquet_file;
@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Field {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What its cells hold.
+    /// Type of its cells.
     pub kind: Kind,
 }
 
-/// What the cells of a column hold.
+/// Type of a column's cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -23,7 +23,7 @@ pub enum Kind {
     Whole,
     /// Numbers.
     Number,
-    /// Words.
+    /// Texts.
     Text,
 }
 
@@ -31,40 +31,40 @@ pub enum Kind {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Cell {
-    /// Nothing.
+    /// No value.
     #[default]
     None,
     /// A whole number.
     Whole(u64),
     /// A finite number.
     Number(f64),
-    /// Words.
+    /// A text.
     Text(String),
 }
 
 /// A row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Its point.
+    /// Number of its point.
     pub point: u64,
     /// A cell for each column.
     pub cells: Vec<Cell>,
 }
 
 impl Field {
-    /// A column of that name.
+    /// Creates a column.
     pub fn new(name: &str, kind: Kind) -> Field {
         Field { name: name.to_owned(), kind }
     }
 }
 
 impl Cell {
-    /// A number, if it is one.
+    /// Creates a cell with a number, if there is one.
     pub fn number(value: Option<f64>) -> Cell {
         value.filter(|value| value.is_finite()).map_or(Cell::None, Cell::Number)
     }
 
-    /// The number in it.
+    /// Returns the number in the cell, if there is one.
     pub fn as_number(&self) -> Option<f64> {
         match self {
             Cell::Whole(number) => Some(*number as f64),
@@ -73,7 +73,7 @@ impl Cell {
         }
     }
 
-    /// As a CSV file has it.
+    /// Formats the cell for CSV.
     pub fn text(&self) -> String {
         match self {
             Cell::None => String::new(),

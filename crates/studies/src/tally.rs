@@ -1,31 +1,31 @@
-//! What the frames of a run come to.
+//! Statistics of the frames of a run.
 
 use tofsim::sim::frames::Frame;
 
 use crate::echo::EchoShift;
 use crate::figure::Figure;
 
-/// Sums over frames.
+/// Statistics of the frames of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     /// Hits in the histograms.
     pub hits: Counts,
-    /// Hits that the TDC kept.
+    /// Hits that the TDC registered.
     pub tdc_hits: Counts,
     /// Hits around the echo.
     pub echo: EchoShift,
-    /// Of the last frame [cycles of `clk_sys`].
+    /// Duration of the last frame's estimation [cycles of `clk_sys`].
     pub estimator_cycles: f64,
-    /// Of the last frame [cycles of `clk_sys`].
+    /// Duration of the last frame [cycles of `clk_sys`].
     pub frame_cycles: f64,
-    /// The same in time [ms].
+    /// Duration of the last frame [ms].
     pub frame_ms: f64,
     /// Period of `clk_sys` [ms].
     pub cycle_ms: f64,
 }
 
 impl Tally {
-    /// Takes the next frame.
+    /// Adds a frame.
     pub fn take(&mut self, frame: &Frame) {
         self.hits.add(frame.hits());
         self.tdc_hits.add(frame.tdc_hits);
@@ -38,7 +38,7 @@ impl Tally {
     }
 }
 
-/// Sums of whole numbers and of their squares, which no order of summing changes.
+/// Sums of integers and of their squares, which do not depend on the order of summation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counts {
     count: u64,
@@ -53,7 +53,7 @@ impl Counts {
         self.squares += u128::from(number) * u128::from(number);
     }
 
-    /// Their mean.
+    /// Returns the mean.
     pub fn mean(&self) -> Figure {
         let (count, sum) = (self.count as f64, self.sum as f64);
         if self.count == 0 {

@@ -1,4 +1,4 @@
-//! One scenario, simulated once with one seed, and what that gives.
+//! Simulation of one scenario with one seed.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -21,23 +21,23 @@ use crate::plan::Plan;
 use crate::plan::file::Fidelity;
 use crate::tally::Tally;
 
-/// What is simulated of a plan's scenarios.
+/// Columns to compute for a plan's scenarios.
 pub struct Trial<'a> {
     plan: &'a Plan,
     columns: Vec<&'a Column>,
     stop: Option<&'a AtomicBool>,
 }
 
-/// What a scenario gives.
+/// Result of a scenario.
 pub struct Outcome {
-    /// A value for each column.
+    /// Value of each column.
     pub figures: Vec<Figure>,
-    /// What these lie outside of.
+    /// Notes on the values.
     pub notes: Vec<Note>,
 }
 
 impl<'a> Trial<'a> {
-    /// Of what is needed for some columns; `stop` ends it.
+    /// Creates a trial that computes some columns; `stop` ends it.
     pub fn new(plan: &'a Plan, columns: Vec<&'a Column>, stop: Option<&'a AtomicBool>) -> Self {
         Trial { plan, columns, stop }
     }
@@ -45,7 +45,7 @@ impl<'a> Trial<'a> {
     /// Simulates a scenario.
     ///
     /// # Errors
-    /// When the scenario cannot be simulated so, or it is stopped.
+    /// If the scenario cannot be simulated at the plan's fidelity, or the sweep is stopped.
     pub fn measure(&self, loaded: Loaded) -> Result<Outcome> {
         let setup = Setup::of_counts(loaded)?;
         let kinds = &self.plan.estimators;
@@ -123,13 +123,13 @@ fn finite(value: Option<f64>) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
-/// Distance of the target, where light that it reflects is simulated [m].
+/// Returns the distance of the target, if light reflected by it is simulated [m].
 fn truth_m(setup: &Setup) -> Option<f64> {
     let is_dark = setup.no_depth().is_some_and(|note| note.code == NoteCode::NoLight);
     (!is_dark).then_some(setup.scenario.target.distance_m)
 }
 
-/// What depths of a scenario lie outside of.
+/// Returns the notes on depths of a scenario.
 fn notes(setup: &Setup, kinds: &[EstimatorKind]) -> Result<Vec<Note>> {
     if let Some(note) = setup.no_depth() {
         return Ok(vec![note.clone()]);
@@ -145,11 +145,11 @@ fn notes(setup: &Setup, kinds: &[EstimatorKind]) -> Result<Vec<Note>> {
     Ok(notes)
 }
 
-/// Takes frames as they come.
+/// Collector of frames.
 struct Taker {
     truth_m: Option<f64>,
     estimators: Vec<Box<dyn Estimator>>,
-    /// For each estimator the depth of each frame, or none [m].
+    /// For each estimator, the depth error of each frame, if it has a depth [m].
     errors: Vec<Vec<Option<f64>>>,
     tally: Tally,
     dark: Option<Histogram>,

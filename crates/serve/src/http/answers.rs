@@ -1,4 +1,4 @@
-//! Answers that several requests have.
+//! Responses that several requests use.
 
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -7,14 +7,14 @@ use serde_json::json;
 
 use crate::session::File;
 
-/// A file as an answer, which a browser saves under its name.
+/// Creates a response with a file, which a browser saves under its name.
 pub fn attachment(file: &File) -> Response {
     let disposition = format!("attachment; filename=\"{}\"", file.name);
     let headers = [(CONTENT_TYPE, file.media_type.to_owned()), (CONTENT_DISPOSITION, disposition)];
     (headers, file.bytes.to_vec()).into_response()
 }
 
-/// An answer that says what is wrong.
+/// Creates an error response.
 pub fn fault(status: StatusCode, text: &str) -> Response {
     let body = json!({ "error": text }).to_string();
     (status, [(CONTENT_TYPE, "application/json")], body).into_response()

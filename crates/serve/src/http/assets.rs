@@ -1,4 +1,4 @@
-//! The page's own files, which are in the program.
+//! Static files of the page, which are built into the program.
 
 use axum::extract::Path;
 use axum::http::StatusCode;
@@ -10,12 +10,12 @@ use rust_embed::RustEmbed;
 #[folder = "page/"]
 struct Assets;
 
-/// The page.
+/// Returns the page.
 pub async fn index() -> Response {
     file("index.html")
 }
 
-/// A file of the page.
+/// Returns a file of the page.
 pub async fn asset(Path(name): Path<String>) -> Response {
     file(&name)
 }

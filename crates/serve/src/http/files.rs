@@ -1,4 +1,4 @@
-//! Files that a browser saves: captures, waveforms, and the run as a scenario.
+//! Downloads: captures, waveforms, and the run as a scenario.
 
 use axum::extract::{Path, RawQuery, State};
 use axum::http::StatusCode;
@@ -12,7 +12,7 @@ use super::requests::ask;
 use super::shared::Shared;
 use crate::session::request::Request;
 
-/// A file of the capture.
+/// Returns a file of the capture.
 pub async fn ila(State(shared): State<Shared>, Path(ending): Path<String>) -> Response {
     let mut formats = CaptureFormat::ALL.into_iter();
     match formats.find(|format| format.ending() == ending) {
@@ -21,7 +21,7 @@ pub async fn ila(State(shared): State<Shared>, Path(ending): Path<String>) -> Re
     }
 }
 
-/// The waveform of a shot: `?shot=N` says which of the last frame, `&signals=GLOB,GLOB` which signals.
+/// Returns the waveform of a shot: `?shot=N` selects the shot of the last frame, `&signals=GLOB,GLOB` the signals.
 pub async fn shot(
     State(shared): State<Shared>,
     Path(ending): Path<String>,
@@ -38,7 +38,7 @@ pub async fn shot(
     }
 }
 
-/// The run so far as a scenario.
+/// Returns the run so far as a scenario.
 pub async fn scenario(State(shared): State<Shared>) -> Response {
     ask(&shared, Request::Scenario).await
 }

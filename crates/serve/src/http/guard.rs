@@ -1,8 +1,8 @@
-//! Who is let in: a page of this very server, with the secret of this very start.
+//! Access control: only pages of this server, with the token of this start, are admitted.
 //!
-//! That a server listens on this computer alone keeps no page of another site out of it: a browser on this computer
-//! sends what such a page asks for. A name that is made to point here shows in `Host`, a foreign page in `Origin`, and
-//! neither knows the token.
+//! Listening on the loopback address alone does not exclude pages of other sites, because a browser on this computer
+//! sends the requests of such a page. `Host` reveals a domain name that was made to point here, `Origin` a foreign
+//! page, and neither knows the token.
 
 use std::sync::Arc;
 
@@ -13,10 +13,10 @@ use axum::http::{HeaderMap, Request, StatusCode};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// Words of the token [bytes].
+/// Length of the token [bytes].
 const LENGTH: usize = 16;
 
-/// Goes with every answer.
+/// Headers of every response.
 const HEADERS: [(&str, &str); 6] = [
     (
         "content-security-policy",
@@ -30,18 +30,18 @@ const HEADERS: [(&str, &str); 6] = [
     ("cache-control", "no-store"),
 ];
 
-/// What lets a request in.
+/// Admission criteria of a server.
 pub struct Guard {
     token: String,
-    /// What `Host` may be.
+    /// Accepted values of `Host`.
     hosts: [String; 2],
 }
 
 impl Guard {
-    /// With a new token, for a server on `port`.
+    /// Creates a guard with a new token, for a server on `port`.
     ///
     /// # Errors
-    /// When the system has no random numbers.
+    /// If the system has no random numbers.
     pub fn new(port: u16) -> Result<Self, getrandom::Error> {
         let mut words = [0; LENGTH];
         getrandom::fill(&mut words)?;
@@ -50,17 +50,17 @@ impl Guard {
         Ok(Guard { token, hosts })
     }
 
-    /// The page's address.
+    /// Returns the page's URL.
     pub fn url(&self) -> String {
         format!("http://{}{}/", self.hosts[0], self.path())
     }
 
-    /// The path below which all is.
+    /// Returns the path prefix of all resources.
     pub fn path(&self) -> String {
         format!("/{}", self.token)
     }
 
-    /// Why a request is not let in.
+    /// Returns the reason why a request is refused, if it is.
     fn refusal(&self, headers: &HeaderMap, path: &str) -> Option<&'static str> {
         let mut hosts = headers.get_all(HOST).iter();
         let is_own = |host: &HeaderValue| self.hosts.iter().any(|own| host == own.as_str());
@@ -82,13 +82,13 @@ impl Guard {
     }
 }
 
-/// Whether two texts are the same, in a time that does not tell how far they are.
+/// Compares two texts in constant time.
 fn same(one: &str, other: &str) -> bool {
     let differences = one.bytes().zip(other.bytes()).fold(0, |all, (a, b)| all | (a ^ b));
     one.len() == other.len() && differences == 0
 }
 
-/// Lets a request in, or answers it with 403.
+/// Admits a request, or answers it with 403.
 pub async fn check(
     State(guard): State<Arc<Guard>>,
     request: Request<Body>,

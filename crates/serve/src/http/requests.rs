@@ -1,4 +1,4 @@
-//! Requests that act on the run, as JSON, and how they are answered.
+//! Handlers of the JSON requests that act on the run.
 
 use axum::body::Bytes;
 use axum::extract::State;
@@ -13,27 +13,27 @@ use crate::engine::NoAnswer;
 use crate::session::Reply;
 use crate::session::request::Request;
 
-/// The state.
+/// Returns the state.
 pub async fn state(State(shared): State<Shared>) -> Response {
     ask(&shared, Request::State).await
 }
 
-/// Start, stop, go on for some frames, or power up again.
+/// Starts, stops, runs a number of frames, or restarts at power-up.
 pub async fn run(State(shared): State<Shared>, body: Bytes) -> Response {
     read(&shared, "run", &body, Request::Run).await
 }
 
-/// Change signals of the acquisition computer.
+/// Changes control signals.
 pub async fn control(State(shared): State<Shared>, body: Bytes) -> Response {
     read(&shared, "control", &body, Request::Control).await
 }
 
-/// Change the scene.
+/// Changes the scene.
 pub async fn scene(State(shared): State<Shared>, body: Bytes) -> Response {
     read(&shared, "scene", &body, Request::Scene).await
 }
 
-/// Arm the logic analyser.
+/// Arms or disarms the logic analyser.
 pub async fn ila(State(shared): State<Shared>, body: Bytes) -> Response {
     read(&shared, "ila", &body, Request::Ila).await
 }
@@ -50,7 +50,7 @@ async fn read<T: DeserializeOwned>(
     }
 }
 
-/// Asks the thread that simulates, and passes its answer on.
+/// Sends a request to the simulating thread, and returns its answer.
 pub async fn ask(shared: &Shared, request: Request) -> Response {
     match shared.engine.ask(request).await {
         Ok(Reply::State(state)) => {

@@ -1,4 +1,4 @@
-//! What handlers work with.
+//! State shared by all handlers.
 
 use std::sync::Arc;
 
@@ -6,11 +6,11 @@ use tokio::sync::Semaphore;
 
 use crate::engine::Engine;
 
-/// What handlers work with.
+/// State shared by all handlers.
 #[derive(Clone)]
 pub struct Shared {
-    /// Who simulates.
+    /// Handle of the simulating thread.
     pub engine: Engine,
-    /// Places for browsers that follow the run.
+    /// Permits for browsers that follow the run.
     pub followers: Arc<Semaphore>,
 }

@@ -1,4 +1,4 @@
-//! What browsers do to the run.
+//! Requests that act on the run.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,11 +15,11 @@ use super::request::{ControlRequest, IlaRequest, RunRequest, changed};
 use super::scene;
 use super::shot::Keyframe;
 
-/// How long `dsp_rst` is high when it is pulsed.
+/// Width of a `dsp_rst` pulse.
 const PULSE: Time = Time::from_ns(1000);
-/// Changes that the scenario of the run so far may have.
+/// Largest number of control changes in the scenario of the run so far.
 const MOST_CHANGES: usize = 10_000;
-/// Last instant that such a scenario may have [us].
+/// Latest time in such a scenario [us].
 const LAST_US: f64 = 1e9;
 
 impl Session {
@@ -44,7 +44,7 @@ impl Session {
         self.clock.stop();
     }
 
-    /// Goes on for some frames.
+    /// Runs a number of frames.
     fn go(&mut self, frames: u32) -> Result<()> {
         for _ in 0..frames {
             let begun = self.live.device().cycle();
@@ -132,7 +132,7 @@ impl Session {
         changed
     }
 
-    /// Has the next frame be of the scene and the switches as they are.
+    /// Applies the present scene and control signals to the next frame.
     fn prepare(&mut self) -> Result<()> {
         let setup = self.setup_now()?;
         let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);

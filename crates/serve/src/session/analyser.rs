@@ -1,4 +1,4 @@
-//! The logic analyser of the page: armed in the run, and what it has captured.
+//! The page's logic analyser.
 
 use std::fs;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, captu
 
 use super::request::IlaRequest;
 
-/// Cycles from now to the first sample: those that have gone through the most input stages there can be, and some.
+/// Cycles from arming to the first sample, more than the largest number of input stages.
 const AHEAD: u64 = 16;
 
 /// The logic analyser.
@@ -25,7 +25,7 @@ const AHEAD: u64 = 16;
 pub struct Ila {
     armed: Option<Armed>,
     done: Option<Done>,
-    /// Captures since the program began.
+    /// Number of captures since the start of the program.
     captures: u64,
 }
 
@@ -35,13 +35,13 @@ struct Armed {
     analyser: Analyser,
 }
 
-/// A capture, and its files.
+/// A complete capture and its files.
 struct Done {
     view: CaptureView,
     files: Vec<(CaptureFormat, Arc<[u8]>)>,
 }
 
-/// A built-in set-up.
+/// A built-in probe configuration, as the page shows it.
 #[derive(Clone, Debug, Serialize)]
 pub struct SetUpView {
     name: &'static str,
@@ -51,7 +51,7 @@ pub struct SetUpView {
     trigger: Option<String>,
 }
 
-/// The built-in set-ups that the design has all signals of.
+/// Returns the built-in probe configurations whose signals all exist in the design.
 pub fn set_ups(setup: &Setup) -> Vec<SetUpView> {
     let of_design = |name: &'static str| {
         let set_up = AnalyserSetup::load(name).ok()?;
@@ -62,16 +62,16 @@ pub fn set_ups(setup: &Setup) -> Vec<SetUpView> {
     SET_UPS.iter().rev().filter_map(|(name, _)| of_design(name)).collect()
 }
 
-/// What the page shows of the logic analyser.
+/// State of the logic analyser, as the page shows it.
 #[derive(Clone, Debug, Serialize)]
 pub struct IlaView {
-    /// `idle`, `armed` or `full`.
+    /// Status: `idle`, `armed` or `full`.
     status: &'static str,
     armed: Option<ArmedView>,
     capture: Option<CaptureView>,
 }
 
-/// What it waits for.
+/// An armed configuration, as the page shows it.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArmedView {
     name: String,
@@ -81,10 +81,10 @@ pub struct ArmedView {
     windows: usize,
 }
 
-/// What it has captured.
+/// A capture, as the page shows it.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaptureView {
-    /// Of the captures since the program began, from 1.
+    /// Number of the capture since the start of the program, from 1.
     number: u64,
     name: String,
     description: String,
@@ -93,13 +93,13 @@ pub struct CaptureView {
     arm_at_us: f64,
     depth: usize,
     position: usize,
-    /// Sample with which each window begins.
+    /// First sample of each window.
     windows: Vec<usize>,
     trigger_times_us: Vec<f64>,
     probes: Vec<ProbeView>,
-    /// The command that makes the same files of the run's scenario.
+    /// Command that makes the same files from the run's scenario.
     command: String,
-    /// Whether the run's scenario says all that has been done to it.
+    /// Whether the run's scenario contains everything that was done to the run.
     exact: bool,
 }
 
@@ -110,10 +110,10 @@ struct ProbeView {
 }
 
 impl Ila {
-    /// Arms it, to begin with samples that are still to come.
+    /// Arms the analyser, starting with a later sample.
     ///
     /// # Errors
-    /// When the set-up is none, or not one for the design.
+    /// If the configuration is invalid, or does not fit the design.
     pub fn arm(&mut self, request: &IlaRequest, live: &mut Live) -> Result<()> {
         let mut set_up = match (&request.set_up, &request.text) {
             (Some(name), None) if !name.contains(['/', '.']) => AnalyserSetup::load(name)?,
@@ -146,17 +146,17 @@ impl Ila {
         Ok(())
     }
 
-    /// Lets it be; what it has captured before stays.
+    /// Disarms the analyser. An earlier capture is kept.
     pub fn disarm(&mut self) {
         self.armed = None;
     }
 
-    /// Whether it looks at the run.
+    /// Returns whether the analyser is armed.
     pub fn is_armed(&self) -> bool {
         self.armed.is_some()
     }
 
-    /// Goes on with a run under its eyes, as [`Live::advance`] says.
+    /// Continues a run with the analyser, as [`Live::advance`] does.
     ///
     /// # Errors
     /// Those of `shots`.
@@ -172,10 +172,11 @@ impl Ila {
         }
     }
 
-    /// Takes the capture, if it is full; `exact` if the run's scenario says all that has been done to it.
+    /// Stores the capture if it is complete. `exact` states whether the run's scenario contains everything that was
+    /// done to the run.
     ///
     /// # Errors
-    /// When the files cannot be written.
+    /// If the files cannot be written.
     pub fn take(&mut self, live: &Live, setup: &Setup, exact: bool) -> Result<()> {
         if !self.armed.as_ref().is_some_and(|armed| armed.analyser.is_full()) {
             return Ok(());
@@ -209,10 +210,10 @@ impl Ila {
         Ok(())
     }
 
-    /// A file of the capture, and its name.
+    /// Returns a file of the capture, with its name.
     ///
     /// # Errors
-    /// When nothing has been captured.
+    /// If there is no capture.
     pub fn file(&self, format: CaptureFormat) -> Result<(String, Arc<[u8]>)> {
         let none = || Input::new("ila", "nothing has been captured yet: arm it first");
         let done = self.done.as_ref().ok_or_else(none)?;
@@ -221,7 +222,7 @@ impl Ila {
         Ok((format!("{}.{}", done.view.name, format.ending()), Arc::clone(bytes)))
     }
 
-    /// What the page shows.
+    /// Returns the state for the page.
     pub fn view(&self) -> IlaView {
         let armed = self.armed.as_ref().map(|armed| ArmedView {
             name: armed.set_up.name.clone(),
@@ -250,7 +251,7 @@ fn files(capture: &Capture, name: &str) -> Result<Vec<(CaptureFormat, Arc<[u8]>)
     CaptureFormat::ALL.into_iter().zip(&paths).map(read).collect()
 }
 
-/// The command that makes the same capture of the run's scenario.
+/// Formats the command that makes the same capture from the run's scenario.
 fn command(set_up: &AnalyserSetup, frames: u64, setup: &Setup) -> String {
     let file = &set_up.file;
     let mut words = vec![
@@ -266,7 +267,7 @@ fn command(set_up: &AnalyserSetup, frames: u64, setup: &Setup) -> String {
     words.join(" ")
 }
 
-/// A word as a shell takes it.
+/// Quotes a word for a shell.
 fn quoted(text: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
     if text.chars().all(is_plain) {

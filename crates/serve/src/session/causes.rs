@@ -1,4 +1,4 @@
-//! The histogram's counts by what set the avalanche off.
+//! The histogram by cause of the avalanches.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use tofsim::sim::frames::Frame;
 
 use super::instrument::Instrument;
 
-/// Causes in the order in which they are stacked; `None` is unknown.
+/// Causes in stacking order; `None` is unknown.
 const CAUSES: [(Option<Cause>, &str); 5] = [
     (Some(Cause::Dark), "dark"),
     (Some(Cause::Ambient), "ambient"),
@@ -17,21 +17,21 @@ const CAUSES: [(Option<Cause>, &str); 5] = [
     (None, "unknown"),
 ];
 
-/// Counts of one cause, a number for each bin.
+/// Counts of one cause, for each bin.
 #[derive(Clone, Debug, Serialize)]
 pub struct Layer {
     cause: &'static str,
     counts: Vec<f64>,
 }
 
-/// What has been seen of a frame's shots.
+/// Causes of a frame's hits, as far as they were observed.
 #[derive(Clone, Debug)]
 pub struct Causes {
     seen: [Vec<u32>; CAUSES.len()],
 }
 
 impl Causes {
-    /// Nothing yet, of so many bins.
+    /// Creates empty counts of `bins` bins.
     pub fn new(bins: usize) -> Self {
         Causes { seen: std::array::from_fn(|_| vec![0; bins]) }
     }
@@ -48,12 +48,12 @@ impl Causes {
         }
     }
 
-    /// Forgets all.
+    /// Clears all counts.
     pub fn clear(&mut self) {
         self.seen.iter_mut().for_each(|counts| counts.fill(0));
     }
 
-    /// A frame's histogram by cause, as it was seen; what was not seen is unknown.
+    /// Returns a frame's histogram by observed cause; hits that were not observed count as unknown.
     pub fn seen(&self, frame: &Frame) -> Vec<Layer> {
         let mut seen = self.seen.clone();
         for (bin, &count) in frame.histogram.iter().enumerate() {
@@ -77,7 +77,7 @@ impl Layer {
     }
 }
 
-/// A frame's histogram by cause, as it is to be expected.
+/// Returns a frame's histogram by expected cause.
 pub fn expected(instrument: &Instrument, frame: &Frame) -> Vec<Layer> {
     let [signal, ambient, dark] = instrument.expected_causes(frame);
     let layers = [("dark", dark), ("ambient", ambient), ("signal", signal)];

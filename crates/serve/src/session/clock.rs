@@ -1,21 +1,21 @@
-//! What a run takes here, beside what it takes on the board.
+//! Simulation speed relative to the board.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// Frames over which the speed is a mean.
+/// Number of frames over which the speed is averaged.
 const MEAN_OVER: usize = 32;
 
-/// Time that is spent on frames.
+/// Time spent on frames.
 #[derive(Debug, Default)]
 pub struct Clock {
-    /// On simulating alone.
+    /// Time spent on simulation alone.
     pub busy: Duration,
     ends: VecDeque<Instant>,
 }
 
 impl Clock {
-    /// A frame has ended.
+    /// Registers the end of a frame.
     pub fn frame(&mut self) {
         if self.ends.len() == MEAN_OVER {
             self.ends.pop_front();
@@ -23,12 +23,12 @@ impl Clock {
         self.ends.push_back(Instant::now());
     }
 
-    /// The run stands still, so that the frames to come have none before them.
+    /// Registers that the run stops, so that the average restarts.
     pub fn stop(&mut self) {
         self.ends.clear();
     }
 
-    /// Frames a second, of the last ones.
+    /// Returns the recent number of frames per second.
     pub fn frames_per_second(&self) -> Option<f64> {
         let (first, last) = (self.ends.front()?, self.ends.back()?);
         let seconds = last.duration_since(*first).as_secs_f64();

@@ -8,16 +8,16 @@ use tofsim_captures::ila::export::CaptureFormat;
 /// A file to save.
 #[derive(Clone, Debug)]
 pub struct File {
-    /// Its name, of letters, digits, `_`, `-` and `.`.
+    /// File name, of letters, digits, `_`, `-` and `.`.
     pub name: String,
-    /// Its media type.
+    /// Media type.
     pub media_type: &'static str,
-    /// What is in it.
+    /// Contents.
     pub bytes: Arc<[u8]>,
 }
 
 impl File {
-    /// A file of a capture.
+    /// Creates a file of a capture.
     pub fn of_capture(name: String, format: CaptureFormat, bytes: Arc<[u8]>) -> Self {
         let media_type = match format {
             CaptureFormat::Csv => "text/csv; charset=utf-8",
@@ -27,7 +27,7 @@ impl File {
         File { name, media_type, bytes }
     }
 
-    /// A waveform.
+    /// Creates a waveform file.
     pub fn of_waves(format: WaveFormat, bytes: Vec<u8>) -> Self {
         let (name, media_type) = match format {
             WaveFormat::Vcd => ("shot.vcd", "text/plain; charset=utf-8"),
@@ -36,7 +36,7 @@ impl File {
         File { name: name.to_owned(), media_type, bytes: bytes.into() }
     }
 
-    /// A scenario, named after the one that it was.
+    /// Creates a scenario file, named after the original scenario.
     pub fn of_scenario(name: &str, text: String) -> Self {
         let known = |c: char| if c.is_ascii_alphanumeric() || "_-".contains(c) { c } else { '_' };
         let name: String = name.chars().map(known).collect();

@@ -1,4 +1,4 @@
-//! A setup, and all that is said of its frames.
+//! A setup, with all derived information about its frames.
 
 use std::sync::Arc;
 
@@ -15,42 +15,42 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::error_budget::Bound;
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 
-/// Who says how far it is, beside the estimator in the socket.
+/// Estimators shown in addition to the one in the estimator slot.
 const PANEL: [EstimatorKind; 3] =
     [EstimatorKind::Network, EstimatorKind::Centroid, EstimatorKind::Likelihood];
 
-/// A setup, and all that is said of its frames.
+/// A setup, with all derived information about its frames.
 pub struct Instrument {
-    /// What is simulated.
+    /// Simulated setup.
     pub setup: Arc<Setup>,
     panel: Vec<(&'static str, std::result::Result<Panel, String>)>,
     second: Option<SecondOpinion>,
-    /// Twice the least standard deviation that an unbiased depth can have [mm].
+    /// Twice the smallest standard deviation of an unbiased depth [mm].
     pub bound_two_sd_mm: Option<f64>,
-    /// What results lie outside of.
+    /// Notes on the setup's results.
     pub notes: Vec<Note>,
-    /// Of each code the parts of signal, ambient light and no light, in the dark and with the laser [1].
+    /// For each code, the fractions of signal, ambient light and dark counts, without and with laser [1].
     parts: [Vec<[f64; 3]>; 2],
 }
 
-/// What an estimator says of a frame.
+/// Estimate of a frame's depth.
 #[derive(Clone, Debug, Serialize)]
 pub struct Depth {
-    /// Its name.
+    /// Name of the estimator.
     pub estimator: &'static str,
-    /// Whether it is the one in the firmware.
+    /// Whether it is the firmware's estimator.
     pub in_socket: bool,
     /// Distance of the target [m].
     pub depth_m: Option<f64>,
-    /// Why there is none.
+    /// Reason why there is no depth.
     pub failure: Option<String>,
 }
 
 impl Instrument {
-    /// For frames of a setup.
+    /// Derives the information for a setup.
     ///
     /// # Errors
-    /// When the network's file has a domain that is none, or the acquisition makes no sense.
+    /// If the network file's domain is invalid, or the acquisition is inconsistent.
     pub fn new(setup: Arc<Setup>) -> Result<Self> {
         let panel = PANEL.map(|kind| {
             let panel = Panel::new(&[kind], &setup).map_err(|error| error.to_string());
@@ -78,7 +78,7 @@ impl Instrument {
         Ok(Instrument { panel: panel.into(), second, bound_two_sd_mm, notes, parts, setup })
     }
 
-    /// What each estimator says of a frame; the one in the socket says what the firmware has said.
+    /// Returns each estimator's depth of a frame; that of the estimator slot is the firmware's.
     pub fn depths(&self, frame: &Frame) -> Vec<Depth> {
         let socket = EstimatorKind::in_socket(&self.setup.scenario).name();
         let own = Depth {
@@ -107,7 +107,7 @@ impl Instrument {
         depths
     }
 
-    /// What a frame's depth lies outside of beside [`Instrument::notes`].
+    /// Returns notes on a frame's depth in addition to [`Instrument::notes`].
     pub fn notes_of(&self, frame: &Frame) -> Vec<Note> {
         let Some((second, opinion)) =
             self.second.as_ref().and_then(|second| Some((second, second.of(frame)?)))
@@ -122,7 +122,7 @@ impl Instrument {
         partings.notes(second)
     }
 
-    /// A histogram by what is to be expected: signal, ambient light, dark [hits].
+    /// Splits a histogram into its expected parts of signal, ambient light and dark counts [hits].
     pub fn expected_causes(&self, frame: &Frame) -> [Vec<f64>; 3] {
         let parts = &self.parts[usize::from(frame.laser_en)];
         let of = |cause: usize| {

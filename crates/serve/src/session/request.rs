@@ -1,4 +1,4 @@
-//! What a browser may ask for.
+//! Requests of a browser.
 
 use std::collections::BTreeMap;
 
@@ -11,52 +11,54 @@ use tofsim::kernel::U;
 use tofsim::scenario::{Control, QuenchMode};
 use tofsim_captures::ila::export::CaptureFormat;
 
-/// Frames that one request may ask for.
+/// Largest number of frames in one request.
 const MOST_FRAMES: u32 = 1000;
 
-/// One request.
+/// A request of a browser.
 #[derive(Clone, Debug)]
 pub enum Request {
-    /// Start, stop, go on for some frames, or power up again.
+    /// Start, stop, run a number of frames, or restart at power-up.
     Run(RunRequest),
-    /// Change signals of the acquisition computer.
+    /// Change control signals.
     Control(ControlRequest),
     /// Change the scene.
     Scene(BTreeMap<String, f64>),
-    /// Arm the logic analyser, or let it be.
+    /// Arm or disarm the logic analyser.
     Ila(IlaRequest),
-    /// A file of the capture.
+    /// Return a file of the capture.
     IlaFile(CaptureFormat),
-    /// The waveform of a shot of the last frame.
+    /// Return the waveform of a shot of the last frame.
     Shot {
-        /// Its number in the frame, or else the last one.
+        /// Number of the shot in the frame; the last shot by default.
         shot: Option<u64>,
-        /// Of the file.
+        /// Format of the file.
         format: WaveFormat,
-        /// Globs of the signals; none asks for all.
+        /// Globs of the signals; all signals if empty.
         signals: Vec<String>,
     },
-    /// The run so far as a scenario.
+    /// Return the run so far as a scenario.
     Scenario,
-    /// The state alone.
+    /// Return the state.
     State,
 }
 
-/// Start, stop, go on for some frames, or power up again.
+/// Request to start, stop, run a number of frames, or restart at power-up.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RunRequest {
-    /// Whether it runs.
+    /// Whether to run.
     pub running: Option<bool>,
-    /// Frames to go on for, stopped.
+    /// Number of frames to run, after which the run stops.
     pub frames: Option<u32>,
-    /// Begins again at power-up, with switches and scene as they are.
+    /// Whether to restart at power-up, with the present control signals and scene.
     pub power_up: bool,
 }
 
 impl RunRequest {
+    /// Checks the request.
+    ///
     /// # Errors
-    /// When it asks for nothing, or for too many frames.
+    /// If it requests nothing, or too many frames.
     pub fn check(&self) -> Result<()> {
         if self.running.is_none() && self.frames.is_none() && !self.power_up {
             let expected = "expected running, frames or power_up";
@@ -72,29 +74,29 @@ impl RunRequest {
     }
 }
 
-/// Signals of the acquisition computer.
+/// Request to change control signals.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ControlRequest {
-    /// Which of the laser's periods.
+    /// Laser repetition rate: index of the laser period.
     pub laser_freq: Option<u64>,
     /// SPAD quench mode, 0 or 1.
     pub mode: Option<u64>,
-    /// Lets the laser fire.
+    /// Enable the laser.
     pub laser_en: Option<bool>,
-    /// Lets the estimator start.
+    /// Enable the estimator.
     pub dsp_en: Option<bool>,
-    /// Abandons the frame.
+    /// Abandon the frame.
     pub dsp_rst: Option<bool>,
-    /// `dsp_rst` high for a microsecond.
+    /// Pulse `dsp_rst` for one microsecond.
     pub pulse_dsp_rst: bool,
 }
 
 impl ControlRequest {
-    /// The change, for a laser with so many periods.
+    /// Converts the request to a change, for a laser with `periods` periods.
     ///
     /// # Errors
-    /// When a code is none, or nothing changes.
+    /// If a code is out of range, or nothing changes.
     pub fn change(&self, periods: usize) -> Result<Control> {
         let fault = |field: &str, value: u64, expected: String| {
             Err(Input::new("control", expected).field(field).value(value).into())
@@ -127,7 +129,7 @@ impl ControlRequest {
     }
 }
 
-/// The pins after a change.
+/// Returns the pins after a change.
 pub fn changed(pins: &Pins, change: &Control) -> Pins {
     Pins {
         laser_freq: change.laser_freq.map_or(pins.laser_freq, U::new),
@@ -139,26 +141,26 @@ pub fn changed(pins: &Pins, change: &Control) -> Pins {
     }
 }
 
-/// What the logic analyser is to do.
+/// Request to the logic analyser.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct IlaRequest {
-    /// Whether to arm it; false lets it be.
+    /// Whether to arm it; false disarms it.
     pub arm: bool,
-    /// Name of a built-in set-up.
+    /// Name of a built-in probe configuration.
     pub set_up: Option<String>,
-    /// A set-up file of one's own, instead.
+    /// Text of a custom probe configuration, instead of a built-in one.
     pub text: Option<String>,
-    /// In place of the set-up's key.
+    /// Override of the key `clock`.
     pub clock: Option<String>,
-    /// In place of the set-up's key.
+    /// Override of the key `depth`.
     pub depth: Option<u64>,
-    /// In place of the set-up's key.
+    /// Override of the key `windows`.
     pub windows: Option<u64>,
-    /// In place of the set-up's key.
+    /// Override of the key `position`.
     pub position: Option<u64>,
-    /// In place of the set-up's key.
+    /// Override of the key `trigger`.
     pub trigger: Option<String>,
-    /// In place of the set-up's key.
+    /// Override of the key `capture`.
     pub capture: Option<String>,
 }

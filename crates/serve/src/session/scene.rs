@@ -1,4 +1,4 @@
-//! The keys of the scene that the page has sliders for.
+//! Scene keys that have sliders on the page.
 
 use std::collections::BTreeMap;
 
@@ -9,13 +9,13 @@ use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::scenario::Scenario;
 use tofsim::sim::setup::Setup;
 
-/// A key, what people call it, its unit, and a slider's least and largest value and step.
+/// A scene key with its label, its unit, and the range and step of its slider.
 struct Key {
     key: &'static str,
     label: &'static str,
     unit: &'static str,
     range: [f64; 3],
-    /// Zero is what is beyond the largest value: clear air.
+    /// Whether zero means more than the largest value, such as the visibility of clear air.
     zero_is_far: bool,
     of: fn(&Scenario) -> f64,
 }
@@ -65,7 +65,7 @@ const KEYS: [Key; 5] = [
 
 const DISTANCE: &str = "target.distance_m";
 
-/// A slider, and where it stands.
+/// A slider with its present value.
 #[derive(Clone, Debug, Serialize)]
 pub struct Slider {
     key: &'static str,
@@ -74,12 +74,12 @@ pub struct Slider {
     value: f64,
     least: f64,
     most: f64,
-    /// 0: as on a scale of decades.
+    /// Step; 0 for a logarithmic scale.
     step: f64,
     zero_is_far: bool,
 }
 
-/// The sliders of a scene.
+/// Returns the sliders of a scene.
 pub fn sliders(setup: &Setup) -> Vec<Slider> {
     let window_m =
         setup.bins().spans().last().map_or(1.0, |span| span.until.seconds()) * LIGHT_M_S / 2.0;
@@ -93,7 +93,7 @@ pub fn sliders(setup: &Setup) -> Vec<Slider> {
     KEYS.iter().map(slider).collect()
 }
 
-/// Whether the scenes of two set-ups are not the same.
+/// Returns whether the scenes of two setups differ.
 pub fn differ(one: &Setup, other: &Setup) -> bool {
     KEYS.iter().any(|key| (key.of)(&one.scenario) != (key.of)(&other.scenario))
 }
@@ -102,10 +102,10 @@ fn of(key: &str) -> fn(&Scenario) -> f64 {
     KEYS.iter().find(|known| known.key == key).map_or(|_| 0.0, |known| known.of)
 }
 
-/// Lays what a request says over the scene that has been asked for.
+/// Adds the changes of a request to those requested before.
 ///
 /// # Errors
-/// When it has a key that is not the scene's, or none.
+/// If there is no key, or a key is not one of the scene.
 pub fn lay_over(scene: &mut BTreeMap<String, f64>, asked: BTreeMap<String, f64>) -> Result<()> {
     let names = || KEYS.map(|key| key.key).join(", ");
     if asked.is_empty() {
@@ -121,7 +121,7 @@ pub fn lay_over(scene: &mut BTreeMap<String, f64>, asked: BTreeMap<String, f64>)
     Ok(())
 }
 
-/// The scene as overrides of a scenario.
+/// Formats the changes of the scene as overrides.
 pub fn overrides(scene: &BTreeMap<String, f64>) -> Vec<String> {
     scene.iter().map(|(key, value)| format!("{key}={value:?}")).collect()
 }

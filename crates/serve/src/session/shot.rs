@@ -1,4 +1,4 @@
-//! The waveform of a shot of the last frame, from simulating that frame once more.
+//! Waveform of a shot of the last frame, made by simulating the frame again.
 
 use std::fs;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use tofsim::sim::Live;
 use tofsim::sim::setup::Setup;
 use tofsim::{WaveFormat, Window};
 
-/// What the page draws of a shot, as far as the design has it.
+/// Signals of a shot that the page draws, if they exist in the design.
 const VIEW: [&str; 16] = [
     "clk_sys",
     "pre_start",
@@ -30,31 +30,31 @@ const VIEW: [&str; 16] = [
     "histogram_builder.hit_word",
 ];
 
-/// The name by which a browser asks for those.
+/// Name by which a browser requests these signals.
 pub const VIEW_NAME: &str = "view";
 
-/// A frame at its begin, and what has been done to it since.
+/// State at the start of a frame, with all changes since then.
 #[derive(Clone)]
 pub struct Keyframe {
     live: Live,
     changes: Vec<Control>,
 }
 
-/// Changes that are kept of a frame; its waveform cannot be had after more.
+/// Largest number of changes that are kept; after more, the waveform is unavailable.
 const MOST_CHANGES: usize = 4096;
 
 impl Keyframe {
-    /// As a frame begins.
+    /// Copies the state at the start of a frame.
     pub fn new(live: &Live) -> Self {
         Keyframe { live: live.clone(), changes: Vec::new() }
     }
 
-    /// The scene changes, in Clear.
+    /// Registers a change of the scene, in the state Clear.
     pub fn change_scene(&mut self, setup: &Arc<Setup>) {
         self.live.change_scene(Arc::clone(setup));
     }
 
-    /// A control signal changes.
+    /// Registers a change of control signals.
     pub fn change(&mut self, change: &Control) {
         if self.changes.len() <= MOST_CHANGES {
             self.changes.push(change.clone());
@@ -62,29 +62,29 @@ impl Keyframe {
     }
 }
 
-/// A frame that is over.
+/// A complete frame.
 #[derive(Clone)]
 pub struct Finished {
     keyframe: Keyframe,
-    /// Shots from its begin to its end.
+    /// Number of shots.
     shots: u64,
     /// Its length [cycles of clk_sys].
     cycles: u64,
 }
 
 impl Finished {
-    /// The frame that began with `keyframe` and has just ended.
+    /// Creates the frame that began with `keyframe` and has just ended.
     pub fn new(keyframe: Keyframe, live: &Live) -> Self {
         let shots = live.shots() - keyframe.live.shots();
         let cycles = live.device().cycle() - keyframe.live.device().cycle();
         Finished { keyframe, shots, cycles }
     }
 
-    /// The waveform of a shot, by its number in the frame, or of the last one; of the signals that match one of
-    /// the globs, or of all.
+    /// Simulates the frame again, and returns the waveform of a shot, by its number or the last one, with the signals
+    /// that match one of the globs, or all.
     ///
     /// # Errors
-    /// When the frame has no such shot, or a glob matches no signal.
+    /// If the frame has no such shot, or a glob matches no signal.
     pub fn waves(
         &self,
         shot: Option<u64>,
@@ -116,7 +116,7 @@ impl Finished {
     }
 }
 
-/// Those of [`VIEW`] that the design has.
+/// Returns the signals of [`VIEW`] that exist in the design.
 fn view(setup: &Setup) -> Vec<String> {
     let known: Vec<_> =
         hierarchy::entries(&setup.params).iter().map(|entry| entry.below_top()).collect();

@@ -1,4 +1,4 @@
-//! What the session tells browsers.
+//! State of the session, as sent to browsers.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use super::view::{
 };
 
 impl Session {
-    /// The state as JSON, newer than all before.
+    /// Returns the state as JSON, with an increased version.
     pub fn state(&mut self) -> Arc<str> {
         self.version += 1;
         self.pins = self.pins();
@@ -88,7 +88,7 @@ impl Session {
         serde_json::to_string(&view).unwrap_or_default().into()
     }
 
-    /// The switches, which the scenario may turn too.
+    /// Returns the control signals, which the scenario may change too.
     pub(super) fn pins(&self) -> Pins {
         match self.live.is_changing() {
             true => self.pins,
@@ -96,7 +96,7 @@ impl Session {
         }
     }
 
-    /// What keeps a frame from ending for as long as the switches stay.
+    /// Returns the reason why the control signals prevent a frame from ending, if they do.
     pub(super) fn held(&self) -> Option<&'static str> {
         let top = &self.live.device().top;
         if self.pins.rst {
@@ -115,7 +115,7 @@ impl Session {
         (!can_change).then_some("the scenario's stimulus stands in for the light")
     }
 
-    /// The scenario with the scene and the switches as they are.
+    /// Returns the setup with the present scene and control signals.
     pub(super) fn setup_now(&self) -> Result<Arc<Setup>> {
         if self.options.load(&[])? != self.base {
             let expected = "the file has changed since the start: start again to have it as it is";
@@ -142,7 +142,7 @@ impl Session {
 }
 
 impl FrameView {
-    /// What a frame says itself.
+    /// Extracts the information of a frame.
     pub(super) fn of(frame: &Frame, setup: &Setup, mixed: bool) -> Self {
         let clear = setup.params.histogram.bins as u64;
         let (drain, estimate) = (setup.params.frame_ctrl.drain_cycles, frame.estimator_cycles);

@@ -1,4 +1,4 @@
-//! The depths of the last frames.
+//! Depths of the last frames.
 
 use std::collections::VecDeque;
 
@@ -6,28 +6,28 @@ use serde::Serialize;
 
 use super::instrument::Depth;
 
-/// Frames that are kept.
+/// Number of frames that are kept.
 const KEPT: usize = 240;
 
-/// The depths of a frame.
+/// Depths of a frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct Point {
-    /// Frame, from 0.
+    /// Number of the frame, from 0.
     pub frame: u64,
-    /// Where the target is, if a depth can be the target's [m].
+    /// Distance of the target, if a depth can be the target's [m].
     pub true_m: Option<f64>,
-    /// What each estimator says [m].
+    /// Depth of each estimator [m].
     pub depths_m: Vec<Option<f64>>,
-    /// The Cramer-Rao bound, two standard deviations [mm].
+    /// Cramer-Rao bound, two standard deviations [mm].
     pub bound_two_sd_mm: Option<f64>,
 }
 
-/// The depths of the last frames, the oldest first.
+/// Depths of the last frames, oldest first.
 #[derive(Clone, Debug, Default)]
 pub struct Strip(VecDeque<Point>);
 
 impl Strip {
-    /// Adds a frame, and lets the oldest go.
+    /// Adds a frame, and drops the oldest if there are too many.
     pub fn push(
         &mut self,
         frame: u64,
@@ -43,18 +43,18 @@ impl Strip {
         self.0.push_back(Point { frame, true_m, depths_m, bound_two_sd_mm });
     }
 
-    /// Forgets all.
+    /// Removes all frames.
     pub fn clear(&mut self) {
         self.0.clear();
     }
 
-    /// The frames.
+    /// Returns the frames.
     pub fn points(&self) -> &VecDeque<Point> {
         &self.0
     }
 }
 
-/// To a micrometre.
+/// Rounds to a micrometre.
 fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }

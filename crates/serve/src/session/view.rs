@@ -1,4 +1,4 @@
-//! What a browser is told.
+//! JSON objects for browsers.
 
 use serde::Serialize;
 
@@ -8,78 +8,78 @@ use super::instrument::Depth;
 use super::scene::Slider;
 use super::strip::Point;
 
-/// Version of the object.
+/// Schema version of the object.
 pub const SCHEMA: &str = "tofsim.page/1";
 
-/// All of the state.
+/// Complete state.
 #[derive(Clone, Debug, Serialize)]
 pub struct View<'a> {
-    /// [`SCHEMA`].
+    /// Schema version, [`SCHEMA`].
     pub schema: &'static str,
-    /// Grows with each state.
+    /// Number of the state, which increases.
     pub version: u64,
-    /// The scenario's name.
+    /// Name of the scenario.
     pub scenario: &'a str,
-    /// Seed of every random stream.
+    /// Seed of all random streams.
     pub seed: u64,
-    /// Way through time.
+    /// Simulation fidelity.
     pub fidelity: &'static str,
-    /// Hash of the scenario as it is now.
+    /// Hash of the present scenario.
     pub hash: &'a str,
-    /// Whether frames follow each other.
+    /// Whether the run is running.
     pub running: bool,
-    /// What went wrong in the run, which has stopped it.
+    /// Error that stopped the run.
     pub fault: Option<&'a str>,
-    /// What keeps a frame from ending.
+    /// Reason why no frame ends.
     pub held: Option<&'static str>,
-    /// The acquisition computer's signals.
+    /// Control signals.
     pub control: ControlView,
-    /// The laser's rates, by code.
+    /// Laser repetition rates, by code.
     pub rates: &'a [RateView],
-    /// Why the laser cannot be switched, if it cannot.
+    /// Reason why the laser cannot be switched.
     pub laser_fixed: Option<&'static str>,
-    /// The scene.
+    /// Sliders of the scene.
     pub scene: Vec<Slider>,
-    /// Whether it has changed, and no frame of the new one has ended yet.
+    /// Whether the scene has changed, and no frame of the new scene has ended yet.
     pub scene_coming: bool,
-    /// Why the scene cannot be changed, if it cannot.
+    /// Reason why the scene cannot be changed.
     pub scene_fixed: Option<&'static str>,
-    /// The last frame.
+    /// Last complete frame.
     pub frame: Option<&'a FrameView>,
-    /// The present frame.
+    /// Progress of the present frame.
     pub progress: ProgressView,
-    /// The depths of the last frames.
+    /// Depths of the last frames.
     pub strip: &'a std::collections::VecDeque<Point>,
-    /// What results lie outside of.
+    /// Notes on the results.
     pub notes: Vec<String>,
-    /// Time here and on the board.
+    /// Simulation speed.
     pub time: TimeView,
-    /// The histogram's bins.
+    /// Bins of the histogram.
     pub bins: BinsView,
-    /// The logic analyser.
+    /// State of the logic analyser.
     pub ila: IlaView,
-    /// Set-ups of captures that are built in.
+    /// Built-in probe configurations.
     pub set_ups: &'a [SetUpView],
-    /// Whether the run's scenario says all that has been done to it.
+    /// Whether the run's scenario contains everything that was done to the run.
     pub exact: bool,
 }
 
-/// The acquisition computer's signals.
+/// Control signals.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ControlView {
-    /// Which of the rates.
+    /// Laser repetition rate: index of the laser period.
     pub laser_freq: u64,
     /// SPAD quench mode.
     pub mode: u64,
-    /// Lets the laser fire.
+    /// Laser enable.
     pub laser_en: bool,
-    /// Lets the estimator start.
+    /// Estimator enable.
     pub dsp_en: bool,
-    /// Abandons the frame.
+    /// Frame reset.
     pub dsp_rst: bool,
 }
 
-/// A rate of the laser.
+/// A laser repetition rate.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct RateView {
     /// Period [cycles of clk_sys].
@@ -88,42 +88,42 @@ pub struct RateView {
     pub mhz: f64,
 }
 
-/// A frame.
+/// A complete frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct FrameView {
-    /// From 0.
+    /// Number of the frame, from 0.
     pub index: u64,
-    /// Whether the laser could fire, as it ended.
+    /// Whether the laser was enabled at the end of the frame.
     pub laser_en: bool,
-    /// Whether a control signal changed within it.
+    /// Whether a control signal changed during the frame.
     pub mixed: bool,
-    /// Shots counted.
+    /// Number of shots.
     pub shots: u64,
-    /// Hits that the TDC kept.
+    /// Number of hits that the TDC registered.
     pub tdc_hits: u64,
-    /// Hits in the histogram.
+    /// Number of hits in the histogram.
     pub hits: u64,
-    /// The histogram, the lowest layer first.
+    /// Histogram by cause, lowest layer first.
     pub layers: Vec<Layer>,
-    /// Whether causes were seen, or are what is to be expected.
+    /// Whether causes were observed rather than expected.
     pub causes_seen: bool,
-    /// What each estimator says.
+    /// Depth of each estimator.
     pub depths: Vec<Depth>,
-    /// The depth word in hexadecimal.
+    /// Depth word in hexadecimal.
     pub depth_raw: String,
-    /// Distance of the target, if a depth can be that [m].
+    /// Distance of the target, if a depth can be the target's [m].
     pub true_m: Option<f64>,
-    /// The Cramer-Rao bound, two standard deviations [mm].
+    /// Cramer-Rao bound, two standard deviations [mm].
     pub bound_two_sd_mm: Option<f64>,
-    /// Its parts [cycles of clk_sys].
+    /// Phases of the frame [cycles of clk_sys].
     pub phases: [PhaseView; 4],
     /// Length [cycles of clk_sys].
     pub frame_cycles: u64,
-    /// Length on the board [us].
+    /// Duration on the board [us].
     pub board_us: f64,
 }
 
-/// A part of a frame.
+/// A phase of a frame.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct PhaseView {
     /// State of `frame_ctrl`.
@@ -132,45 +132,45 @@ pub struct PhaseView {
     pub cycles: u64,
 }
 
-/// The present frame.
+/// Progress of the present frame.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ProgressView {
-    /// From 0.
+    /// Number of the frame, from 0.
     pub frame: u64,
     /// State of `frame_ctrl`.
     pub phase: &'static str,
-    /// Shots begun.
+    /// Number of shots begun.
     pub shots: u64,
-    /// Shots of a whole frame.
+    /// Number of shots per frame.
     pub of: u64,
-    /// Frames abandoned since power-up.
+    /// Number of frames abandoned since power-up.
     pub abandoned: u64,
 }
 
-/// Time here and on the board.
+/// Simulation speed.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct TimeView {
-    /// Since power-up, on the board [s].
+    /// Time since power-up on the board [s].
     pub board_s: f64,
-    /// Spent on simulating it, here [s].
+    /// Time spent on its simulation [s].
     pub here_s: f64,
-    /// Frames a second on the board.
+    /// Frames per second on the board.
     pub board_frames_per_s: f64,
-    /// Frames a second here, of the last ones.
+    /// Frames per second in the simulation, recently.
     pub frames_per_s: Option<f64>,
-    /// Frames done since power-up.
+    /// Number of frames since power-up.
     pub frames: u64,
-    /// Shots since power-up.
+    /// Number of shots since power-up.
     pub shots: u64,
 }
 
-/// The histogram's bins.
+/// Bins of the histogram.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct BinsView {
-    /// How many.
+    /// Number of bins.
     pub count: usize,
-    /// Distance that a bin stands for [m].
+    /// Distance per bin [m].
     pub bin_m: f64,
-    /// Distance at which the first begins [m].
+    /// Distance at which the first bin begins [m].
     pub first_m: f64,
 }

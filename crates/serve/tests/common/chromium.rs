@@ -1,4 +1,4 @@
-//! Chromium without a screen, driven over a pipe by its own protocol.
+//! Headless Chromium, driven over a pipe by the DevTools protocol.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -14,7 +14,7 @@ pub struct Chromium {
     output: BufReader<ChildStdout>,
     session: String,
     next: u64,
-    /// What the page has said of errors.
+    /// Errors that the page has reported.
     pub complaints: Vec<String>,
     _folder: tempfile::TempDir,
 }
@@ -32,7 +32,7 @@ impl Drop for Chromium {
 }
 
 impl Chromium {
-    /// Opens a page that is so wide and high; `scheme` is `light` or `dark`.
+    /// Opens a page of the given size; `scheme` is `light` or `dark`.
     pub fn open(url: &str, (width, height): (u32, u32), scheme: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         // The protocol is on the descriptors 3 and 4.
@@ -75,7 +75,7 @@ impl Chromium {
         self.call("Emulation.setDeviceMetricsOverride", size);
     }
 
-    /// The value of an expression in the page.
+    /// Evaluates an expression in the page.
     pub fn value(&mut self, expression: &str) -> Value {
         let asked =
             json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
@@ -117,13 +117,13 @@ impl Chromium {
         panic!("{key} never makes it true: {expression}; {:?}", self.complaints);
     }
 
-    /// Where the page's files are saved.
+    /// Sets the folder for downloads.
     pub fn save_into(&mut self, folder: &Path) {
         let asked = json!({ "behavior": "allow", "downloadPath": folder });
         self.call("Page.setDownloadBehavior", asked);
     }
 
-    /// All of the page as a picture.
+    /// Saves a screenshot of the whole page.
     pub fn screenshot(&mut self, path: &Path) {
         let asked = json!({ "format": "png", "captureBeyondViewport": true });
         let shot = self.call("Page.captureScreenshot", asked);

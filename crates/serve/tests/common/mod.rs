@@ -1,4 +1,4 @@
-//! A server of its own for each test, and who asks it.
+//! A separate server for each test, and clients.
 
 pub mod chromium;
 mod server;

@@ -7,13 +7,13 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-/// A server that ends with the test.
+/// A server, which is stopped when dropped.
 pub struct Server {
     process: Child,
     pub url: String,
 }
 
-/// An answer: status, headers and body.
+/// A response: status, headers and body.
 pub struct Answer {
     pub status: u16,
     pub head: String,
@@ -27,7 +27,7 @@ impl Answer {
         })
     }
 
-    /// What an answer says is wrong.
+    /// Returns the error text.
     pub fn fault(&self) -> String {
         self.json()["error"].as_str().unwrap_or_default().to_owned()
     }
@@ -41,7 +41,7 @@ impl Drop for Server {
 }
 
 impl Server {
-    /// With those arguments.
+    /// Starts a server with the given arguments.
     pub fn start(arguments: &[&str]) -> Self {
         let mut process = Command::new(env!("CARGO_BIN_EXE_tofsim-serve"))
             .arg("--quiet")
@@ -54,7 +54,7 @@ impl Server {
         Server { process, url: url.trim().to_owned() }
     }
 
-    /// The same with frames of 300 shots, standing still.
+    /// Starts a stopped server with frames of 300 shots.
     pub fn small(arguments: &[&str]) -> Self {
         let small = ["--stopped", "-s", "firmware.shots_per_frame=300"];
         Server::start(&[&small, arguments].concat())
@@ -64,22 +64,22 @@ impl Server {
         self.process.id()
     }
 
-    /// Waits for its end.
+    /// Waits for the server to end.
     pub fn end(mut self) -> std::process::ExitStatus {
         self.process.wait().unwrap()
     }
 
-    /// Host and port.
+    /// Returns host and port.
     pub fn host(&self) -> &str {
         self.url["http://".len()..].split('/').next().unwrap()
     }
 
-    /// The path of the page, with its token.
+    /// Returns the path of the page, including its token.
     pub fn path(&self) -> &str {
         &self.url["http://".len() + self.host().len()..]
     }
 
-    /// A request as it stands.
+    /// Sends a raw request.
     pub fn send(&self, request: &str) -> Answer {
         let mut stream = TcpStream::connect(self.host()).unwrap();
         stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
@@ -107,7 +107,7 @@ impl Server {
         ))
     }
 
-    /// A request that is granted; the state after it.
+    /// Sends a request that must succeed, and returns the state after it.
     pub fn act(&self, path: &str, body: &str) -> Value {
         let answer = self.post(path, body);
         assert_eq!(answer.status, 200, "{path} {body}: {}", String::from_utf8_lossy(&answer.body));
@@ -118,12 +118,12 @@ impl Server {
         self.get("state").json()
     }
 
-    /// Goes on for so many frames; the last one.
+    /// Runs `count` frames, and returns the last one.
     pub fn frames(&self, count: u32) -> Value {
         self.act("run", &format!("{{\"frames\":{count}}}"))["frame"].clone()
     }
 
-    /// Has it run, and stands still within a frame's shots.
+    /// Starts the run, and stops it within a frame's shots.
     pub fn stop_within_a_frame(&self) -> Value {
         loop {
             self.act("run", "{\"running\":true}");
@@ -135,7 +135,7 @@ impl Server {
         }
     }
 
-    /// Asks until the state is as wished.
+    /// Polls the state until it satisfies a predicate.
     pub fn wait(&self, wish: impl Fn(&Value) -> bool) -> Value {
         let until = Instant::now() + Duration::from_secs(60);
         loop {

@@ -1,4 +1,4 @@
-//! A key of the scenario, and the values that it takes.
+//! Axes of a plan: scenario keys with their values.
 
 use toml_edit::Table;
 
@@ -12,7 +12,7 @@ use super::distribution::Quantiles;
 use super::fault::at_key;
 use super::file::{AxisFile, Distribution, Scale, Value};
 
-/// Most values of an axis.
+/// Largest number of values of an axis.
 const MOST_VALUES: u64 = 10_000_000;
 
 /// A key with its values.
@@ -20,28 +20,28 @@ const MOST_VALUES: u64 = 10_000_000;
 pub struct Axis {
     /// The key, such as `target.distance_m`.
     pub key: String,
-    /// Whether its values are words or switches, and no numbers.
+    /// Whether its values are words or switches rather than numbers.
     pub is_text: bool,
     values: Values,
-    /// Whether the scenario has whole numbers there only.
+    /// Whether the key accepts whole numbers only.
     is_whole: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 enum Values {
-    /// As TOML has them.
+    /// Listed values, as TOML.
     List(Vec<String>),
-    /// Evenly between two numbers.
+    /// Evenly spaced values between two numbers.
     Range { ends: [f64; 2], scale: Scale, count: Option<u64> },
-    /// Drawn.
+    /// Random values.
     Drawn { quantiles: Quantiles, count: Option<u64> },
 }
 
 impl Axis {
-    /// Those of a plan, which stand there below `place`.
+    /// Checks the axes of a plan, which are located below the key `place`.
     ///
     /// # Errors
-    /// When one makes no sense, the scenario has no such key or value, or a key has two axes.
+    /// If one is inconsistent, the scenario has no such key or value, or a key has two axes.
     pub fn all(checked: &Checked, place: &str, files: &[AxisFile]) -> Result<Vec<Axis>> {
         let axis =
             |(k, file): (usize, &AxisFile)| Axis::new(checked, &format!("{place}.{k}"), file);
@@ -55,7 +55,7 @@ impl Axis {
         Ok(axes)
     }
 
-    /// Its values that are words.
+    /// Returns its values that are words.
     pub fn texts(&self) -> Vec<String> {
         let Values::List(list) = &self.values else { return Vec::new() };
         let text = |value: &String| {
@@ -107,7 +107,7 @@ impl Axis {
         Ok(axis)
     }
 
-    /// That the scenario takes its values: all of a list, the ends of a range.
+    /// Checks that the scenario accepts the values: all of a list, or the ends of a range.
     fn check(&self, checked: &Checked, place: &str) -> Result<()> {
         let (field, shown) = match &self.values {
             Values::List(list) => ("key", list.clone()),
@@ -122,7 +122,7 @@ impl Axis {
         Ok(())
     }
 
-    /// How many values it has, unless that is for the plan to say.
+    /// Returns the number of values, if the axis defines it.
     pub fn count(&self) -> Option<u64> {
         match &self.values {
             Values::List(list) => Some(list.len() as u64),
@@ -130,12 +130,12 @@ impl Axis {
         }
     }
 
-    /// Whether its values are random.
+    /// Returns whether its values are random.
     pub fn is_drawn(&self) -> bool {
         matches!(self.values, Values::Drawn { .. })
     }
 
-    /// The value of a place, as TOML has it; of a drawn one, the value that a part `u` of all lies below.
+    /// Returns the value with index `place`, as TOML; of a random axis, the quantile `u`.
     pub fn value(&self, place: u64, u: f64) -> String {
         match &self.values {
             Values::List(list) => list[place as usize].clone(),
@@ -146,7 +146,7 @@ impl Axis {
         }
     }
 
-    /// The value that a part `u` of all lies below.
+    /// Returns the quantile `u`.
     pub fn at(&self, u: f64) -> String {
         match &self.values {
             Values::List(list) => {
@@ -177,17 +177,17 @@ impl Value {
     }
 }
 
-/// A number in twelve digits at most.
+/// Formats a number with at most twelve digits.
 pub fn number(value: f64) -> String {
     rounded(value).to_string()
 }
 
-/// A number of twelve digits.
+/// Rounds a number to twelve digits.
 pub fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
 
-/// The number that lies so far from the first to the last, 0 to 1.
+/// Interpolates between two numbers; `part` is between 0 and 1.
 pub fn between([from, to]: [f64; 2], scale: Scale, part: f64) -> f64 {
     match scale {
         Scale::Linear => from + part * (to - from),
@@ -195,7 +195,7 @@ pub fn between([from, to]: [f64; 2], scale: Scale, part: f64) -> f64 {
     }
 }
 
-/// Whether the scenario has whole numbers only at a key.
+/// Returns whether a key accepts whole numbers only.
 pub fn is_whole(key: &str) -> bool {
     let takes = |value: &str| {
         assign::<Scenario>(&mut Table::new(), "axis", &format!("{key}={value}"))
@@ -204,10 +204,10 @@ pub fn is_whole(key: &str) -> bool {
     takes("1.5").is_err_and(|error| error.contains("expected a whole number"))
 }
 
-/// Says what is wrong with a field of an axis.
+/// Creates an error at a field of an axis, from the field and the expectation.
 type Fault<'a> = &'a dyn Fn(&str, &str) -> Input;
 
-/// The ends of a range, which rises.
+/// Returns the ends of a range, in ascending order.
 fn ends(file: &AxisFile, scale: Scale, fault: Fault) -> Result<[f64; 2]> {
     let (Some(from), Some(to)) = (file.from, file.to) else {
         let expected = "expected values, range, from and to, or distribution";

@@ -1,4 +1,4 @@
-//! Plans that come with the program.
+//! Built-in plans.
 
 macro_rules! plans {
     ($($name:literal),* $(,)?) => {
@@ -6,7 +6,7 @@ macro_rules! plans {
     };
 }
 
-/// Name and text of each.
+/// Name and text of each built-in plan.
 pub const PLANS: &[(&str, &str)] = plans!(
     "fig-4-2",
     "fig-4-3",
@@ -31,7 +31,7 @@ pub const PLANS: &[(&str, &str)] = plans!(
     "shapes",
 );
 
-/// The text of a plan.
+/// Returns the text of a built-in plan.
 pub fn plan(name: &str) -> Option<&'static str> {
     PLANS.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }

@@ -1,4 +1,4 @@
-//! Which points the axes of a plan make.
+//! Combination of a plan's axes to points.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -11,29 +11,29 @@ use tofsim::files::toml::Checked;
 use super::axis::Axis;
 use super::file::{Combine, PlanFile};
 
-/// Most points of a plan.
+/// Largest number of points of a plan.
 pub const MOST_POINTS: u64 = 10_000_000;
 
-/// Most scenes of a point.
+/// Largest number of scenes per point.
 const MOST_SCENES: u128 = 100_000;
 
-/// The points of a plan, each found by its number.
+/// Points of a plan, computed from their numbers.
 #[derive(Clone, Debug)]
 pub struct Combination {
-    /// The axes, the last of which changes fastest.
+    /// Axes; the last one changes fastest.
     pub axes: Vec<Axis>,
     combine: Combine,
     count: u64,
-    /// Of a Latin hypercube, for each axis in which part each point lies.
+    /// For a Latin hypercube, the interval of each point on each axis.
     parts: Vec<Vec<u32>>,
     seed: u64,
 }
 
 impl Combination {
-    /// Of a plan's axes.
+    /// Combines a plan's axes.
     ///
     /// # Errors
-    /// When they make no points, too many, or do not go together.
+    /// If there are no points or too many, or the axes are inconsistent.
     pub fn new(checked: &Checked, file: &PlanFile, axes: Vec<Axis>, seed: u64) -> Result<Self> {
         let is_hypercube = file.combine == Combine::LatinHypercube;
         let fault = |key: String, expected: &str| checked.fault(&key, expected);
@@ -86,19 +86,19 @@ impl Combination {
         Ok(points)
     }
 
-    /// How many there are.
+    /// Returns the number of points.
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    /// The settings of a point, an assignment for each axis.
+    /// Returns the settings of a point, as an assignment for each axis.
     pub fn settings(&self, point: u64) -> Vec<String> {
         let values = self.values(point);
         let pairs = self.axes.iter().zip(values);
         pairs.map(|(axis, value)| format!("{}={value}", axis.key)).collect()
     }
 
-    /// The value of each axis at a point, as TOML has it.
+    /// Returns the value of each axis at a point, as TOML.
     pub fn values(&self, point: u64) -> Vec<String> {
         let mut rest = point;
         let mut places = vec![0; self.axes.len()];
@@ -124,7 +124,7 @@ impl Combination {
         self.axes.iter().zip(places).enumerate().map(value).collect()
     }
 
-    /// A number between 0 and 1 without the ends, that belongs to a key and a place.
+    /// Draws a number between 0 and 1, excluding both, which depends only on the seed, the key and the index.
     fn draw(&self, key: &str, place: u64) -> f64 {
         let mut random = self.stream(key);
         random.set_word_pos(2 * u128::from(place) + (1 << 40));
@@ -132,7 +132,7 @@ impl Combination {
         tofsim::sensor::streams::uniform(word)
     }
 
-    /// The numbers below the count of points in an order that belongs to a key.
+    /// Draws a permutation of the points' numbers, which depends only on the seed and the key.
     fn permutation(&self, key: &str) -> Vec<u32> {
         let mut random = self.stream(key);
         let mut order: Vec<_> = (0..self.count as u32).collect();
@@ -150,15 +150,16 @@ impl Combination {
     }
 }
 
-/// How many points axes make, each value of one with each of the others.
+/// Returns the number of points in the Cartesian product of the axes.
 pub fn product(axes: &[Axis]) -> u128 {
     axes.iter().fold(1, |all, axis| all.saturating_mul(axis.count().unwrap_or(1).into()))
 }
 
-/// All scenes that axes make, an assignment for each key; `taken` are keys that they cannot have.
+/// Returns all scenes in the Cartesian product of the axes, as an assignment for each key; keys in `taken` are not
+/// allowed.
 ///
 /// # Errors
-/// When there are too many, or an axis has no values of its own.
+/// If there are too many, or an axis has no listed values.
 pub fn scenes(
     checked: &Checked,
     place: &str,
@@ -191,7 +192,7 @@ pub fn scenes(
     Ok((0..count).map(scene).collect())
 }
 
-/// A number with its thousands apart.
+/// Formats a number with thousands separators.
 fn grouped(number: u128) -> String {
     let digits = number.to_string();
     let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);

@@ -1,31 +1,31 @@
-//! Where a part of a distribution's values lies below.
+//! Quantile functions of distributions.
 
 use tofsim::kernel::pulse::normal_quantile;
 
-/// A distribution with its numbers.
+/// A distribution with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantiles {
-    /// Equally likely between two numbers.
+    /// Uniform between two numbers.
     Uniform([f64; 2]),
-    /// Its logarithm is, between those of two numbers.
+    /// Log-uniform between two numbers.
     LogUniform([f64; 2]),
-    /// Normal, cut off outside of two numbers.
+    /// Normal, truncated to an interval.
     Normal {
-        /// Mean before it was cut off.
+        /// Mean before truncation.
         mean: f64,
-        /// Standard deviation before it was cut off.
+        /// Standard deviation before truncation.
         sd: f64,
-        /// What parts of it lie below the two numbers.
+        /// Cumulative probabilities at the ends of the interval.
         parts: [f64; 2],
-        /// Whether it is that of the logarithm.
+        /// Whether it is the distribution of the logarithm.
         is_log: bool,
     },
-    /// Rising from the first number to the second, and falling to the third.
+    /// Triangular: lower limit, mode, upper limit.
     Triangular([f64; 3]),
 }
 
 impl Quantiles {
-    /// The value that a part `u` of all lies below, 0 to 1 without the ends.
+    /// Returns the quantile `u`, which is between 0 and 1, excluding both.
     pub fn at(&self, u: f64) -> f64 {
         match *self {
             Quantiles::Uniform([from, to]) => from + u * (to - from),

@@ -1,9 +1,9 @@
-//! Errors that name a place of the plan.
+//! Errors with a position in the plan.
 
 use tofsim::error::Error;
 use tofsim::files::toml::Checked;
 
-/// An error about something that stands at a key of a file.
+/// Adds the position of a key to an error.
 pub fn at_key(checked: &Checked, key: &str, error: Error) -> Error {
     match error {
         Error::Input(input) => {

@@ -1,4 +1,4 @@
-//! A plan as its TOML file has it.
+//! Contents of a plan's TOML file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,46 +7,46 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlanFile {
-    /// What it is for, in a sentence.
+    /// Purpose of the plan, in a sentence.
     pub description: String,
-    /// Built-in scenario, or the path of one from the plan's folder.
+    /// Built-in scenario, or a path relative to the plan's folder.
     pub scenario: String,
-    /// Keys of the scenario that are the same at all points, as `key=value`.
+    /// Overrides of the scenario's keys for all points, as `key=value`.
     pub set: Vec<String>,
-    /// How the axes make points.
+    /// Combination of the axes to points.
     pub combine: Combine,
-    /// Points of a Latin hypercube.
+    /// Number of points of a Latin hypercube.
     #[schemars(range(min = 1))]
     pub samples: Option<u64>,
-    /// What is simulated at each point.
+    /// Simulation fidelity.
     pub fidelity: Fidelity,
-    /// Frames of each repeat, or pairs of a dark and a lit one.
+    /// Number of frames per repeat, or of pairs of a dark and a lit frame.
     #[schemars(range(min = 1, max = 1_000_000_000))]
     pub frames: u64,
-    /// How often each point is worked out, each time with other random numbers.
+    /// Number of repeats of each point, with different random numbers.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub repeats: u64,
-    /// Seed of every random number; without it, the scenario's.
+    /// Seed of all random numbers; the scenario's by default.
     #[schemars(range(min = 0))]
     pub seed: Option<u64>,
-    /// Whether all points have the same random numbers.
+    /// Whether all points use the same random numbers.
     pub common_random_numbers: bool,
-    /// Estimators by name; without any, the one in the firmware.
+    /// Estimators by name; the firmware's by default.
     pub estimators: Vec<String>,
-    /// An error above that is an outlier [mm].
+    /// Error beyond which a depth is an outlier [mm].
     #[schemars(range(min = 1e-6, max = 1e9))]
     pub outlier_limit_mm: f64,
-    /// Columns of the table, with `*`; without any, all that the fidelity gives.
+    /// Columns of the table, with wildcard `*`; all that the fidelity provides by default.
     pub outputs: Vec<String>,
-    /// What becomes of a point that the scenario refuses.
+    /// Treatment of points that the scenario refuses.
     pub refused: Refused,
     /// Keys with their values; the last one changes fastest.
     pub axis: Vec<AxisFile>,
-    /// Scenes of each point, over all of which its values are means.
+    /// Scenes over which each point is averaged.
     pub mean_over: Vec<AxisFile>,
-    /// What is looked for at each point.
+    /// Search at each point.
     pub search: Option<SearchFile>,
-    /// The picture.
+    /// Plot of the table.
     pub plot: Option<Plot>,
 }
 
@@ -75,26 +75,26 @@ impl Default for PlanFile {
     }
 }
 
-/// How axes make points.
+/// Combination of axes to points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Combine {
-    /// Every value of one with every value of the others.
+    /// Cartesian product of all axes.
     Product,
-    /// The first values of all, the second values of all, and so on.
+    /// Pairwise: the first values of all axes, the second values of all, and so on.
     Zip,
-    /// As many points as asked for, each axis cut into so many equally likely parts with one point in each
-    /// (McKay, Beckman and Conover, Technometrics 21, 1979).
+    /// Latin hypercube: each axis is divided into as many equally probable intervals as there are points, with one
+    /// point in each (McKay, Beckman and Conover, Technometrics 21, 1979).
     LatinHypercube,
 }
 
-/// What is simulated.
+/// Simulation fidelity of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
-    /// Nothing: the link budget alone.
+    /// No simulation, only the link budget.
     Budget,
-    /// Whole frames, drawn at once.
+    /// Whole frames, each drawn at once.
     Histogram,
     /// Shot by shot, from one event to the next.
     Shot,
@@ -102,43 +102,43 @@ pub enum Fidelity {
     Cycle,
 }
 
-/// What becomes of a point that the scenario refuses.
+/// Treatment of a point that the scenario refuses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Refused {
-    /// The sweep ends with an error; what is finished stays.
+    /// The sweep ends with an error, and keeps finished points.
     Stop,
-    /// Its row has the reason and nothing else.
+    /// The point's row contains only the reason.
     Keep,
 }
 
-/// A key and its values: a list, a range with steps, a range with a number of values, or a distribution.
+/// A key and its values: a list, a range with a step, a range with a number of values, or a distribution.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AxisFile {
     /// Key of the scenario, such as `target.distance_m`.
     pub key: String,
-    /// The values: numbers, words or switches.
+    /// Listed values: numbers, words or switches.
     #[schemars(with = "Option<Vec<serde_json::Value>>")]
     pub values: Option<Vec<Value>>,
-    /// The values as `FROM..TO:STEP`.
+    /// Range of values as `FROM..TO:STEP`.
     pub range: Option<String>,
-    /// The first value of a range.
+    /// First value of a range.
     pub from: Option<f64>,
-    /// The last one.
+    /// Last value of a range.
     pub to: Option<f64>,
-    /// Values of a range, or draws of a distribution.
+    /// Number of values of a range, or of draws from a distribution.
     #[schemars(range(min = 1))]
     pub count: Option<u64>,
-    /// How the values of a range lie.
+    /// Spacing of a range's values.
     pub scale: Option<Scale>,
-    /// What values are drawn from; `from` and `to` bound it, but for the normal one, where they cut it off.
+    /// Distribution of random values between `from` and `to`; a normal distribution is truncated there.
     pub distribution: Option<Distribution>,
-    /// Of a normal distribution, or of the logarithm's where that is normal.
+    /// Mean of a normal distribution, or of the logarithm for a log-normal one.
     pub mean: Option<f64>,
-    /// Standard deviation of the same.
+    /// Standard deviation of a normal distribution, or of the logarithm for a log-normal one.
     pub sd: Option<f64>,
-    /// Most likely value of a triangular distribution.
+    /// Mode of a triangular distribution.
     pub mode: Option<f64>,
 }
 
@@ -156,57 +156,57 @@ pub enum Value {
     Text(String),
 }
 
-/// How the values of a range lie.
+/// Spacing of a range's values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scale {
-    /// Equally far apart.
+    /// Equal differences.
     #[default]
     Linear,
-    /// Each by the same factor larger.
+    /// Equal ratios.
     Log,
 }
 
-/// What values are drawn from.
+/// Distribution of random values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Distribution {
-    /// Equally likely from `from` to `to`.
+    /// Uniform from `from` to `to`.
     Uniform,
-    /// The same of the logarithm.
+    /// Uniform logarithm.
     LogUniform,
-    /// With `mean` and `sd`.
+    /// Normal with `mean` and `sd`.
     Normal,
-    /// Its logarithm (base e) has `mean` and `sd`.
+    /// Log-normal: the natural logarithm has `mean` and `sd`.
     LogNormal,
-    /// From `from` to `to`, most likely at `mode`.
+    /// Triangular from `from` to `to`, with its mode at `mode`.
     Triangular,
 }
 
-/// What is looked for: the end of the stretch of a key's values where limits are met.
+/// A search for the end of the range of a key's values in which limits are met.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SearchFile {
     /// Key of the scenario.
     pub key: String,
-    /// Which end.
+    /// End of the range to find.
     pub find: Find,
-    /// Where it begins.
+    /// Start of the search.
     pub from: f64,
-    /// Where it ends.
+    /// End of the search.
     pub to: f64,
-    /// How near the answer is to come, in the key's unit; of a logarithmic scale, as a part of the value.
+    /// Accuracy of the answer, in the key's unit; relative on a logarithmic scale.
     pub resolution: f64,
-    /// How the first look's steps lie.
+    /// Spacing of the initial steps.
     #[serde(default)]
     pub scale: Scale,
-    /// Steps of the first look, from which on the interval is halved.
+    /// Number of initial steps, before bisection.
     #[serde(default = "steps")]
     #[schemars(range(min = 1, max = 100_000))]
     pub steps: u64,
-    /// Limits such as `peak.failure_rate < 0.1`, all of which have to be met.
+    /// Limits such as `peak.failure_rate < 0.1`, all of which must be met.
     pub meets: Vec<String>,
-    /// Scenes in all of which they have to be met.
+    /// Scenes in all of which the limits must be met.
     #[serde(default)]
     pub over: Vec<AxisFile>,
 }
@@ -215,30 +215,30 @@ fn steps() -> u64 {
     10
 }
 
-/// Which end of a stretch.
+/// End of the range to find.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Find {
-    /// The largest value up to which, from the first one on, the limits are met.
+    /// The largest value up to which, from the first value on, the limits are met.
     Largest,
-    /// The least value at which they are met.
+    /// The smallest value at which the limits are met.
     Least,
 }
 
-/// A picture of the table.
+/// Plot of a sweep's table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plot {
-    /// Words above it.
+    /// Title.
     pub title: String,
-    /// Column along the horizontal axis.
+    /// Column on the horizontal axis.
     pub x: String,
-    /// Columns along the vertical axis; of a surface one, the colour being the last.
+    /// Columns on the vertical axis; for a surface, the vertical axis and the colour.
     pub y: Vec<String>,
     /// Columns whose values have a line each.
     #[serde(default)]
     pub series: Vec<String>,
-    /// What is drawn.
+    /// Kind of plot.
     #[serde(default)]
     pub kind: PlotKind,
     /// Whether the horizontal axis is logarithmic.
@@ -247,34 +247,34 @@ pub struct Plot {
     /// Whether the vertical axis is logarithmic.
     #[serde(default)]
     pub log_y: bool,
-    /// Words along the horizontal axis; without them, the column's name.
+    /// Label of the horizontal axis; the column's name by default.
     pub x_label: Option<String>,
-    /// Words along the vertical axis; without them, the columns' names.
+    /// Label of the vertical axis; the columns' names by default.
     pub y_label: Option<String>,
-    /// Limits that are drawn in.
+    /// Limits to draw.
     #[serde(default)]
     pub limits: Vec<LimitLine>,
 }
 
-/// What is drawn.
+/// Kind of plot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PlotKind {
-    /// A line for each column and series, with standard errors where they are known.
+    /// A line for each column and series, with standard errors if they are known.
     #[default]
     Lines,
-    /// A cell for each point: `x` across, the first of `y` up, the second as its colour.
+    /// A coloured cell for each point: `x` is horizontal, the first of `y` vertical, and the second the colour.
     Surface,
 }
 
-/// A limit in a picture, at one value of an axis.
+/// A limit in a plot, at one value of an axis.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitLine {
-    /// Where on the horizontal axis.
+    /// Position on the horizontal axis.
     pub x: Option<f64>,
-    /// Where on the vertical axis.
+    /// Position on the vertical axis.
     pub y: Option<f64>,
-    /// What it is.
+    /// Label.
     pub label: String,
 }

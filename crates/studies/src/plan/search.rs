@@ -1,4 +1,4 @@
-//! What is looked for at a point: the end of the stretch of a key's values where limits are met.
+//! Search for the end of the range of a key's values in which limits are met.
 
 use tofsim::error::Result;
 use tofsim::files::toml::{Checked, assign};
@@ -13,18 +13,18 @@ use super::combination::{Combination, scenes};
 use super::fault::at_key;
 use super::file::{Find, Scale, SearchFile};
 
-/// A search.
+/// A checked search.
 #[derive(Clone, Debug)]
 pub struct Search {
     /// Key of the scenario.
     pub key: String,
-    /// Limits that have to be met.
+    /// Limits that must be met.
     pub meets: Vec<Limit>,
-    /// The column of each.
+    /// Column of each limit.
     pub columns: Vec<Column>,
-    /// Keys of the scenes in all of which they have to be.
+    /// Axes of the scenes in all of which the limits must be met.
     pub over: Vec<Axis>,
-    /// Those scenes, an assignment for each key.
+    /// These scenes, as an assignment for each key.
     pub scenes: Vec<Vec<String>>,
     find: Find,
     ends: [f64; 2],
@@ -34,22 +34,22 @@ pub struct Search {
     is_whole: bool,
 }
 
-/// What a search comes to.
+/// Result of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Answer {
-    /// The end of the stretch.
+    /// The end of the range.
     Found(f64),
     /// The limits are met at all values.
     Everywhere,
-    /// They are met at none, or of a largest value not at the first.
+    /// The limits are met at no value or, for the largest value, not at the first.
     Nowhere,
 }
 
 impl Search {
-    /// As a plan has it.
+    /// Checks the search of a plan.
     ///
     /// # Errors
-    /// When it makes no sense, or the scenario has no such key or value.
+    /// If it is inconsistent, or the scenario has no such key or value.
     pub fn new(
         checked: &Checked,
         file: &SearchFile,
@@ -105,11 +105,11 @@ impl Search {
         })
     }
 
-    /// Looks from the first value on, step by step, for where limits begin or cease to be met, and halves that step
-    /// until it is as short as the resolution. `are_met` says whether they are at a value.
+    /// Steps from the first value on until the limits begin or cease to be met, and bisects that step down to the
+    /// resolution. `are_met` evaluates the limits at a value.
     ///
     /// # Errors
-    /// When `are_met` fails.
+    /// If `are_met` fails.
     pub fn run(&self, mut are_met: impl FnMut(f64) -> Result<bool>) -> Result<Answer> {
         let wanted = self.find == Find::Least;
         let mut before = self.value(0.0);
@@ -130,7 +130,7 @@ impl Search {
         Ok(if wanted { Answer::Nowhere } else { Answer::Everywhere })
     }
 
-    /// Between a value before the change and one after it.
+    /// Bisects between a value before the change and one after it.
     fn halve(
         &self,
         [mut before, mut after]: [f64; 2],
@@ -156,17 +156,17 @@ impl Search {
         apart <= self.resolution * (1.0 + 1e-9)
     }
 
-    /// The value of a part of the way.
+    /// Returns the value at a fraction of the range.
     fn value(&self, part: f64) -> f64 {
         self.settled(between(self.ends, self.scale, part))
     }
 
-    /// A value as the scenario can have it.
+    /// Rounds a value to one that the scenario accepts.
     pub fn settled(&self, value: f64) -> f64 {
         if self.is_whole { value.round() } else { rounded(value) }
     }
 
-    /// The value whose outputs are shown for an answer.
+    /// Returns the value at which the outputs for an answer are computed.
     pub fn shown(&self, answer: Answer) -> f64 {
         match (answer, self.find) {
             (Answer::Found(value), _) => value,

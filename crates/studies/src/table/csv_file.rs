@@ -1,4 +1,4 @@
-//! A table as CSV: what made it in the first line, then names, then rows.
+//! CSV tables: the provenance in the first line, followed by the header and the rows.
 
 use std::path::Path;
 
@@ -7,17 +7,17 @@ use tofsim::files::output::OutputFile;
 
 use super::{Field, Row};
 
-/// A CSV file under construction; nothing is left of it unless it is finished.
+/// A CSV file under construction, which is removed unless it is finished.
 pub struct CsvFile {
     writer: csv::Writer<OutputFile>,
     path: std::path::PathBuf,
 }
 
 impl CsvFile {
-    /// Begins the file; `comment` is its first line, with the line's end.
+    /// Begins a file; `comment` is its first line, including the line feed.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn create(path: &Path, comment: &str, fields: &[Field]) -> Result<Self> {
         use std::io::Write;
         let mut file = OutputFile::create(path)?;
@@ -27,10 +27,10 @@ impl CsvFile {
         Ok(csv)
     }
 
-    /// Adds a row.
+    /// Writes a row.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn write(&mut self, row: &Row) -> Result<()> {
         self.record(row.cells.iter().map(super::Cell::text))
     }
@@ -40,10 +40,10 @@ impl CsvFile {
         written.map_err(|error| Error::io(&self.path, "write")(std::io::Error::other(error)))
     }
 
-    /// Completes the file and puts it in place.
+    /// Completes the file, and moves it to its final path.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn finish(self) -> Result<()> {
         let file = self.writer.into_inner();
         file.map_err(|error| Error::io(&self.path, "write")(error.into_error()))?.commit()

@@ -1,4 +1,4 @@
-//! A table as Parquet: a column for each field, and what made it in the metadata.
+//! Parquet tables, with the provenance in the metadata.
 
 use std::path::Path;
 
@@ -10,10 +10,10 @@ use tofsim_learn::dataset::parquet_table::ParquetTable;
 
 use super::{Cell, Field, Kind, Row};
 
-/// Begins the file with those columns, and with values by key in its metadata.
+/// Begins a file with the given columns and metadata.
 ///
 /// # Errors
-/// When it cannot be written.
+/// If it cannot be written.
 pub fn create(
     path: &Path,
     fields: &[Field],

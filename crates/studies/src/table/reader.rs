@@ -1,4 +1,4 @@
-//! Reads a table of ours from Parquet, row by row.
+//! Reader of a sweep's Parquet table, row by row.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -14,14 +14,14 @@ use tofsim::error::{Error, Input, Result};
 
 use super::{Cell, Field, Kind, Row};
 
-/// A table that is being read.
+/// An open table.
 pub struct TableReader {
     path: PathBuf,
-    /// Values by key in its metadata.
+    /// Metadata, by key.
     pub metadata: BTreeMap<String, String>,
-    /// Its columns.
+    /// Columns.
     pub fields: Vec<Field>,
-    /// How many rows it says it has.
+    /// Number of rows, as the file states it.
     pub count: u64,
     rows: RowIter<'static>,
 }
@@ -30,7 +30,7 @@ impl TableReader {
     /// Opens a file.
     ///
     /// # Errors
-    /// When it cannot be read, or is no table of ours.
+    /// If it cannot be read, or is not the table of a sweep.
     pub fn open(path: &Path) -> Result<Self> {
         let file = File::open(path).map_err(Error::io(path, "read"))?;
         // Where the library panics over a damaged file, that is an error too.
@@ -58,10 +58,10 @@ impl TableReader {
         opened.unwrap_or_else(|_| Err(damaged(path, "its pages are not as its header says")))
     }
 
-    /// The next row, or none at the end.
+    /// Reads the next row; returns `None` at the end.
     ///
     /// # Errors
-    /// When the file is damaged.
+    /// If the file is damaged.
     pub fn next_row(&mut self) -> Result<Option<Row>> {
         let rows = &mut self.rows;
         let next = catch_unwind(AssertUnwindSafe(|| rows.next()));
@@ -83,7 +83,7 @@ impl TableReader {
     }
 }
 
-/// That a file is damaged.
+/// Creates the error for a damaged file.
 pub fn damaged(path: &Path, error: impl std::fmt::Display) -> Error {
     Input::new(path.display(), format!("unreadable Parquet: {error}")).into()
 }
