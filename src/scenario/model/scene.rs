@@ -3,8 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::note::NoteValue;
-
 /// What a target looks like.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -137,42 +135,9 @@ table! {
     }
 }
 
-impl Atmosphere {
-    /// Whether there is nothing in it.
-    pub fn is_clear(&self) -> bool {
-        self.visibility_m == 0.0 && self.rain_mm_h == 0.0
-    }
-}
-
 impl Target {
     /// Whether it is flat: a rectangle, a disc or a step.
     pub fn is_flat(&self) -> bool {
         matches!(self.shape, Shape::Rectangle | Shape::Disc | Shape::Step)
-    }
-
-    /// The key by which it is not the plain rectangle of eq. 3.23, if it is not, its value and the usual one.
-    pub fn beside_a_plain_one(&self) -> Option<(&'static str, NoteValue, &'static str)> {
-        if self.shape != Shape::Rectangle {
-            let name = format!("{:?}", self.shape).to_lowercase();
-            return Some(("target.shape", NoteValue::Text(name), "rectangle"));
-        }
-        let numbers = [
-            ("target.tilt_deg", self.tilt_deg),
-            ("target.yaw_deg", self.yaw_deg),
-            ("target.offset_x_m", self.offset_x_m),
-            ("target.offset_y_m", self.offset_y_m),
-            ("target.retro_side_m", self.retro_side_m),
-        ];
-        let (key, value) = match numbers.into_iter().find(|(_, number)| *number != 0.0) {
-            Some((key, number)) => (key, number.into()),
-            None if self.extended => return Some(("target.extended", true.into(), "false")),
-            None => return None,
-        };
-        Some((key, value, "0"))
-    }
-
-    /// Whether all its light comes after the way along the axis, as eq. 3.23 has it.
-    pub fn is_plain(&self) -> bool {
-        self.beside_a_plain_one().is_none()
     }
 }

@@ -119,9 +119,10 @@ impl PulseArgs {
 
 /// That the light is not one echo, and that the pulse to take does not describe the histograms.
 fn notes(setup: &Setup, calibration: &Calibration) -> Vec<Note> {
-    let not_one_echo = setup.scenario.beside_one_echo().map(|(key, value, usual)| {
-        let text = "calibrate pulse: it takes a shot's light to be one echo of the laser's pulse";
-        Note::new(NoteCode::EstimatorOutsideModel, key, value, usual, text)
+    let not_one_echo = setup.scenario.complex_scene().map(|found| {
+        let text = format!("calibrate pulse: {}", found.effect.why());
+        let expected = found.expected();
+        Note::new(NoteCode::EstimatorOutsideModel, found.key, found.value, expected, text)
     });
     let goodness = calibration.taken().goodness;
     let text = "the pulse does not describe the histograms: try another --shape, and look whether shots and \
