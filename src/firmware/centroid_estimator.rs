@@ -1,6 +1,6 @@
 //! Argmax with centroid correction: the depth estimator that a network is measured against.
 //!
-//! Mirrors `rtl_ref/centroid_estimator.v`; its ports are those of [`super::depth_estimator`]. A window
+//! Mirrors `rtl_ref/centroid_estimator.v`; its ports are those of the estimator slot. A window
 //! of 2 W + 1 words slides over the histogram. Where its centre stands highest above the background
 //! (the first such place), the centroid of the window is taken, in 1/4096 of a bin, and
 //! depth = slope (centroid + 1/2) + offset: bin i is centred at i + 1/2. Edge e0 takes `algo_start`:
@@ -22,12 +22,16 @@
 //! That is with the KC705's 256 bins: 312 cycles, 2.496 us, for every W; with others 56 more than there are
 //! bins. A start while busy is ignored; one in the cycle of `algo_done` is taken.
 
+use fixed::FixedU32;
+use fixed::types::extra::{U12, U24};
+
 use crate::kernel::module::{Module, Visitor};
 use crate::kernel::{S, U};
 use crate::signals;
 
 use super::forward2::Depth;
 use super::histogram_builder::{self, Bin, Count};
+use super::tof_top::slot::{DepthM, EstimateWords, SlotEstimator, SlotIn, SlotOut};
 
 /// Largest W [bins].
 pub const MOST_HALF_WIDTH: u64 = 31;
@@ -38,14 +42,18 @@ const SUMS: u64 = 2;
 /// Bits of the quotient: 6 before the point, 12 after it.
 const QUOTIENT_BITS: u32 = 18;
 /// Fraction bits of quotient and position.
-pub const POSITION_FRACTION: u32 = 12;
+pub const POSITION_FRACTION: u32 = Position::FRAC_NBITS;
 /// Bits of the position that one multiplier takes.
 const FINE_BITS: u32 = 18;
 
 /// Distance of a bin, 24 fraction bits [m].
 pub type Slope = U<17>;
 /// Fraction bits of [`Slope`].
-pub const SLOPE_FRACTION: u32 = 24;
+pub const SLOPE_FRACTION: u32 = SlopeM::FRAC_NBITS;
+/// [`Slope`] as a number [m].
+pub type SlopeM = FixedU32<U24>;
+/// Position in a histogram from the begin of bin 0 [bins].
+pub type Position = FixedU32<U12>;
 /// Distance that is added [m].
 pub type Offset = S<30, 29>;
 /// Fraction bits of the product that a depth word does not have.
@@ -99,6 +107,22 @@ pub fn position_bits(histogram: &histogram_builder::Params) -> u32 {
 }
 
 impl Params {
+    /// Distance of a bin [m].
+    pub fn slope_m(&self) -> SlopeM {
+        SlopeM::from_bits(self.slope.get() as u32)
+    }
+
+    /// Distance that is added [m].
+    pub fn offset_m(&self) -> DepthM {
+        DepthM::from_bits(self.offset.get())
+    }
+
+    /// Distance of a position, the bits past the last of a depth word dropped.
+    pub fn depth(&self, position: Position) -> Depth {
+        let metres = DepthM::from_num(position.wide_mul(self.slope_m()));
+        Depth::new((metres + self.offset_m()).to_bits())
+    }
+
     /// First cycle of the division, when the last centre has been looked at with any W.
     pub fn divide(&self) -> u64 {
         self.histogram.bins as u64 + MOST_HALF_WIDTH + 1 + SUMS
@@ -225,9 +249,17 @@ impl Module for CentroidEstimator {
     }
 }
 
-impl CentroidEstimator {
-    /// The rising edge of `clk_sys`.
-    pub fn rise(&mut self, i: &In, p: &Params) {
+impl From<SlotIn> for In {
+    fn from(SlotIn { rst, algo_start, count, .. }: SlotIn) -> Self {
+        In { rst, algo_start, count }
+    }
+}
+
+impl SlotEstimator for CentroidEstimator {
+    type In = In;
+    type Params = Params;
+
+    fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;
         self.registers = if i.rst { Registers::default() } else { self.next(i, p) };
         if q.busy && q.step.get() < p.divide() {
@@ -235,6 +267,28 @@ impl CentroidEstimator {
         }
     }
 
+    #[inline(always)]
+    fn outputs(&self) -> SlotOut {
+        let Registers { read_en, read_addr, depth, algo_done, .. } = self.registers;
+        SlotOut { read_en, read_addr, words: EstimateWords::of_depth(depth), algo_done }
+    }
+
+    fn cycles(p: &Params) -> u64 {
+        p.done()
+    }
+
+    fn phase(&self, p: &Params) -> Option<u64> {
+        self.registers.phase(p)
+    }
+
+    fn rests(&self, i: &In, p: &Params) -> bool {
+        let mut next = *self;
+        next.rise(i, p);
+        next == *self
+    }
+}
+
+impl CentroidEstimator {
     fn next(&self, i: &In, p: &Params) -> Registers {
         let (q, mut d) = (&self.registers, self.registers);
         d.algo_done = false;

@@ -5,12 +5,12 @@
 mod teller;
 
 use tofsim::Note;
-use tofsim::firmware::tof_top::Estimator;
+use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::sim::setup::Setup;
 
-use super::by_name::EstimatorKind;
 use super::centroid::Centroid;
 use super::peak_detection::PeakDetection;
+use super::registry::EstimatorKind;
 
 use teller::{OPTION, Teller};
 
@@ -121,9 +121,9 @@ impl EstimatorKind {
 /// network's limits are those of its training.
 pub fn notes_of_firmware(setup: &Setup) -> Vec<Note> {
     let mut notes = match setup.params.estimator {
-        Estimator::Network => return Vec::new(),
-        Estimator::Centroid => EstimatorKind::Centroid.notes_of_scene(setup),
-        Estimator::Likelihood => {
+        FirmwareEstimator::Network => return Vec::new(),
+        FirmwareEstimator::Centroid => EstimatorKind::Centroid.notes_of_scene(setup),
+        FirmwareEstimator::Likelihood => {
             let name = EstimatorKind::LikelihoodEstimator.name();
             return Teller { name, setup }.echo().into_iter().collect();
         }

@@ -3,7 +3,7 @@
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tdc_decoder::Decoder;
-use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
+use tofsim::firmware::tof_top::{CodeSource, FirmwareEstimator, HistogramSource, Params, Sizes};
 use tofsim::firmware::{
     centroid_estimator, depth_estimator, forward2, likelihood_estimator, pll, tdc_calibration,
     tdc_decoder, vcsel_driver,
@@ -325,14 +325,15 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         ("HistogramSource", Number(preloads_histogram.into())),
         ("HistogramFile", Memory(histogram(words, &params.histogram))),
     ]);
+    if params.estimator != FirmwareEstimator::default() {
+        list.push(("Estimator", Number(params.estimator.number())));
+    }
     match params.estimator {
-        Estimator::Network => {}
-        Estimator::Centroid => {
-            list.push(("Estimator", Number(1)));
+        FirmwareEstimator::Network => {}
+        FirmwareEstimator::Centroid => {
             list.extend(centroid_estimator(&params.centroid_estimator));
         }
-        Estimator::Likelihood => {
-            list.push(("Estimator", Number(2)));
+        FirmwareEstimator::Likelihood => {
             list.extend(likelihood_estimator(&params.likelihood_estimator));
         }
     }
@@ -353,8 +354,7 @@ pub fn tof_top_in_full(setup: &Setup) -> Parameters {
     let (sizes, laser) = (params.sizes(), &params.vcsel_driver);
     let named = OF_NETWORK.iter().chain(&OF_TOP);
     all.extend(named.map(|&name| (name, size(&sizes, laser, name))));
-    let socket = Estimator::ALL.iter().position(|one| *one == params.estimator).unwrap_or_default();
-    all.push(("Estimator", Parameter::Number(socket as u64)));
+    all.push(("Estimator", Parameter::Number(params.estimator.number())));
     all.extend(centroid_estimator(&params.centroid_estimator));
     all.extend(likelihood_estimator(&params.likelihood_estimator));
     let is_new = |(name, _): &(&str, Parameter)| list.iter().all(|(known, _)| known != name);

@@ -1,6 +1,7 @@
 //! What the file of a block's stimulus needs.
 
 pub use tofsim::error::Result;
+pub use tofsim::firmware::tof_top::slot::SlotEstimator;
 pub use tofsim::kernel::signals::Signals;
 pub use tofsim::kernel::{Clocked, S, Time, U};
 pub use tofsim::network::mem;
