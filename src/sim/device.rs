@@ -142,7 +142,7 @@ impl Device {
         if let Some(disturbance) = &mut self.disturbance {
             self.top.tdc.carry_chain.taps = disturbance.sample(&self.line, now, &p.tdc.delays);
         }
-        if self.top.socket.algo_done {
+        if self.top.slot.algo_done {
             self.timeline.take_depth(self.pll.clk_sys.rise(self.cycle));
         }
         self.react(now, self.top.nets.laser_on && !lit);

@@ -214,7 +214,7 @@ impl Live {
             if let Some(frame) = self.frames.edge(self.device.cycle() - 1, top, params) {
                 self.ended = Some((frame, Arc::clone(&setup)));
             }
-            let (begins, is_ready) = (begins_frame(top), top.socket.algo_done);
+            let (begins, is_ready) = (begins_frame(top), top.slot.algo_done);
             let abandons = begins && self.begin_frame();
             if begins {
                 setup = Arc::clone(&self.setup);

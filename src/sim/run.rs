@@ -181,7 +181,7 @@ impl<'a> Run<'a> {
                 return Ok(());
             }
             let done = self.frames.done();
-            if done > ended && !self.device.top.socket.algo_done {
+            if done > ended && !self.device.top.slot.algo_done {
                 ended = done;
                 self.device.begin_frame(done);
                 recorder.pass_on(sinks)?;

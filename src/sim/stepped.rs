@@ -100,7 +100,7 @@ impl SteppedRun {
         }
         let frame = frames.edge(device.cycle() - 1, &device.top, &setup.params);
         let done = frames.done();
-        if done > self.begun && !device.top.socket.algo_done {
+        if done > self.begun && !device.top.slot.algo_done {
             self.begun = done;
             device.begin_frame(done);
         }

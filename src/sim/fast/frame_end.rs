@@ -4,13 +4,17 @@
 //! its cycle of Clear, and an estimation is sums of integers. The TDC's window is closed, so that it sees
 //! avalanches on the way with the next edges.
 
+use crate::firmware::centroid_estimator::CentroidEstimator;
 use crate::firmware::depth_estimator::{self, DepthEstimator};
 use crate::firmware::estimator_ctrl::EstimatorCtrl;
 use crate::firmware::forward1::Forward1;
 use crate::firmware::frame_ctrl::State;
 use crate::firmware::histogram_builder::Count;
-use crate::firmware::tof_top::{Estimator, HistogramSource, Params, TofTop};
-use crate::firmware::{centroid_estimator, likelihood_estimator};
+use crate::firmware::likelihood_estimator::LikelihoodEstimator;
+use crate::firmware::tof_top::slot::{SlotEstimator, SlotIn};
+use crate::firmware::tof_top::slotted::Slotted;
+use crate::firmware::tof_top::{HistogramSource, Params, TofTop};
+use crate::in_slot;
 use crate::kernel::U;
 use crate::network::Histogram;
 use crate::network::estimate::estimate;
@@ -24,10 +28,12 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
     let ctrl = &device.top.frame_ctrl;
     let last_bin = p.histogram.last_bin();
     let clearing = ctrl.state == State::Clear && ctrl.clear_addr != last_bin;
-    let cycles = match clearing {
-        true => last_bin - ctrl.clear_addr.get(),
-        false if estimation_phase(&device.top, p) == Some(0) => p.estimator_cycles() - 1,
-        false => return,
+    let cycles = if clearing {
+        last_bin - ctrl.clear_addr.get()
+    } else if estimation_phase(&device.top, p) == Some(0) {
+        p.estimator_cycles() - 1
+    } else {
+        return;
     };
     let end = device.pll.clk_sys.rise(device.cycle + cycles);
     let alone = device.jitter.is_none()
@@ -38,9 +44,10 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
     if !alone || end >= device.timeline.next_event() {
         return;
     }
-    match clearing {
-        true => land_in_clear(&mut device.top, last_bin),
-        false => land_in_estimation(&mut device.top, p),
+    if clearing {
+        land_in_clear(&mut device.top, last_bin);
+    } else {
+        land_in_estimation(&mut device.top, p);
     }
     device.top.settle(p);
     device.cycle += cycles;
@@ -55,49 +62,45 @@ fn land_in_clear(top: &mut TofTop, last_bin: u64) {
 
 /// Lands in the cycle before the depth is ready, from the first cycle of an estimation.
 fn land_in_estimation(top: &mut TofTop, p: &Params) {
-    // The words, and the one at the port while none is read.
-    let (words, idle) = match &p.histogram_source {
-        HistogramSource::Builder => (&*top.histogram_builder.ram, U::new(0)),
-        HistogramSource::Preload(rom) => (&**rom, rom[0]),
-    };
-    match p.estimator {
-        Estimator::Network => {
-            let histogram: Histogram = words.iter().map(|word| word.get() as u32).collect();
-            land_in_network(&mut top.depth_estimator, &histogram, idle, &p.depth_estimator);
-        }
-        Estimator::Centroid => {
-            let centroid = &mut top.centroid_estimator;
-            for _ in 1..p.centroid_estimator.done() {
-                let count = words[centroid.registers.read_addr.index()];
-                let i = centroid_estimator::In { rst: false, algo_start: false, count };
-                centroid.rise(&i, &p.centroid_estimator);
-            }
-        }
-        Estimator::Likelihood => {
-            let params = &p.likelihood_estimator;
-            let likelihood = &mut top.likelihood_estimator;
-            let mode = top.control_sync.mode_sync;
-            for _ in 1..params.done() {
-                let count = words[likelihood.likelihood_memory.registers.read_addr.index()];
-                let i = likelihood_estimator::In { rst: false, algo_start: false, mode, count };
-                likelihood.rise(&i, params);
-            }
+    let mode = top.control_sync.mode_sync;
+    in_slot!(p.estimator, E => {
+        let mut block = std::mem::take(E::block_mut(top));
+        // The words, and the one at the port while none is read.
+        let (words, idle) = match &p.histogram_source {
+            HistogramSource::Builder => (&*top.histogram_builder.ram, U::new(0)),
+            HistogramSource::Preload(rom) => (&**rom, rom[0]),
+        };
+        block.land(words, idle, mode, E::params(p));
+        *E::block_mut(top) = block;
+    });
+}
+
+/// An estimator whose estimation is leapt over.
+trait Leap: SlotEstimator {
+    /// Lands in the cycle before `algo_done` from the first cycle of an estimation of `words`; `idle` is the word at
+    /// the port while none is read.
+    fn land(&mut self, words: &[Count], _idle: Count, mode: bool, p: &Self::Params) {
+        for _ in 1..Self::cycles(p) {
+            let count = words[self.outputs().read_addr.index()];
+            self.rise(&SlotIn { rst: false, algo_start: false, mode, count }.into(), p);
         }
     }
 }
 
-/// Lands in the cycle before the depth is ready: the hidden layer's sums at once, and then the plain step.
-fn land_in_network(
-    network: &mut DepthEstimator,
-    words: &[u32],
-    idle: Count,
-    p: &depth_estimator::Params,
-) {
-    let ctrl = p.ctrl();
-    network.estimator_ctrl = EstimatorCtrl::at(ctrl.tansig(), &ctrl);
-    network.forward1 = Forward1::at_rest(estimate(p, words).l1_in, idle, &p.forward1);
-    let idle = depth_estimator::In { rst: false, algo_start: false, count: idle };
-    for _ in ctrl.tansig() + 1..ctrl.done() {
-        network.rise(&idle, p);
+impl Leap for CentroidEstimator {}
+
+impl Leap for LikelihoodEstimator {}
+
+impl Leap for DepthEstimator {
+    /// The hidden layer's sums at once, and then the plain step.
+    fn land(&mut self, words: &[Count], idle: Count, _: bool, p: &depth_estimator::Params) {
+        let histogram: Histogram = words.iter().map(|word| word.get() as u32).collect();
+        let ctrl = p.ctrl();
+        self.estimator_ctrl = EstimatorCtrl::at(ctrl.tansig(), &ctrl);
+        self.forward1 = Forward1::at_rest(estimate(p, &histogram).l1_in, idle, &p.forward1);
+        let idle = depth_estimator::In { rst: false, algo_start: false, count: idle };
+        for _ in ctrl.tansig() + 1..ctrl.done() {
+            self.rise(&idle, p);
+        }
     }
 }

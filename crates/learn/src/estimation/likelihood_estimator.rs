@@ -31,9 +31,10 @@ impl Estimator for LikelihoodEstimator {
     fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
         let found = estimate(&self.0, histogram);
         let sigma_m = Some(found.sigma_m());
-        match found.status {
-            0 => Ok(Found { depth_m: found.depth.to_f64(), sigma_m, second: None }),
-            status => Err(Failure::NotBelieved(status)),
+        if found.status.is_empty() {
+            Ok(Found { depth_m: found.depth.to_f64(), sigma_m, second: None })
+        } else {
+            Err(Failure::Rejected(found.status))
         }
     }
 }

@@ -2,9 +2,10 @@
 
 use serde_json::Value;
 
+use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::scenario::show::schema;
-use tofsim::scenario::{EstimatorKind, Part, Scenario};
+use tofsim::scenario::{Part, Scenario};
 use tofsim::sim::setup::Setup;
 
 use crate::page::html::table;
@@ -66,14 +67,10 @@ fn facts(setup: &Setup) -> Vec<(&'static str, String)> {
         Part::Ecp5 => "ECP5",
     };
     let cycles = setup.params.estimator_cycles();
-    let network = match estimator.kind {
-        EstimatorKind::Network => {
-            format!("network of {} neurons", setup.params.depth_estimator.neurons())
-        }
-        EstimatorKind::Centroid => {
-            format!("centroid, {} bins to either side", estimator.centroid_half_width)
-        }
-        EstimatorKind::Likelihood => "maximum likelihood".to_owned(),
+    let network = if estimator.kind == FirmwareEstimator::Network {
+        format!("network of {} neurons", setup.params.depth_estimator.neurons())
+    } else {
+        estimator.kind.module().replace('_', " ")
     };
     let bin_mm = tdc.bin_ps * 1e-9 * LIGHT_M_S / 2.0;
     let period_ns = setup.laser_period() as f64 * cycle_ns;

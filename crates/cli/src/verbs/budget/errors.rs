@@ -23,7 +23,7 @@ pub struct ErrorArgs {
     #[arg(long)]
     pub errors: bool,
     /// With --errors: whose errors [default: the estimator in the firmware's socket]
-    #[arg(long, requires = "errors", value_parser = words(&EstimatorKind::ALL))]
+    #[arg(long, requires = "errors", value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
     /// With --errors: frames to draw of each variant
     #[arg(
