@@ -6,7 +6,7 @@
 
 use crate::firmware::histogram_builder;
 use crate::firmware::tof_top::{FirmwareEstimator, Params};
-use crate::kernel::signals::{Signal, SignalFormat, View};
+use crate::kernel::signals::{Signal, SignalFormat};
 use crate::kernel::sizes::Sizes;
 
 mod build;
