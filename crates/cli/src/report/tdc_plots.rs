@@ -11,6 +11,8 @@ use tofsim_learn::characterisation::density::CodeDensity;
 
 use crate::text::svg::{chart, legend, picture};
 
+use super::sheet::NamedText;
+
 pub(super) const BLUE: RGBColor = RGBColor(43, 108, 176);
 
 /// A line of a picture: its name, its colour, its points.
@@ -20,7 +22,7 @@ pub(super) type Line = (String, RGBColor, Vec<(f64, f64)>);
 ///
 /// # Errors
 /// When the plotting library fails.
-pub fn all(found: &Characterisation, tdc: &Tdc) -> Result<[(&'static str, String); 5]> {
+pub fn all(found: &Characterisation, tdc: &Tdc) -> Result<Vec<NamedText>> {
     let density = &found.density;
     let title =
         |what: &str| format!("{what}, chain {}, calibration {}", tdc.profile, tdc.calibration);
@@ -60,20 +62,22 @@ pub fn all(found: &Characterisation, tdc: &Tdc) -> Result<[(&'static str, String
     ];
     let ones = "number by the decoder, n";
     let delay = "delay [ns]";
-    Ok([
-        ("widths.svg", lines(&title(&widths), [ones, "width [ps]"], &both(&by_hits, &exact))?),
-        ("dnl.svg", lines(&title("DNL"), [ones, "DNL [LSB]"], &both(&dnl, &true_dnl))?),
-        ("inl.svg", lines(&title("INL"), [ones, "INL [LSB]"], &both(&inl, &true_inl))?),
+    let pictures = [
+        ("widths.svg", widths.as_str(), [ones, "width [ps]"], both(&by_hits, &exact)),
+        ("dnl.svg", "DNL", [ones, "DNL [LSB]"], both(&dnl, &true_dnl)),
+        ("inl.svg", "INL", [ones, "INL [LSB]"], both(&inl, &true_inl)),
         (
             "transfer.svg",
-            lines(
-                &title("Error of the time"),
-                [delay, "time less delay [ps]"],
-                &of_points(|d, t| t - d),
-            )?,
+            "Error of the time",
+            [delay, "time less delay [ps]"],
+            of_points(|delay, time| time - delay),
         ),
-        ("precision.svg", lines(&title("Precision"), [delay, "rms error [ps]"], &precision)?),
-    ])
+        ("precision.svg", "Precision", [delay, "rms error [ps]"], precision),
+    ];
+    let drawn = |(name, what, axes, points): (&str, &str, [&str; 2], [Line; 2])| {
+        Ok((name.to_owned(), lines(&title(what), axes, &points)?))
+    };
+    pictures.into_iter().map(drawn).collect()
 }
 
 /// From the least to the largest, and a little beyond.

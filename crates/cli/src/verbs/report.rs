@@ -23,7 +23,9 @@ use crate::page::wavejson::wavejson;
 use crate::record::Record;
 use crate::report::error_budget::{DepthBudgets, picture, text};
 use crate::report::scenario_page::{Part, ScenarioPage};
-use crate::report::{tdc, tdc_plots, verification};
+use crate::report::tdc::TdcFindings;
+use crate::report::verification;
+use crate::report::writer::Findings as _;
 
 use super::budget::findings::Findings;
 use super::budget::table;
@@ -228,9 +230,9 @@ impl Parts<'_> {
         }
         let converter = (&setup.params.tdc, setup.disturbance());
         let found = Characterisation::new(converter, self.size(0), setup.scenario.seed);
-        let pictures = tdc_plots::all(&found, &setup.scenario.tdc)?;
-        let pictures = pictures.into_iter().take(3).map(|(_, svg)| svg).collect();
-        Ok((tdc::json(&found, setup), pictures))
+        let found = TdcFindings { found: &found, setup };
+        let pictures = found.plots()?.into_iter().take(3).map(|(_, svg)| svg).collect();
+        Ok((found.object(), pictures))
     }
 
     fn errors(&self) -> Result<(String, String)> {

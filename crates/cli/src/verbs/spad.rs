@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use serde_json::json;
-
 use tofsim::error::Result;
 use tofsim::scenario;
 use tofsim::sim::free_running::FreeRunning;
@@ -12,10 +10,10 @@ use tofsim::sim::free_running::dark;
 use tofsim::sim::free_running::rates::rates;
 use tofsim::sim::setup::Setup;
 
-use crate::record::Record;
-use crate::report::spad::{self as report, Characterisation};
+use crate::report::spad::Characterisation;
+use crate::report::writer::Report;
 
-use super::terminal::{Talk, print_json};
+use super::terminal::Talk;
 
 /// Characterise the modelled diode: count rate, dead time, afterpulses and dark counts
 ///
@@ -50,28 +48,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let diode = FreeRunning::new(&setup);
     let dark_hz = setup.dark.one_hz();
     let found = Characterisation {
+        counts: args.counts,
         spad: &setup.scenario.spad,
         dark_hz,
         points: rates(&diode, args.counts),
         afterpulses: afterpulses(&diode, dark_hz, args.counts),
         dark: dark::dark_rate_hz(&diode, dark_hz, args.counts / 10),
     };
-    let record = Record::new(&setup, &talk.command);
-    let mut object = json!({ "schema": "tofsim.spad/1", "counts": args.counts });
-    if let Some(object) = object.as_object_mut() {
-        object.extend(report::json(&found));
-    }
-    record.put_into(&mut object, &[]);
-    if let Some(folder) = &args.output {
-        let pictures = report::pictures::svg(&found)?;
-        let tables = report::csv(&found).into_iter();
-        let tables = tables.map(|(name, text)| (name, record.comment_line() + &text));
-        let pictures = pictures.into_iter().map(|(name, svg)| (name, record.in_svg(&svg)));
-        let whole = [("spad.json", format!("{object:#}\n"))];
-        talk.write_into(folder, tables.chain(pictures).chain(whole))?;
-    }
-    match args.json {
-        true => print_json(&object),
-        false => talk.report(&report::text(&found)),
-    }
+    Report::new(found, &setup, &[], talk).deliver(args.output.as_deref(), args.json, talk)
 }

@@ -14,10 +14,11 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::characterisation::Characterisation;
 use tofsim_learn::characterisation::decoders::Comparison;
 
-use crate::record::Record;
-use crate::report::{decoders, tdc as report, tdc_plots as plots};
+use crate::report::decoders::DecoderFindings;
+use crate::report::tdc::TdcFindings;
+use crate::report::writer::Report;
 
-use super::terminal::{Talk, print_json};
+use super::terminal::Talk;
 
 /// Characterise the TDC: bin widths, DNL, INL, bubbles, precision, clock edges
 ///
@@ -92,42 +93,18 @@ impl OwnArgs {
         }
         let converter = (&setup.params.tdc, setup.disturbance());
         let found = Characterisation::new(converter, self.hits, setup.scenario.seed);
-        let record = Record::new(&setup, &talk.command);
-        let mut object = report::json(&found, &setup);
-        record.put_into(&mut object, &[]);
-        if let Some(folder) = &self.output {
-            let pictures = plots::all(&found, &setup.scenario.tdc)?;
-            let tables = report::tables(&found).into_iter();
-            let tables = tables.map(|(name, text)| (name, record.comment_line() + &text));
-            let pictures = pictures.into_iter().map(|(name, svg)| (name, record.in_svg(&svg)));
-            let whole = [("tdc.json", format!("{object:#}\n"))];
-            talk.write_into(folder, tables.chain(pictures).chain(whole))?;
-        }
-        match self.json {
-            true => print_json(&object)?,
-            false => talk.report(&report::text(&found, &setup))?,
-        }
+        let findings = TdcFindings { found: &found, setup: &setup };
+        let report = Report::new(findings, &setup, &[], talk);
+        report.deliver(self.output.as_deref(), self.json, talk)?;
         let is_right = found.is_coarse_right();
         Ok(if is_right { ExitCode::SUCCESS } else { ExitCode::FAILURE })
     }
 
-    /// Decoders side by side; they are what is compared, so the scenario's own and its calibration play no part.
+    /// Compares the decoders themselves, so that the scenario's own and its calibration play no part.
     fn compare(&self, setup: &Setup, talk: &Talk) -> Result<ExitCode> {
         let found = Comparison::new(&setup.params.tdc, self.hits, setup.scenario.seed);
-        let record = Record::new(setup, &talk.command);
-        let mut object = decoders::json(&found, setup);
-        record.put_into(&mut object, &[]);
-        if let Some(folder) = &self.output {
-            let tables = decoders::tables(&found).into_iter();
-            let tables = tables.map(|(name, text)| (name, record.comment_line() + &text));
-            let picture = [("decoders.svg", record.in_svg(&decoders::svg(&found, setup)?))];
-            let whole = [("decoders.json", format!("{object:#}\n"))];
-            talk.write_into(folder, tables.chain(picture).chain(whole))?;
-        }
-        match self.json {
-            true => print_json(&object)?,
-            false => talk.report(&decoders::text(&found, setup))?,
-        }
+        let report = Report::new(DecoderFindings { found: &found, setup }, setup, &[], talk);
+        report.deliver(self.output.as_deref(), self.json, talk)?;
         Ok(ExitCode::SUCCESS)
     }
 }

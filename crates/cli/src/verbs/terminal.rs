@@ -100,7 +100,7 @@ impl Talk {
     pub fn write_into(
         &self,
         folder: &Path,
-        files: impl IntoIterator<Item = (&'static str, String)>,
+        files: impl IntoIterator<Item = (impl AsRef<Path>, String)>,
     ) -> Result<()> {
         let _held = FolderLock::take(folder)?;
         for (name, text) in files {

@@ -9,10 +9,10 @@ use tofsim::scenario::chain::measured;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::characterisation::rom::CalibratedRom;
 
-use crate::record::Record;
-use crate::report::tdc_rom as report;
+use crate::report::tdc_rom::csv;
+use crate::report::writer::Report;
 
-use crate::verbs::terminal::{Talk, print_json};
+use crate::verbs::terminal::Talk;
 
 /// Make the decoder's ROM from the counts of a code-density test, with standard errors
 ///
@@ -48,15 +48,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let rom = CalibratedRom::new(&source, &counts, &setup.params.tdc)?;
     let notes: Vec<_> = rom.note().into_iter().collect();
     talk.heed(&notes)?;
-    let record = Record::new(&setup, &talk.command);
+    let report = Report::new(rom, &setup, &notes, talk);
     if let Some(path) = &args.output {
-        write_bytes(path, record.comment_line() + &report::csv(&rom))?;
+        write_bytes(path, report.record.comment_line() + &csv(&report.findings))?;
         talk.wrote(path);
     }
-    if args.json {
-        let mut object = report::json(&rom);
-        record.put_into(&mut object, &notes);
-        return print_json(&object);
-    }
-    talk.report(&report::text(&rom))
+    report.deliver(None, args.json, talk)
 }

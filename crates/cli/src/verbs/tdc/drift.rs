@@ -12,11 +12,11 @@ use tofsim_learn::drift::{Drift, Plan};
 use tofsim_learn::estimation::EstimatorKind;
 
 use crate::choice::words;
-use crate::record::Record;
-use crate::report::tdc_drift as report;
+use crate::report::tdc_drift::DriftFindings;
+use crate::report::writer::Report;
 
 use crate::verbs::draws::{MOST_THREADS, load, use_threads};
-use crate::verbs::terminal::{Talk, print_json, stop_signal};
+use crate::verbs::terminal::{Talk, stop_signal};
 
 /// Show the depth's error over time as the die heats up, with a TDC calibrated once and again and again
 ///
@@ -114,19 +114,6 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let found = Drift::new(&loaded, &profile, plan, stop.as_deref(), |more| progress.inc(more));
     progress.finish_and_clear();
     let found = found?;
-    let record = Record::new(&setup, &talk.command);
-    let mut object = report::json(&found);
-    record.put_into(&mut object, &notes);
-    if let Some(folder) = &args.output {
-        let files = [
-            ("drift.csv", record.comment_line() + &report::csv(&found)),
-            ("drift.json", format!("{object:#}\n")),
-            ("drift.svg", record.in_svg(&report::svg(&found, &setup)?)),
-        ];
-        talk.write_into(folder, files)?;
-    }
-    match args.json {
-        true => print_json(&object),
-        false => talk.report(&report::text(&found, &setup)),
-    }
+    let report = Report::new(DriftFindings { found: &found, setup: &setup }, &setup, &notes, talk);
+    report.deliver(args.output.as_deref(), args.json, talk)
 }
