@@ -1,4 +1,4 @@
-//! What a run leaves behind for people and scripts.
+//! Results for people, programs and folders.
 
 pub mod box_plot;
 pub mod calibration;

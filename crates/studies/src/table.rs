@@ -58,46 +58,25 @@ impl Field {
     }
 }
 
-impl From<f64> for Cell {
-    fn from(number: f64) -> Self {
-        Cell::Number(number)
-    }
+/// Makes cells from values of these types.
+macro_rules! cells {
+    ($($type:ty, $value:ident => $cell:expr;)+) => {$(
+        impl From<$type> for Cell {
+            fn from($value: $type) -> Self {
+                $cell
+            }
+        }
+    )+};
 }
 
-impl From<i32> for Cell {
-    fn from(number: i32) -> Self {
-        Cell::Number(number.into())
-    }
-}
-
-impl From<u64> for Cell {
-    fn from(number: u64) -> Self {
-        Cell::Whole(number)
-    }
-}
-
-impl From<u32> for Cell {
-    fn from(number: u32) -> Self {
-        Cell::Whole(number.into())
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(number: usize) -> Self {
-        Cell::Whole(number as u64)
-    }
-}
-
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        Cell::Text(text)
-    }
-}
-
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        Cell::Text(text.to_owned())
-    }
+cells! {
+    f64, number => Cell::Number(number);
+    i32, number => Cell::Number(number.into());
+    u64, number => Cell::Whole(number);
+    u32, number => Cell::Whole(number.into());
+    usize, number => Cell::Whole(number as u64);
+    String, text => Cell::Text(text);
+    &str, text => Cell::Text(text.to_owned());
 }
 
 impl<T: Into<Cell>> From<Option<T>> for Cell {

@@ -21,7 +21,7 @@ const DRAWN: usize = 96;
 
 /// Decoders on one chain, and the setup that has the chain.
 pub struct DecoderFindings<'a> {
-    /// What each decoder makes of the same hits.
+    /// Figures of each decoder for the same hits.
     pub found: &'a Comparison,
     /// The chain.
     pub setup: &'a Setup,
@@ -29,7 +29,7 @@ pub struct DecoderFindings<'a> {
 
 impl Findings for DecoderFindings<'_> {
     const SCHEMA: &'static str = "tofsim.tdc-decoders/1";
-    const FILE: &'static str = "decoders.json";
+    const FILE: Option<&'static str> = Some("decoders.json");
 
     fn json(&self) -> Value {
         let mut object = json!(self.found);

@@ -120,15 +120,21 @@ impl<'a, R> Sheet<'a, R> {
             };
             columns().map(cell).collect::<Vec<_>>()
         });
-        let first_is_text = columns().next().is_some_and(|(_, one)| one.is_text());
-        let header = columns().map(|((heading, _), _)| heading.clone());
-        table::table(header.collect::<Vec<_>>(), rows, usize::from(first_is_text)..)
+        let is_left: Vec<_> = columns().enumerate().map(|(k, (_, one))| one.is_left(k)).collect();
+        let header: Vec<_> = columns().map(|((heading, _), _)| heading.clone()).collect();
+        table::aligned(header, rows, |column| !is_left[column])
     }
 }
 
 impl Column {
-    fn is_text(&self) -> bool {
-        self.cells.iter().any(|cell| matches!(cell, Cell::Text(_)))
+    /// Whether its cells are words; all texts of the first column are.
+    fn is_left(&self, place: usize) -> bool {
+        let is_word = |cell: &Cell| match cell {
+            Cell::Text(text) => place == 0 || text == "-" || text.starts_with(char::is_alphabetic),
+            Cell::None => true,
+            Cell::Whole(_) | Cell::Number(_) => false,
+        };
+        self.cells.iter().all(is_word)
     }
 }
 

@@ -25,7 +25,7 @@ pub struct Characterisation<'a> {
     pub dark_hz: f64,
     /// Count rates.
     pub points: Vec<Point>,
-    /// In faint light, if the dark counts allow it.
+    /// Measurement in faint light, if the dark counts allow it.
     pub afterpulses: Option<Afterpulses>,
     /// Dark rate as measured, if there is one [1/s].
     pub dark: Option<Measured>,
@@ -33,7 +33,7 @@ pub struct Characterisation<'a> {
 
 impl Findings for Characterisation<'_> {
     const SCHEMA: &'static str = "tofsim.spad/1";
-    const FILE: &'static str = "spad.json";
+    const FILE: Option<&'static str> = Some("spad.json");
 
     fn json(&self) -> Value {
         let point = |point: &Point| {
@@ -149,17 +149,17 @@ fn facts(found: &Characterisation) -> Vec<(&'static str, String)> {
                     "mean time after it",
                     with_se(ns, 2, " ns", 1e9 * seen.expected_time_s),
                 ));
-                let why = "not told by a mean over two time constants";
+                let why = "unknown: the mean is over two time constants";
                 facts.push(("afterpulse probability", why.to_owned()));
             }
             let tail = with_se(seen.tail_hz, 1, " 1/s", seen.incident_hz);
             facts.push(("tail of the intervals", tail));
         }
-        None => facts.push(("afterpulses", "too many dark counts to tell".to_owned())),
+        None => facts.push(("afterpulses", "unknown: too many dark counts".to_owned())),
     }
     let dark = match found.dark {
         Some(dark) => with_se(dark, 2, " 1/s", found.dark_hz),
-        None => "none to tell".to_owned(),
+        None => "none".to_owned(),
     };
     facts.push(("dark rate", dark));
     facts

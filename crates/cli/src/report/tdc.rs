@@ -21,7 +21,7 @@ const SHOWN: usize = 6;
 
 /// A characterisation and the setup whose converter it is of.
 pub struct TdcFindings<'a> {
-    /// What was measured.
+    /// The characterisation.
     pub found: &'a Characterisation,
     /// Chain, decoder and calibration.
     pub setup: &'a Setup,
@@ -29,7 +29,7 @@ pub struct TdcFindings<'a> {
 
 impl Findings for TdcFindings<'_> {
     const SCHEMA: &'static str = "tofsim.tdc/1";
-    const FILE: &'static str = "tdc.json";
+    const FILE: Option<&'static str> = Some("tdc.json");
 
     fn json(&self) -> Value {
         let TdcFindings { found, setup } = self;
@@ -155,7 +155,7 @@ fn taps(found: &Characterisation, setup: &Setup) -> String {
     ])
 }
 
-/// By how much the age of the oldest hit drifts, with a degree and with a millivolt [ps, ps].
+/// Returns the drift of the oldest hit's age for a degree and for a millivolt [ps, ps].
 fn drift_ps(setup: &Setup) -> [f64; 2] {
     let tdc = &setup.scenario.tdc;
     let oldest = setup.params.tdc.delays.tap_0() + setup.cycle();

@@ -11,7 +11,7 @@ use tofsim_learn::evaluation::Spread;
 use crate::text::table::number_or_dash;
 
 use super::sheet::{Digits, NamedText, Sheet, evenly};
-use super::tdc_plots::{BLUE, Line, lines};
+use super::tdc_plots::{BLUE, PlotLine, lines};
 use super::writer::Findings;
 
 /// Rows of the table; the files have all.
@@ -19,7 +19,7 @@ const SHOWN: usize = 25;
 
 /// Depths over time, and the setup that they are of.
 pub struct DriftFindings<'a> {
-    /// What was drawn at each moment.
+    /// Depths at each moment.
     pub found: &'a Drift,
     /// Target and chain.
     pub setup: &'a Setup,
@@ -27,7 +27,7 @@ pub struct DriftFindings<'a> {
 
 impl Findings for DriftFindings<'_> {
     const SCHEMA: &'static str = "tofsim.drift/1";
-    const FILE: &'static str = "drift.json";
+    const FILE: Option<&'static str> = Some("drift.json");
 
     fn json(&self) -> Value {
         json!(self.found)
@@ -60,7 +60,7 @@ impl Findings for DriftFindings<'_> {
     /// Draws mean errors over time.
     fn plots(&self) -> Result<Vec<NamedText>> {
         let DriftFindings { found, setup } = self;
-        let line = |name: &str, colour, of: fn(&Point) -> &Spread| -> Line {
+        let line = |name: &str, colour, of: fn(&Point) -> &Spread| -> PlotLine {
             let points = found.points.iter();
             let points = points.filter_map(|point| Some((point.moment.time_s, of(point).mean_mm?)));
             (name.to_owned(), colour, points.collect())

@@ -14,7 +14,6 @@ const SHOWN: usize = 16;
 
 impl Findings for CalibratedRom {
     const SCHEMA: &'static str = "tofsim.tdc_calibration/1";
-    const FILE: &'static str = "calibration.json";
 
     fn json(&self) -> Value {
         json!({
