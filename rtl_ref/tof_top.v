@@ -6,6 +6,19 @@ module tof_top #(
     parameter integer BinBits = 8,               // see histogram_builder
     parameter integer CountBits = 16,
     parameter integer SumBits = 36,              // see forward1
+    // Word formats and table of depth_estimator, see forward1, tansig and forward2
+    parameter integer W1Bits = 16,
+    parameter integer W1Fraction = 23,
+    parameter integer B1Bits = 16,
+    parameter integer B1Fraction = 13,
+    parameter integer AddressBits = 12,
+    parameter integer RangeLog2 = 2,
+    parameter integer ActivationBits = 16,
+    parameter integer ActivationFraction = 15,
+    parameter integer W2Bits = 16,
+    parameter integer W2Fraction = 14,
+    parameter integer B2Bits = 16,
+    parameter integer B2Fraction = 17,
     parameter [23:0] ShotsPerFrame = 24'd30000,  // [shots]
     parameter [16:0] DrainCycles = 17'd16,       // see frame_ctrl
     // See vcsel_driver; RateBits is the width of laser_freq, PeriodBits that of a period less one
@@ -27,19 +40,6 @@ module tof_top #(
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
     parameter [1:0] Estimator = 2'd0,            // 0: depth_estimator, 1: centroid_estimator, 2: likelihood_estimator
     parameter integer Neurons = 8,              // hidden neurons of depth_estimator, 1 to 32
-    // Word formats and table of depth_estimator, see forward1, tansig and forward2
-    parameter integer W1Bits = 16,
-    parameter integer W1Fraction = 23,
-    parameter integer B1Bits = 16,
-    parameter integer B1Fraction = 13,
-    parameter integer AddressBits = 12,
-    parameter integer RangeLog2 = 2,
-    parameter integer ActivationBits = 16,
-    parameter integer ActivationFraction = 15,
-    parameter integer W2Bits = 16,
-    parameter integer W2Fraction = 14,
-    parameter integer B2Bits = 16,
-    parameter integer B2Fraction = 17,
     // See centroid_estimator
     parameter [4:0] HalfWidth = 5'd23,
     parameter [0:0] Background = 1'b1,

@@ -5,8 +5,9 @@
 //! id, found through the connections that the simulation uses.
 
 use crate::firmware::histogram_builder;
-use crate::firmware::tof_top::{Estimator, Params, Sizes};
-use crate::kernel::signals::{Signal, SignalFormat, View};
+use crate::firmware::tof_top::{Estimator, Params};
+use crate::kernel::signals::{Signal, SignalFormat};
+use crate::kernel::sizes::Sizes;
 
 mod build;
 mod entry;
@@ -43,11 +44,11 @@ fn fitted(entries: Vec<Entry>, sizes: &Sizes) -> Vec<Entry> {
     };
     let fit = |entry: &Entry| {
         let kind = match entry.kind {
-            kind if sizes.shares(&entry.signal) => kind,
+            kind if entry.signal.is_shared(sizes) => kind,
             Kind::Output if !reads(entry) => Kind::Internal,
             _ => return None,
         };
-        Some(Entry { signal: sizes.fitted(entry.signal.clone())?, kind, ..entry.clone() })
+        Some(Entry { signal: entry.signal.clone().fitted(sizes)?, kind, ..entry.clone() })
     };
     entries.iter().filter_map(fit).collect()
 }
@@ -61,15 +62,12 @@ pub fn every_entry() -> Vec<Entry> {
 pub fn ram_entries(size: &histogram_builder::Params) -> Vec<Entry> {
     let word = |bin| Entry {
         scope: format!("{TOP}.histogram_builder"),
-        signal: Signal {
-            name: format!("ram_{bin}"),
-            width: size.count_bits,
-            size: None,
-            format: SignalFormat::Unsigned,
-            output: false,
-            view: View::NONE,
-            doc: "Word of the histogram [hits].",
-        },
+        signal: Signal::plain(
+            format!("ram_{bin}"),
+            size.count_bits,
+            SignalFormat::Unsigned,
+            "Word of the histogram [hits].",
+        ),
         kind: Kind::Internal,
         id: RAM + bin,
     };
@@ -82,13 +80,13 @@ pub fn row_entries(outputs: usize) -> Vec<Entry> {
     let output = |place| Entry {
         scope: "spad_row".to_owned(),
         signal: Signal {
-            name: format!("spad_out_{place}"),
-            width: 1,
-            size: None,
-            format: SignalFormat::Bits,
             output: true,
-            view: View::NONE,
-            doc: "Output of a SPAD of the selected row, before the OR and the monostable.",
+            ..Signal::plain(
+                format!("spad_out_{place}"),
+                1,
+                SignalFormat::Bits,
+                "Output of a SPAD of the selected row, before the OR and the monostable.",
+            )
         },
         kind: Kind::Output,
         id: ROW + place,

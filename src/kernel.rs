@@ -1,4 +1,4 @@
-//! What any clocked design needs: time, clocks, words that wrap, modules, and named signals.
+//! What any clocked design needs: time, clocks, words that wrap, modules, named signals and their sizes.
 
 mod bits;
 pub mod clock;
@@ -7,6 +7,7 @@ pub mod connect;
 pub mod module;
 pub mod pulse;
 pub mod signals;
+pub mod sizes;
 pub(crate) mod thermometer;
 pub(crate) mod time;
 mod word_format;

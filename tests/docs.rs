@@ -5,8 +5,8 @@
 use std::fmt::Write;
 use std::fs;
 
-use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy::{Entry, Kind, TOP, every_entry_of};
+use tofsim::kernel::sizes::Sizes;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 

@@ -24,7 +24,7 @@ signals! {
     /// Registers, all output ports.
     pub struct CarryChain {
         /// Level of each tap at the last edge.
-        #[size("Taps")]
+        #[size(Taps)]
         #[view(heading = "TDC")]
         pub taps: Taps,
     }

@@ -59,7 +59,7 @@ signals! {
         /// Starts an estimation.
         pub algo_start: bool,
         /// Word of the histogram at `read_addr` [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub count: Count,
     }
 }
@@ -126,7 +126,7 @@ signals! {
         /// The histogram's word at `read_addr` is being read.
         pub read_en: bool,
         /// Word of the histogram.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub read_addr: Bin,
         /// The depth, when `algo_done` is high, and until the next one.
         pub depth: Depth,
@@ -135,68 +135,68 @@ signals! {
         /// An estimation is under way.
         busy: bool,
         /// Cycles since e0.
-        #[size("CentroidStepBits")]
+        #[size(CentroidStepBits)]
         step: U<11>,
         /// The window has all its words.
         whole: bool,
         /// Place of its first word, of word 0 before that.
         first: U<6>,
         /// The word that enters the window [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         entering: Count,
         /// The word that leaves it [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         leaving: Count,
         /// Background at its centre [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         level: Count,
         /// The word at its centre [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         centre: Count,
         /// What `entering` and `leaving` change in `sum` [hits].
-        #[size("ChangeBits")]
+        #[size(ChangeBits)]
         change: S<25>,
         /// `leaving`, as often as the window has words.
-        #[size("WindowBits")]
+        #[size(WindowBits)]
         weighted: U<30>,
         /// `centre` above `level`, 0 below it or where none is [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         height: Count,
         /// Hits in the window.
-        #[size("WindowBits")]
+        #[size(WindowBits)]
         #[view(heading = "Estimator", curve = true, probe = true)]
         sum: U<30>,
         /// Hits in the window, each times the words that came after its own.
-        #[size("AgesBits")]
+        #[size(AgesBits)]
         #[view(probe = true)]
         ages: U<35>,
         /// Height of the highest centre [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         #[view(heading = "Estimator", probe = true)]
         best: Count,
         /// Its bin.
-        #[size("BinBits")]
+        #[size(BinBits)]
         #[view(heading = "Estimator", probe = true)]
         peak: Bin,
         /// Hits in its window: the divisor.
-        #[size("WindowBits")]
+        #[size(WindowBits)]
         best_sum: U<30>,
         /// `ages` of its window, then what the division leaves of it.
-        #[size("RemainderBits")]
+        #[size(RemainderBits)]
         remainder: U<37>,
         /// Mean age of the hits in its window, 12 fraction bits [bins].
         #[view(heading = "Estimator", probe = true)]
         quotient: U<18>,
         /// Centroid from the begin of bin 0, 12 fraction bits [bins].
-        #[size("PositionBits")]
+        #[size(PositionBits)]
         position: U<22>,
         /// The low bits of `position` times slope [2^-36 m].
         fine: U<35>,
         /// The bits above them times slope [2^-18 m].
-        #[size("PositionCoarseBits")]
+        #[size(PositionCoarseBits)]
         coarse: U<21>,
         /// `position` times slope [2^-29 m].
-        #[size("DistanceBits")]
+        #[size(DistanceBits)]
         distance: U<32>,
     }
 }

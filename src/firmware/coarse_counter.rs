@@ -28,7 +28,7 @@ signals! {
     /// Registers, all output ports.
     pub struct CoarseCounter {
         /// Whole cycles from the laser edge to the edge before the last.
-        #[size("CoarseBits")]
+        #[size(CoarseBits)]
         #[view(heading = "TDC", probe = true)]
         pub coarse: Coarse,
         /// A hit now belongs to the shot.

@@ -24,7 +24,7 @@ signals! {
         /// `tdc_code` is new; one cycle.
         pub tdc_valid: bool,
         /// Code of the shot [bins].
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub tdc_code: Bin,
         /// `start`, an edge later.
         pending: bool,

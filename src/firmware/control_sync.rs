@@ -15,7 +15,7 @@ signals! {
         /// SPAD quench mode (Table 6.2).
         pub mode: bool,
         /// Laser repetition rate (Table 6.1).
-        #[size("RateBits")]
+        #[size(RateBits)]
         pub laser_freq: Rate,
         /// Lets the laser fire.
         pub laser_en: bool,
@@ -32,7 +32,7 @@ signals! {
         /// `mode` in `clk_sys`.
         pub mode_sync: bool,
         /// `laser_freq` in `clk_sys`.
-        #[size("RateBits")]
+        #[size(RateBits)]
         pub laser_freq_sync: Rate,
         /// `laser_en` in `clk_sys`.
         pub laser_en_sync: bool,
@@ -43,7 +43,7 @@ signals! {
         /// First flip-flop of `mode`.
         mode_meta: bool,
         /// First flip-flops of `laser_freq`.
-        #[size("RateBits")]
+        #[size(RateBits)]
         laser_freq_meta: Rate,
         /// First flip-flop of `laser_en`.
         laser_en_meta: bool,

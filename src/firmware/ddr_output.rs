@@ -11,7 +11,7 @@ signals! {
     /// Input ports.
     pub struct In {
         /// Levels for the first half of the coming cycle and for its second.
-        #[size("Halves")]
+        #[size(Halves)]
         pub d: U<2>,
     }
 }
@@ -22,7 +22,7 @@ signals! {
         /// The output.
         pub q: bool,
         /// The output after the falling edge.
-        #[size("SecondHalf")]
+        #[size(SecondHalf)]
         second: U<1>,
     }
 }

@@ -26,7 +26,7 @@ signals! {
         /// Starts an estimation.
         pub algo_start: bool,
         /// Word of the histogram at `read_addr` [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub count: Count,
     }
 }

@@ -82,10 +82,10 @@ signals! {
         /// The histogram's word at `read_addr` is being read.
         pub read_en: bool,
         /// Word of the histogram.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub read_addr: Bin,
         /// Row of weights to fetch: that of the coming word.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub rom_addr: Bin,
         /// The sums of the hidden layer begin.
         pub forward1_first: bool,
@@ -96,7 +96,7 @@ signals! {
         #[view(heading = "Estimator", probe = true)]
         pub tansig_en: bool,
         /// Neurons whose activations become operands: twice this, and the next.
-        #[size("PairBits")]
+        #[size(PairBits)]
         pub pair: U<4>,
         /// The sums of the output layer begin.
         pub forward2_first: bool,
@@ -110,7 +110,7 @@ signals! {
         /// An estimation is under way.
         pub(crate) busy: bool,
         /// Cycles since e0.
-        #[size("StepBits")]
+        #[size(StepBits)]
         pub(crate) step: U<11>,
     }
 }

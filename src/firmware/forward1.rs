@@ -49,10 +49,10 @@ signals! {
         /// Accumulates.
         pub forward1_en: bool,
         /// Row to fetch: that of the coming word.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub rom_addr: Bin,
         /// Word of the histogram [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub count: Count,
     }
 }
@@ -61,20 +61,24 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Forward1 {
         /// Sums of the neurons.
-        #[size("Neurons SumBits")]
+        #[count(Neurons)]
+        #[size(SumBits)]
         #[view(heading = "Hidden layer", curve = true, probe = true)]
         pub l1_in: [L1In; MOST_NEURONS],
         /// Word of the histogram [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub(crate) word: Count,
         /// Output of the ROM.
-        #[size("Neurons W1Bits")]
+        #[count(Neurons)]
+        #[size(W1Bits)]
         pub(crate) fetched: [Weight; MOST_NEURONS],
         /// Weights of the word.
-        #[size("Neurons W1Bits")]
+        #[count(Neurons)]
+        #[size(W1Bits)]
         pub(crate) weight: [Weight; MOST_NEURONS],
         /// Their products, a cycle later.
-        #[size("Neurons ProductBits")]
+        #[count(Neurons)]
+        #[size(ProductBits)]
         pub(crate) product: [Product; MOST_NEURONS],
     }
 }

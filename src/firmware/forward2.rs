@@ -58,7 +58,7 @@ signals! {
         /// Synchronous reset.
         pub rst: bool,
         /// Neurons whose activations become operands: twice this, and the next.
-        #[size("PairBits")]
+        #[size(PairBits)]
         pub pair: U<4>,
         /// The sums begin.
         pub forward2_first: bool,
@@ -67,7 +67,8 @@ signals! {
         /// The sums become the depth.
         pub depth_en: bool,
         /// Activations of the hidden layer.
-        #[size("Neurons ActivationBits")]
+        #[count(Neurons)]
+        #[size(ActivationBits)]
         pub l1_out: [L1Out; MOST_NEURONS],
     }
 }
@@ -78,16 +79,16 @@ signals! {
         /// The depth, from `algo_done` until the next one.
         pub depth: Depth,
         /// Activations to multiply.
-        #[size("ActivationBits")]
+        #[size(ActivationBits)]
         activation: [L1Out; UNITS],
         /// Their weights.
-        #[size("W2Bits")]
+        #[size(W2Bits)]
         w2: [Weight; UNITS],
         /// Their products, a cycle later.
-        #[size("TermBits")]
+        #[size(TermBits)]
         term: [Term; UNITS],
         /// Their sums, a cycle later.
-        #[size("OutputSumBits")]
+        #[size(OutputSumBits)]
         sum: [Sum; UNITS],
     }
 }

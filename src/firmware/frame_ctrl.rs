@@ -71,7 +71,7 @@ signals! {
         /// The estimator has finished.
         pub algo_done: bool,
         /// Holds the last cycle of Clear: the TDC is being calibrated.
-        #[size("Calibration")]
+        #[only_if(Calibrated)]
         pub calibrating: bool,
     }
 }
@@ -82,7 +82,7 @@ signals! {
         /// Sets a word of the histogram to zero.
         pub clear: bool = true,
         /// Which word.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub clear_addr: Bin,
         /// Lets the laser's counter run.
         pub acquire: bool,
@@ -94,11 +94,11 @@ signals! {
         #[view(heading = "Control", probe = true)]
         pub(crate) state: State,
         /// Shots begun in this frame.
-        #[size("CountBits")]
+        #[size(CountBits)]
         #[view(heading = "Control", probe = true)]
         pub(crate) shots: U<24>,
         /// Cycles spent in Drain.
-        #[size("DrainBits")]
+        #[size(DrainBits)]
         pub(crate) drain: U<16>,
     }
 }

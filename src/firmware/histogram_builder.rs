@@ -64,17 +64,17 @@ signals! {
         /// Sets the word at `clear_addr` to zero.
         pub clear: bool,
         /// Word to clear.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub clear_addr: Bin,
         /// Counts a hit; low for the next two cycles.
         pub tdc_valid: bool,
         /// Word of the hit; holds for the next two cycles.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub tdc_code: Bin,
         /// Shows a word at `count`.
         pub read_en: bool,
         /// Word to show.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub read_addr: Bin,
     }
 }
@@ -87,7 +87,7 @@ signals! {
         /// The second cycle of a hit.
         writing: bool,
         /// The word of the hit before it is counted [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         hit_word: Count,
     }
 }

@@ -10,7 +10,7 @@ signals! {
     /// Input ports.
     pub struct In {
         /// Word to show.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub read_addr: Bin,
     }
 }

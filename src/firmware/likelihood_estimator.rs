@@ -74,7 +74,7 @@ signals! {
         /// SPADs come back by themselves (MODE 1).
         pub mode: bool,
         /// Word of the histogram at `read_addr` [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub count: Count,
     }
 }
@@ -91,7 +91,7 @@ signals! {
         #[view(heading = "Estimator", probe = true)]
         pub status: U<7>,
         /// Chi-square of the fit, 8 fraction bits.
-        #[size("ChiBits")]
+        #[size(ChiBits)]
         #[view(heading = "Estimator", probe = true)]
         pub chi_square: U<35>,
         /// The status says nothing against the depth.
@@ -102,7 +102,7 @@ signals! {
         #[view(heading = "Likelihood", probe = true)]
         pub(crate) state: State,
         /// Cycles in this state.
-        #[size("WaitBits")]
+        #[size(WaitBits)]
         pub(crate) waited: U<13>,
         /// Steps taken.
         #[view(heading = "Likelihood", probe = true)]
@@ -124,10 +124,10 @@ signals! {
         /// Where it begins.
         pub(crate) entry: U<7>,
         /// Begin of the fit, and of what a scan blanks [bins].
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         pub(crate) fit_begin: Place,
         /// Its end.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         pub(crate) fit_end: Place,
         /// Score of the first scan.
         pub(crate) start_score: likelihood_scan::Log,

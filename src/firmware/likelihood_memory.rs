@@ -38,17 +38,17 @@ signals! {
         /// Begins a load.
         pub load: bool,
         /// Word of the histogram at `read_addr` [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub count: Count,
         /// Begins a pass.
         pub pass: bool,
         /// The pass is a scan: over all bins, and those of the fit are blanked.
         pub scan: bool,
         /// Begin of the fit [bins].
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         pub fit_begin: Place,
         /// End of the fit [bins].
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         pub fit_end: Place,
         /// Second cycle of a beat.
         pub phase: bool,
@@ -61,15 +61,15 @@ signals! {
         /// The histogram's word at `read_addr` is being read.
         pub read_en: bool,
         /// Word of the histogram.
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub read_addr: Bin,
         /// A block of bins is complete; one cycle.
         pub block_done: bool,
         /// Hits of the block, until the next one.
-        #[size("RestBits")]
+        #[size(RestBits)]
         pub block_ended: Waiting,
         /// Its exposure [shots units].
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         pub block_exposure: Exposure,
         /// The word is a bin of the pass.
         pub word_bin: bool,
@@ -82,87 +82,87 @@ signals! {
         /// The word's bin is bin 0, or its edge the begin of bin 0.
         pub word_first: bool,
         /// Shots that end in it.
-        #[size("RestBits")]
+        #[size(RestBits)]
         pub word_ended: Waiting,
         /// Shots that wait when it begins.
-        #[size("RestBits")]
+        #[size(RestBits)]
         pub word_waiting: Waiting,
         /// Its width [units].
-        #[size("WidthBits")]
+        #[size(WidthBits)]
         pub word_width: Width,
         /// Where it ends [half units].
-        #[size("EdgeBits")]
+        #[size(EdgeBits)]
         pub word_end: Edge,
         /// A word has been read in the last cycle.
         taken: bool,
         /// Its bin.
-        #[size("BinBits")]
+        #[size(BinBits)]
         taken_bin: Bin,
         /// The word.
-        #[size("CountBits")]
+        #[size(CountBits)]
         taken_ended: Count,
         /// Shots that waited.
-        #[size("CountBits")]
+        #[size(CountBits)]
         taken_waiting: Count,
         /// Shots that are left.
-        #[size("CountBits")]
+        #[size(CountBits)]
         left: Count,
         /// Its exposure is begun.
         begun: bool,
         /// Of this bin.
-        #[size("BinBits")]
+        #[size(BinBits)]
         begun_bin: Bin,
         /// The word.
-        #[size("CountBits")]
+        #[size(CountBits)]
         begun_ended: Count,
         /// Shots that waited.
-        #[size("CountBits")]
+        #[size(CountBits)]
         begun_waiting: Count,
         /// Three times these.
-        #[size("ThreeBits")]
+        #[size(ThreeBits)]
         begun_three: U<26>,
         /// The bits of the width that are left.
         begun_width: U<6>,
         /// The exposure of its low four bits.
-        #[size("BegunBits")]
+        #[size(BegunBits)]
         begun_exposure: U<28>,
         /// What it comes to is written.
         written: bool,
         /// To this word.
-        #[size("BinBits")]
+        #[size(BinBits)]
         written_bin: Bin,
         /// Shots that ended.
-        #[size("CountBits")]
+        #[size(CountBits)]
         written_ended: Count,
         /// Shots that waited.
-        #[size("CountBits")]
+        #[size(CountBits)]
         written_waiting: Count,
         /// Those times its width [shots units].
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         written_exposure: Exposure,
         /// A block has been added to all bins in the last cycle.
         summed: bool,
         /// Hits of all bins; in the second cycle of a beat with a bin, of the rest.
-        #[size("RestBits")]
+        #[size(RestBits)]
         all_ended: Waiting,
         /// Their exposure.
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         all_exposure: Exposure,
         /// Width of the bin that is looked up.
-        #[size("WidthBits")]
+        #[size(WidthBits)]
         fetched_width: Width,
         /// Where it ends.
-        #[size("EdgeBits")]
+        #[size(EdgeBits)]
         fetched_end: Edge,
         /// A pass is on the way.
         passing: bool,
         /// It is a scan.
         scanning: bool,
         /// Place of the edge that is looked up, one after its bin.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         index: Place,
         /// That bin.
-        #[size("BinBits")]
+        #[size(BinBits)]
         bin: Bin,
         /// It is one of the fit in a scan.
         blank: bool,
@@ -171,7 +171,7 @@ signals! {
         /// The last bin has been.
         tailing: bool,
         /// Beats after it that have been.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         tail: Place,
         /// A bin is looked up.
         read_bin: bool,
@@ -184,19 +184,19 @@ signals! {
         /// That of bin 0.
         read_first: bool,
         /// Shots that end in the bin.
-        #[size("CountBits")]
+        #[size(CountBits)]
         read_ended: Count,
         /// Shots that wait.
-        #[size("CountBits")]
+        #[size(CountBits)]
         read_waiting: Count,
         /// Their exposure.
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         read_exposure: Exposure,
         /// Hits outside of the fit, when it has been gone through.
-        #[size("RestBits")]
+        #[size(RestBits)]
         rest_ended: Waiting,
         /// Exposure outside of it.
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         rest_exposure: Exposure,
     }
 }

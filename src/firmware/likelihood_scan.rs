@@ -47,10 +47,10 @@ signals! {
         /// A block of bins is complete.
         pub block_done: bool,
         /// Hits of the block.
-        #[size("RestBits")]
+        #[size(RestBits)]
         pub block_ended: Waiting,
         /// Its exposure [shots units].
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         pub block_exposure: Exposure,
         /// Begins a pass.
         pub pass: bool,
@@ -61,13 +61,13 @@ signals! {
         /// A bin of a scan, or a beat after the last one, comes.
         pub slide: bool,
         /// n k - R lambda, 0 of what is no bin.
-        #[size("ResidualBits")]
+        #[size(ResidualBits)]
         pub residual: Residual,
         /// R lambda.
-        #[size("ExpectedBits")]
+        #[size(ExpectedBits)]
         pub predicted: Expected,
         /// Twice the shots that wait in the middle of the bin.
-        #[size("MiddleBits")]
+        #[size(MiddleBits)]
         pub middle: U<25>,
         /// Shots wait at it.
         pub waits: bool,
@@ -81,86 +81,86 @@ signals! {
         #[view(heading = "Likelihood", probe = true)]
         pub best_score: Log,
         /// Its excess.
-        #[size("ExcessBits")]
+        #[size(ExcessBits)]
         #[view(heading = "Likelihood", probe = true)]
         pub best_excess: Excess,
         /// Twice the shots that wait in the middle of a bin, over its bins.
-        #[size("BoxMiddleBits")]
+        #[size(BoxMiddleBits)]
         pub best_middle: U<35>,
         /// Bins in it.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         pub box_length: Place,
         /// Its first bin and the one after its last, together.
-        #[size("BoxSumBits")]
+        #[size(BoxSumBits)]
         pub box_sum: U<12>,
         /// Hits of the block that shows the ambient light.
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub ambient_ended: Count,
         /// Its exposure [shots units].
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         pub ambient_exposure: Exposure,
         /// It is the only one.
         pub lone: bool,
         /// Bins that have come.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         count: Place,
         /// The last of them.
-        #[size("BinBits")]
+        #[size(BinBits)]
         newest: Bin,
         /// First bin of the box, negative before bin 0.
-        #[size("BoxSumBits")]
+        #[size(BoxSumBits)]
         oldest: S<12>,
         /// Its middle.
-        #[size("BoxSumBits")]
+        #[size(BoxSumBits)]
         centre: S<12>,
         /// A bin has come.
         entered: bool,
         /// Its excess.
-        #[size("BoxTermBits")]
+        #[size(BoxTermBits)]
         entering_excess: S<39, 8>,
         /// What is expected in it, 8 fraction bits.
-        #[size("BoxTermBits")]
+        #[size(BoxTermBits)]
         entering_expected: U<39>,
         /// Twice the shots that wait in its middle.
-        #[size("MiddleBits")]
+        #[size(MiddleBits)]
         entering_middle: U<25>,
         /// What leaves the box: its excess.
-        #[size("BoxTermBits")]
+        #[size(BoxTermBits)]
         leaving_excess: S<39, 8>,
         /// Expected.
-        #[size("BoxTermBits")]
+        #[size(BoxTermBits)]
         leaving_expected: U<39>,
         /// Twice the shots that wait.
-        #[size("MiddleBits")]
+        #[size(MiddleBits)]
         leaving_middle: U<25>,
         /// Excess of the box, and as it goes along.
-        #[size("ExcessBits")]
+        #[size(ExcessBits)]
         excess: [Excess; 4],
         /// Expected in the box.
-        #[size("BoxExpectedBits")]
+        #[size(BoxExpectedBits)]
         box_expected: U<48>,
         /// Twice the shots that wait, and as they go along.
-        #[size("BoxMiddleBits")]
+        #[size(BoxMiddleBits)]
         box_middle: [U<35>; 4],
         /// The box as it was in the first cycle of the beat: its excess.
-        #[size("ExcessBits")]
+        #[size(ExcessBits)]
         held_excess: Excess,
         /// Expected.
-        #[size("BoxExpectedBits")]
+        #[size(BoxExpectedBits)]
         held_expected: U<48>,
         /// Twice the shots that wait.
-        #[size("BoxMiddleBits")]
+        #[size(BoxMiddleBits)]
         held_middle: U<35>,
         /// The box is within the histogram.
         boxed: [bool; 4],
         /// Its first bin in the histogram.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         from: [Place; 4],
         /// The one after its last.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         until: [Place; 4],
         /// The number whose logarithm is taken.
-        #[size("BoxExpectedBits")]
+        #[size(BoxExpectedBits)]
         log_number: U<48>,
         /// Top of the number whose logarithm is taken, raised until its leading one is in the upper 16 bits.
         log_value: U<22>,
@@ -179,13 +179,13 @@ signals! {
         /// Score of the box.
         score: Log,
         /// First bin of the highest box.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         best_from: Place,
         /// The one after its last.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         best_until: Place,
         /// Exposure of the block.
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         held_exposure: Exposure,
         /// A block is in the logarithms.
         block: [bool; 5],

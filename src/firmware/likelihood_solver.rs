@@ -48,51 +48,51 @@ signals! {
         /// Where it begins.
         pub entry: U<7>,
         /// Hits of the block that shows the ambient light.
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub ambient_ended: Count,
         /// Its exposure [shots units].
-        #[size("ExposureBits")]
+        #[size(ExposureBits)]
         pub ambient_exposure: Exposure,
         /// It is the only one.
         pub lone: bool,
         /// Excess of the highest box.
-        #[size("ExcessBits")]
+        #[size(ExcessBits)]
         pub best_excess: Excess,
         /// Twice the shots that wait in the middle of a bin, over its bins.
-        #[size("BoxMiddleBits")]
+        #[size(BoxMiddleBits)]
         pub best_middle: U<35>,
         /// Bins in it.
-        #[size("PlaceBits")]
+        #[size(PlaceBits)]
         pub box_length: Place,
         /// Its first bin and the one after its last, together.
-        #[size("BoxSumBits")]
+        #[size(BoxSumBits)]
         pub box_sum: U<12>,
         /// Sums of the last pass.
-        #[size("SlopeSumBits")]
+        #[size(SlopeSumBits)]
         pub sum_11: S<48>,
         /// See there.
-        #[size("SlopeSumBits")]
+        #[size(SlopeSumBits)]
         pub sum_12: S<48>,
         /// See there.
-        #[size("SlopeSumBits")]
+        #[size(SlopeSumBits)]
         pub sum_13: S<48>,
         /// See there.
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub sum_22: S<43>,
         /// See there.
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub sum_23: S<43>,
         /// See there.
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub sum_33: S<43>,
         /// See there.
-        #[size("SlopeSumBits")]
+        #[size(SlopeSumBits)]
         pub score_1: S<48>,
         /// See there.
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub score_2: S<43>,
         /// See there.
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub score_3: S<43>,
     }
 }
@@ -103,7 +103,7 @@ signals! {
         /// A program has ended; one cycle.
         pub ran: bool,
         /// Arrival of the echo [units / 16].
-        #[size("ArrivalBits")]
+        #[size(ArrivalBits)]
         #[view(heading = "Likelihood", curve = true, probe = true)]
         pub arrival: U<21>,
         /// S, 14 fraction bits [photons a shot].
@@ -148,22 +148,22 @@ signals! {
         /// What else is kept of it: 1 its magnitude, 8 and more its sign as a flag.
         mark: U<4>,
         /// Operands.
-        #[size("WordBits")]
+        #[size(WordBits)]
         a: Word,
         /// See there.
-        #[size("WordBits")]
+        #[size(WordBits)]
         b: Word,
         /// See there.
-        #[size("WordBits")]
+        #[size(WordBits)]
         c: Word,
         /// The low bits of a times those of b, or its others.
-        #[size("LowTermBits")]
+        #[size(LowTermBits)]
         low_product: S<46>,
         /// The others times that.
-        #[size("HighTermBits")]
+        #[size(HighTermBits)]
         high_product: S<56>,
         /// a times the low bits of b.
-        #[size("LowProductBits")]
+        #[size(LowProductBits)]
         low: S<63>,
         /// a times b.
         product: S<64>,
@@ -172,14 +172,14 @@ signals! {
         /// The low bits of that, a cycle later.
         shift_low: U<4>,
         /// The product after the longest shifts, with half of its lowest place.
-        #[size("FineBits")]
+        #[size(FineBits)]
         coarse: S<63>,
         /// Its sign.
         negative: bool,
         /// That is the sign of all that is left out.
         coarse_fits: bool,
         /// The product as it is shifted, or a divisor.
-        #[size("ShiftedBits")]
+        #[size(ShiftedBits)]
         shifted: S<47>,
         /// And half of its lowest place.
         half: bool,
@@ -192,7 +192,7 @@ signals! {
         /// It is a root.
         roots: bool,
         /// Sum of the product and c.
-        #[size("SumOfWordBits")]
+        #[size(SumOfWordBits)]
         sum: S<48>,
         /// It is beyond all limits.
         past: bool,
@@ -201,7 +201,7 @@ signals! {
         /// Its limits, in the order of [`Clamp`].
         limits: U<3>,
         /// What the instruction comes to.
-        #[size("WordBits")]
+        #[size(WordBits)]
         result: Word,
         /// A reciprocal or a root is on the way.
         dividing: bool,
@@ -216,7 +216,7 @@ signals! {
         /// By how many bits the rest of the information is shifted.
         exponent: U<6>,
         /// All magnitudes that were marked, without their lowest 14 bits: on those no shift depends.
-        #[size("MagnitudeBits")]
+        #[size(MagnitudeBits)]
         magnitude: U<31>,
         /// What a division or a root leaves.
         remainder: U<28>,

@@ -45,10 +45,10 @@ signals! {
         /// Second cycle of a beat.
         pub phase: bool,
         /// v, 0 of what is no bin.
-        #[size("ResidualBits")]
+        #[size(ResidualBits)]
         pub residual: Residual,
         /// R lambda.
-        #[size("ExpectedBits")]
+        #[size(ExpectedBits)]
         pub predicted: Expected,
         /// lambda / (exp(lambda) - 1), 12 fraction bits.
         pub gain: U<13>,
@@ -65,100 +65,100 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct LikelihoodSums {
         /// Sum of w s s z z, 3 fraction bits less than weights.
-        #[size("SlopeSumBits")]
+        #[size(SlopeSumBits)]
         #[view(heading = "Likelihood", probe = true)]
         pub sum_11: S<48>,
         /// Sum of w s s z, 6 fraction bits.
-        #[size("SlopeSumBits")]
+        #[size(SlopeSumBits)]
         pub sum_12: S<48>,
         /// Sum of w s (1 - s) z.
-        #[size("SlopeSumBits")]
+        #[size(SlopeSumBits)]
         pub sum_13: S<48>,
         /// Sum of w s s.
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub sum_22: S<43>,
         /// Sum of w s (1 - s).
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub sum_23: S<43>,
         /// Sum of w (1 - s) (1 - s).
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub sum_33: S<43>,
         /// Sum of v s z, 4 fraction bits.
-        #[size("SlopeSumBits")]
+        #[size(SlopeSumBits)]
         #[view(heading = "Likelihood", probe = true)]
         pub score_1: S<48>,
         /// Sum of v s.
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub score_2: S<43>,
         /// Sum of v (1 - s).
-        #[size("SumWordBits")]
+        #[size(SumWordBits)]
         pub score_3: S<43>,
         /// Chi-square of a check, 8 fraction bits.
-        #[size("ChiBits")]
+        #[size(ChiBits)]
         pub chi_square: U<35>,
         /// A bin is far from what the fit has.
         pub far: bool,
         /// The sums of each pair have changed places.
         changed: bool,
         /// Sum of w (1 - s) (1 - s), or in a check the chi-square.
-        #[size("LastSumBits")]
+        #[size(LastSumBits)]
         last_sum: S<44>,
         /// Operands of the first multiplier.
-        #[size("ResidualBits")]
+        #[size(ResidualBits)]
         first_a: Residual,
         /// See there.
         first_b: S<14>,
         /// Their product.
-        #[size("FirstProductBits")]
+        #[size(FirstProductBits)]
         first_product: S<47>,
         /// Operands of the second one.
-        #[size("MixedBits")]
+        #[size(MixedBits)]
         second_a: S<33>,
         /// See there.
-        #[size("FactorBits")]
+        #[size(FactorBits)]
         second_b: S<26>,
         /// Their product.
-        #[size("SecondProductBits")]
+        #[size(SecondProductBits)]
         second_product: S<59>,
         /// Operands of the third one.
-        #[size("MixedBits")]
+        #[size(MixedBits)]
         third_a: S<33>,
         /// See there.
         third_b: S<14>,
         /// Their product.
-        #[size("ThirdProductBits")]
+        #[size(ThirdProductBits)]
         third_product: S<47>,
         /// Operands of the fourth one.
-        #[size("MixedBits")]
+        #[size(MixedBits)]
         fourth_a: S<33>,
         /// See there.
         fourth_b: S<10>,
         /// Their product.
-        #[size("FourthProductBits")]
+        #[size(FourthProductBits)]
         fourth_product: S<42>,
         /// w, half a beat early.
-        #[size("WeightBits")]
+        #[size(WeightBits)]
         weight_first: Weight,
         /// v s, half a beat early.
-        #[size("ResidualBits")]
+        #[size(ResidualBits)]
         seen_first: Residual,
         /// The square of v, half a beat early.
-        #[size("SquareBits")]
+        #[size(SquareBits)]
         square_first: U<48>,
         /// w.
-        #[size("WeightBits")]
+        #[size(WeightBits)]
         weight: [Weight; 2],
         /// v s.
-        #[size("ResidualBits")]
+        #[size(ResidualBits)]
         seen: Residual,
         /// The square of v.
-        #[size("SquareBits")]
+        #[size(SquareBits)]
         square: [U<48>; 3],
         /// v.
-        #[size("ResidualBits")]
+        #[size(ResidualBits)]
         residuals: Residual,
         /// v (1 - s).
-        #[size("UnseenBits")]
+        #[size(UnseenBits)]
         unseen: S<34>,
         /// s.
         shares: [Share; 3],
@@ -167,21 +167,21 @@ signals! {
         /// A single bin.
         singles: [bool; 4],
         /// w s.
-        #[size("WeightBits")]
+        #[size(WeightBits)]
         once: [Weight; 3],
         /// w (1 - s).
-        #[size("MixedBits")]
+        #[size(MixedBits)]
         others: S<33>,
         /// v s z.
-        #[size("SeenSlopeBits")]
+        #[size(SeenSlopeBits)]
         seen_z: S<42>,
         /// The residual's variance, with a quarter of a count more.
-        #[size("VarianceBits")]
+        #[size(VarianceBits)]
         variances: [U<33>; 2],
         /// Its bits.
         bits: U<6>,
         /// The residual's square after the longest shifts.
-        #[size("SquareOverBits")]
+        #[size(SquareOverBits)]
         square_over: U<57>,
         /// The variance below its leading one.
         aligned: U<6>,
@@ -190,25 +190,25 @@ signals! {
         /// The reciprocal of that variance's mantissa.
         reciprocal: U<10>,
         /// w s s, or a term of the chi-square, half a beat early.
-        #[size("WeightBits")]
+        #[size(WeightBits)]
         twice_first: Weight,
         /// w s s.
-        #[size("WeightBits")]
+        #[size(WeightBits)]
         twice: Weight,
         /// w s (1 - s).
-        #[size("MixedBits")]
+        #[size(MixedBits)]
         mixed: S<33>,
         /// w s s z, half a beat early.
-        #[size("WeightSlopeBits")]
+        #[size(WeightSlopeBits)]
         tz_first: S<41>,
         /// w s s z.
-        #[size("WeightSlopeBits")]
+        #[size(WeightSlopeBits)]
         tz: S<41>,
         /// w s (1 - s) z.
-        #[size("WeightSlopeBits")]
+        #[size(WeightSlopeBits)]
         oz: S<41>,
         /// w s s z z, or the largest square that is not far.
-        #[size("WeightSlopeBits")]
+        #[size(WeightSlopeBits)]
         tzz: S<41>,
     }
 }

@@ -51,7 +51,7 @@ signals! {
         /// Without signal.
         pub scan: bool,
         /// Arrival of the echo [units / 16].
-        #[size("ArrivalBits")]
+        #[size(ArrivalBits)]
         pub arrival: U<21>,
         /// S, 14 fraction bits [photons a shot].
         pub strength: U<24>,
@@ -68,16 +68,16 @@ signals! {
         /// Of bin 0.
         pub word_first: bool,
         /// Shots that end in it.
-        #[size("RestBits")]
+        #[size(RestBits)]
         pub word_ended: Waiting,
         /// Shots that wait when it begins.
-        #[size("RestBits")]
+        #[size(RestBits)]
         pub word_waiting: Waiting,
         /// Its width [units].
-        #[size("WidthBits")]
+        #[size(WidthBits)]
         pub word_width: Width,
         /// Where it ends [half units].
-        #[size("EdgeBits")]
+        #[size(EdgeBits)]
         pub word_end: Edge,
     }
 }
@@ -86,11 +86,11 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct LikelihoodTerms {
         /// v, 0 of what is no bin.
-        #[size("ResidualBits")]
+        #[size(ResidualBits)]
         #[view(heading = "Likelihood", curve = true, probe = true)]
         pub residual: Residual,
         /// R lambda.
-        #[size("ExpectedBits")]
+        #[size(ExpectedBits)]
         #[view(heading = "Likelihood", curve = true, probe = true)]
         pub predicted: Expected,
         /// lambda / (exp(lambda) - 1), 12 fraction bits.
@@ -101,7 +101,7 @@ signals! {
         /// z.
         pub slope: Slope,
         /// Twice the shots that wait in the middle of a bin.
-        #[size("MiddleBits")]
+        #[size(MiddleBits)]
         pub middle: U<25>,
         /// Shots wait at it.
         pub waits: bool,
@@ -120,21 +120,21 @@ signals! {
         /// See there.
         first: [bool; 3],
         /// Shots that end.
-        #[size("RestBits")]
+        #[size(RestBits)]
         ended: [Waiting; 12],
         /// Shots that wait.
-        #[size("RestBits")]
+        #[size(RestBits)]
         waiting: [Waiting; 12],
         /// Width.
-        #[size("WidthBits")]
+        #[size(WidthBits)]
         width: [Width; 4],
         /// Twice the shots that wait in the middle of a bin.
-        #[size("MiddleBits")]
+        #[size(MiddleBits)]
         middles: [U<25>; 3],
         /// Shots wait.
         awaited: [bool; 3],
         /// Where a word ends, from the arrival on [units / 16].
-        #[size("ArrivalTimeBits")]
+        #[size(ArrivalTimeBits)]
         from_arrival: S<22>,
         /// Place of a word of the pulse's ROM around that time: the one before it in the first cycle of a beat.
         place: U<11>,
@@ -225,34 +225,34 @@ signals! {
         /// s.
         shares: [Share; 3],
         /// Shots that end in the second cycle of a beat, and in the first those that wait.
-        #[size("RestBits")]
+        #[size(RestBits)]
         shots: Waiting,
         /// k, and the hazard's mantissa.
         factor: U<17>,
         /// Their product.
-        #[size("EndedBits")]
+        #[size(EndedBits)]
         shots_product: U<51>,
         /// Half of what is cut off it.
         half: U<24>,
         /// n k and half of what is cut off it, half a beat early, 12 fraction bits.
-        #[size("EndedBits")]
+        #[size(EndedBits)]
         ended_k_first: U<51>,
         /// n k and that half.
-        #[size("EndedBits")]
+        #[size(EndedBits)]
         ended_k: [U<51>; 2],
         /// R times the mantissa, and half of what is cut off it.
-        #[size("WaitingProductBits")]
+        #[size(WaitingProductBits)]
         product: U<48>,
         /// By how many bits that is shifted.
         down: U<5>,
         /// It after the longest shifts, by 16 and by 8.
-        #[size("FirstShiftBits")]
+        #[size(FirstShiftBits)]
         expected_first: U<50>,
         /// R lambda.
-        #[size("ExpectedBits")]
+        #[size(ExpectedBits)]
         product_shifted: Expected,
         /// n k less R lambda.
-        #[size("SurplusBits")]
+        #[size(SurplusBits)]
         surplus: S<52>,
     }
 }

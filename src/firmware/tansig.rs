@@ -29,7 +29,8 @@ signals! {
         /// Looks up the activations.
         pub tansig_en: bool,
         /// Sums of the neurons.
-        #[size("Neurons SumBits")]
+        #[count(Neurons)]
+        #[size(SumBits)]
         pub l1_in: [L1In; MOST_NEURONS],
     }
 }
@@ -38,11 +39,13 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Tansig {
         /// Activations of the neurons.
-        #[size("Neurons ActivationBits")]
+        #[count(Neurons)]
+        #[size(ActivationBits)]
         #[view(heading = "Hidden layer")]
         pub l1_out: [L1Out; MOST_NEURONS],
         /// Output of the table.
-        #[size("Neurons ActivationBits")]
+        #[count(Neurons)]
+        #[size(ActivationBits)]
         entry: [L1Out; MOST_NEURONS],
         /// The entries are new.
         found: bool,

@@ -26,10 +26,11 @@ signals! {
         /// Output of the SPAD, asynchronous.
         pub tdc_stop: bool,
         /// Every hit counts, whatever the shot: those of a calibration.
-        #[size("Calibration")]
+        #[only_if(Calibrated)]
         pub free: bool,
         /// Age for the last hit's `n` by the last calibration, where there are any [units].
-        #[size("Calibration AgeBits")]
+        #[only_if(Calibrated)]
+        #[size(AgeBits)]
         pub calibrated_age: tdc_decoder::Age,
     }
 }

@@ -63,7 +63,7 @@ signals! {
         /// `n` is that of a new hit.
         pub n_valid: bool,
         /// What the decoder made of its taps.
-        #[size("CountOfTaps")]
+        #[size(CountOfTaps)]
         pub n: Place,
     }
 }
@@ -72,14 +72,15 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Registers {
         /// The TDC's hits are to come from the ring, and each counts.
-        #[size("Calibration")]
+        #[only_if(Calibrated)]
         #[view(heading = "TDC", probe = true)]
         pub ring_on: bool,
         /// The frame has to wait.
-        #[size("Calibration")]
+        #[only_if(Calibrated)]
         pub calibrating: bool,
         /// Age for the last hit's `n`, or a count while hits are counted [units].
-        #[size("Calibration AgeBits")]
+        #[only_if(Calibrated)]
+        #[size(AgeBits)]
         pub calibrated_age: Word,
         /// What the block does.
         #[view(heading = "TDC", probe = true)]
@@ -89,32 +90,32 @@ signals! {
         /// Frames since the last one.
         pub(crate) frames: U<16>,
         /// Word that is set to zero, or turned into an age.
-        #[size("CountOfTaps")]
+        #[size(CountOfTaps)]
         pub(crate) place: Place,
         /// Hits counted.
-        #[size("HitsBits")]
+        #[size(HitsBits)]
         #[view(heading = "TDC", probe = true)]
         pub(crate) hits: U<21>,
         /// `calibrated_age` is the count of a hit.
         pub(crate) counting: bool,
         /// Its `n`.
-        #[size("CountOfTaps")]
+        #[size(CountOfTaps)]
         pub(crate) hit_n: Place,
         /// Cycles that this word has taken.
         pub(crate) beat: U<3>,
         /// The count as a time.
-        #[size("HitsSumBits")]
+        #[size(HitsSumBits)]
         pub(crate) width: Sum,
         /// Where the ages of this word begin.
-        #[size("HitsSumBits")]
+        #[size(HitsSumBits)]
         pub(crate) begin_sum: Sum,
         /// The middle of them, and a half to round.
-        #[size("HitsSumBits")]
+        #[size(HitsSumBits)]
         pub(crate) middle: Sum,
         /// They begin at the laser edge or before it.
         pub(crate) early: bool,
         /// The age [units].
-        #[size("AgeBits")]
+        #[size(AgeBits)]
         pub(crate) age: Word,
     }
 }

@@ -38,13 +38,14 @@ signals! {
         /// `hit_taps` are those of a new hit.
         pub hit: bool,
         /// Its coarse count.
-        #[size("CoarseBits")]
+        #[size(CoarseBits)]
         pub hit_coarse: Coarse,
         /// Its taps.
-        #[size("Taps")]
+        #[size(Taps)]
         pub hit_taps: Taps,
         /// The time for `n` by the last calibration, a cycle after `n` [units].
-        #[size("Calibration AgeBits")]
+        #[only_if(Calibrated)]
+        #[size(AgeBits)]
         pub calibrated_age: Age,
     }
 }
@@ -55,44 +56,45 @@ signals! {
         /// `tdc_code` is new; one cycle.
         pub tdc_valid: bool,
         /// Time of the hit [bins].
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub tdc_code: Bin,
         /// Ones among 16 taps each, or the place of the highest.
-        #[size("Sixteens")]
+        #[size(Sixteens)]
         sixteens: PartialOnes<16>,
         /// `sixteens` is new.
         sixteens_valid: bool,
         /// Coarse count of `sixteens`.
-        #[size("CoarseBits")]
+        #[size(CoarseBits)]
         sixteens_coarse: Coarse,
         /// Ones among 128 taps each, or the place of the highest.
-        #[size("Hundreds")]
+        #[size(Hundreds)]
         hundreds: PartialOnes<128>,
         /// `hundreds` is new.
         hundreds_valid: bool,
         /// Coarse count of `hundreds`.
-        #[size("CoarseBits")]
+        #[size(CoarseBits)]
         hundreds_coarse: Coarse,
         /// Taps that the last hit had run through, by the decoder.
-        #[size("Calibration CountOfTaps")]
+        #[only_if(Calibrated)]
+        #[size(CountOfTaps)]
         #[view(heading = "TDC", probe = true)]
         pub n: U<11>,
         /// `n` is new.
-        #[size("Calibration")]
+        #[only_if(Calibrated)]
         pub n_valid: bool,
         /// Coarse count of `n`.
-        #[size("CoarseBits")]
+        #[size(CoarseBits)]
         n_coarse: Coarse,
         /// The time for `n` [units].
-        #[size("AgeBits")]
+        #[size(AgeBits)]
         age: Age,
         /// `age` is new.
         age_valid: bool,
         /// Coarse count of `age`.
-        #[size("CoarseBits")]
+        #[size(CoarseBits)]
         age_coarse: Coarse,
         /// Time from the begin of bin 0 [units].
-        #[size("TimeBits")]
+        #[size(TimeBits)]
         t: TimeWord,
         /// `t` is new.
         t_valid: bool,

@@ -22,13 +22,13 @@ signals! {
         /// A hit now belongs to the shot.
         pub window: bool,
         /// Every hit counts, whatever the shot.
-        #[size("Calibration")]
+        #[only_if(Calibrated)]
         pub free: bool,
         /// Coarse count, in step with the taps.
-        #[size("CoarseBits")]
+        #[size(CoarseBits)]
         pub coarse: Coarse,
         /// Taps sampled at the last edge.
-        #[size("Taps")]
+        #[size(Taps)]
         pub taps: Taps,
     }
 }
@@ -40,10 +40,10 @@ signals! {
         #[view(heading = "TDC", probe = true)]
         pub hit: bool,
         /// Coarse count of the last hit.
-        #[size("CoarseBits")]
+        #[size(CoarseBits)]
         pub hit_coarse: Coarse,
         /// Taps sampled at the edge before.
-        #[size("Taps")]
+        #[size(Taps)]
         pub hit_taps: Taps,
         /// The shot has had its hit.
         used: bool,

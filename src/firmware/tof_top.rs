@@ -28,7 +28,6 @@ mod sizes;
 mod socket;
 
 pub use ports::{Clocks, CodeSource, Estimator, HistogramSource, Nets, Params, Pins, Socket};
-pub use sizes::Sizes;
 
 /// The state of the firmware.
 #[derive(Clone, Debug, Default)]

@@ -94,7 +94,7 @@ signals! {
         /// Lets the laser fire.
         pub laser_en: bool,
         /// Repetition rate.
-        #[size("RateBits")]
+        #[size(RateBits)]
         pub laser_freq: Rate,
     }
 }
@@ -109,10 +109,10 @@ signals! {
         /// Asks `clk_laser` for a pulse; two cycles before the laser edge.
         pub(crate) fire: bool,
         /// Place in the period.
-        #[size("PeriodBits")]
+        #[size(PeriodBits)]
         pub(crate) count: U<16>,
         /// The period in force, less one [cycles of clk_sys].
-        #[size("PeriodBits")]
+        #[size(PeriodBits)]
         pub(crate) last: U<16>,
         /// The `laser_en` in force.
         pub(crate) enable: bool,
@@ -128,11 +128,11 @@ signals! {
         pulse: [bool; 2],
         /// Enables of the output register, for either half of its cycle; the cycle of `clk_laser` before the
         /// laser edge, and on with a longer pulse.
-        #[size("Halves")]
+        #[size(Halves)]
         #[view(probe = true)]
         laser_pulse: U<2>,
         /// `pulse_1` in the cycles before, as many as a longer pulse goes on for.
-        #[size("Stretch")]
+        #[size(Stretch)]
         stretch: U<3>,
     }
 }

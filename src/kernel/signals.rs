@@ -1,6 +1,7 @@
 //! Named signals: a struct made by [`signals!`](crate::signals) can list and report its fields.
 
 use super::bits::{S, U};
+use super::sizes::{Size, Sizes};
 use super::thermometer::{PartialOnes, Thermometer};
 
 /// How a value reads best.
@@ -45,8 +46,14 @@ pub struct Signal {
     pub name: String,
     /// Its width [bits]; of a word whose width is a parameter, the most that it can be.
     pub width: u32,
-    /// What elaboration has to know for its width, or for how many of an array there are.
-    pub size: Option<&'static str>,
+    /// Its width, where elaboration decides it.
+    pub size: Option<Size>,
+    /// Its number in an array.
+    pub element: u32,
+    /// How many elements the array has, where elaboration decides that.
+    pub count: Option<Size>,
+    /// What must not be zero for a port to be there.
+    pub only_if: Option<Size>,
     /// How to show it.
     pub format: SignalFormat,
     /// Whether other modules may read it.
@@ -54,6 +61,35 @@ pub struct Signal {
     /// Who looks at it first.
     pub view: View,
     pub doc: &'static str,
+}
+
+impl Signal {
+    /// An output or wire of fixed width that nobody looks at first.
+    pub fn plain(name: String, width: u32, format: SignalFormat, doc: &'static str) -> Self {
+        let (size, count, only_if) = (None, None, None);
+        let view = View::NONE;
+        Signal { name, width, size, element: 0, count, only_if, format, output: false, view, doc }
+    }
+
+    /// Whether a port is one in a design of those sizes.
+    pub fn is_shared(&self, sizes: &Sizes) -> bool {
+        self.only_if.is_none_or(|size| sizes.of(size) > 0)
+    }
+
+    /// The signal as a design of those sizes has it, if it has it.
+    pub fn fitted(self, sizes: &Sizes) -> Option<Self> {
+        if self.count.is_some_and(|count| self.element >= sizes.of(count)) {
+            return None;
+        }
+        let Some(size) = self.size else { return Some(self) };
+        let width = sizes.of(size);
+        let format = match (self.format, sizes.fraction(size)) {
+            (SignalFormat::Unsigned, _) if width == 1 => SignalFormat::Bits,
+            (SignalFormat::Signed { .. }, Some(fraction)) => SignalFormat::Signed { fraction },
+            (format, _) => format,
+        };
+        (width > 0).then_some(Signal { width, format, ..self })
+    }
 }
 
 /// Takes signal values; `id` is the signal's place in the list of its module plus an offset.
@@ -161,7 +197,8 @@ impl<T: Word, const K: usize> Field for [T; K] {
     const COUNT: usize = K;
     fn declare(like: Signal, list: &mut Vec<Signal>) {
         for k in 0..K {
-            T::declare(Signal { name: format!("{}_{k}", like.name), ..like.clone() }, list);
+            let name = format!("{}_{k}", like.name);
+            T::declare(Signal { name, element: k as u32, ..like.clone() }, list);
         }
     }
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
@@ -206,12 +243,14 @@ impl<const GROUP: usize> Field for PartialOnes<GROUP> {
 
 /// Declares a struct of signals. One line gives a signal's meaning, name, width and, after `=`,
 /// its reset value where that is not zero; `pub` fields are output ports, `pub(crate)` ones are not.
-/// `#[size("..")]` above a field names what its width follows from where elaboration decides it, and
-/// `#[view(..)]` sets fields of its [`View`].
+/// Where elaboration decides it, a [`Size`] stands above a field: `#[size(..)]` for its width,
+/// `#[count(..)]` for the number of elements of an array, `#[only_if(..)]` for a port that is there unless
+/// the size is zero. `#[view(..)]` sets fields of its [`View`].
 #[macro_export]
 macro_rules! signals {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
-        $($(#[doc = $doc:literal])+ $(#[size($size:literal)])?
+        $($(#[doc = $doc:literal])+
+            $(#[only_if($only_if:ident)])? $(#[count($count:ident)])? $(#[size($size:ident)])?
             $(#[view($($view:ident = $shown:literal),+)])?
             $field_vis:vis $field:ident: $ty:ty $(= $reset:expr)?,)*
     }) => {
@@ -237,6 +276,9 @@ macro_rules! signals {
                         name: stringify!($field).to_owned(),
                         width: 0,
                         size: $crate::signals!(@size $($size)?),
+                        element: 0,
+                        count: $crate::signals!(@size $($count)?),
+                        only_if: $crate::signals!(@size $($only_if)?),
                         format: $crate::kernel::signals::SignalFormat::Bits,
                         output: matches!(stringify!($field_vis), "pub"),
                         view: $crate::kernel::signals::View {
@@ -278,7 +320,7 @@ macro_rules! signals {
         }
     };
     (@size) => { None };
-    (@size $size:literal) => { Some($size) };
+    (@size $size:ident) => { Some($crate::kernel::sizes::Size::$size) };
     (@reset) => { Default::default() };
     (@reset $reset:expr) => { $reset };
 }

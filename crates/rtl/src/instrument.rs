@@ -10,14 +10,12 @@ pub use wrapper::{MAP, MODULE, map};
 use tofsim::scenario::Part;
 use tofsim::sim::setup::Setup;
 
-use crate::golden::blocks::VERILOG;
-use crate::golden::parameters;
+use crate::golden::{blocks, parameters};
 
 /// Name and text of each file of its Verilog; paths in it are from the folder that has them.
 pub fn verilog(setup: &Setup) -> Vec<(String, String)> {
     let all = parameters::tof_top_in_full(setup);
-    let own = |(name, text): &(&str, &str)| ((*name).to_owned(), (*text).to_owned());
-    let mut files: Vec<_> = VERILOG.iter().map(own).collect();
+    let mut files: Vec<_> = blocks::verilog().map(|(name, text)| (name, text.to_owned())).collect();
     files.extend(
         parameters::memories(&all).map(|memory| (memory.name.to_owned(), memory.text.clone())),
     );

@@ -4,3 +4,4 @@
 mod common;
 mod mirror;
 mod roms;
+mod sizes;

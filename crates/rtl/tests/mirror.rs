@@ -6,11 +6,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use tofsim::firmware::forward2::MOST_NEURONS;
-use tofsim::firmware::tof_top::Sizes;
-use tofsim::firmware::{pll, vcsel_driver};
 use tofsim::hierarchy::{Kind, every_entry_of};
+use tofsim::kernel::sizes::{Size, Sizes};
 use tofsim_rtl::golden::BLOCKS;
-use tofsim_rtl::golden::parameters::NEURONS;
 use tofsim_rtl::golden::ports::Port;
 use tofsim_rtl::verify::interface::PortShape;
 use tofsim_rtl::verify::process::Limits;
@@ -63,7 +61,7 @@ fn vector(output: bool, width: u32) -> PortShape {
 
 /// Ports for the most neurons, and with a calibration; all else is as large as by default.
 fn sizes() -> Sizes {
-    Sizes { neurons: MOST_NEURONS, calibrates: true, ..Sizes::default() }
+    Sizes { neurons: MOST_NEURONS as u32, calibrates: true, ..Sizes::default() }
 }
 
 /// Ports of each module as Rust has them; a module with several instances has one name for all.
@@ -105,8 +103,9 @@ fn ports_widths_and_directions_are_the_same() {
         let interface = |parameters: &[(&str, u64)]| {
             Simulator::Icarus.interface(folder.path(), module, parameters, &rtl, &limits).unwrap()
         };
-        let has_neurons = interface(&[]).parameters.contains(NEURONS);
-        let neurons = has_neurons.then_some((NEURONS, MOST_NEURONS as u64));
+        let name = Size::Neurons.name();
+        let has_neurons = interface(&[]).parameters.contains(name);
+        let neurons = has_neurons.then_some((name, MOST_NEURONS as u64));
         let verilog = interface(neurons.as_slice()).ports;
         let names: BTreeSet<_> = ours.keys().chain(verilog.keys()).collect();
         for name in names {
@@ -140,50 +139,6 @@ fn vendor_primitives_stay_in_their_files() {
             let allowed = files.contains(&stem.as_str());
             let found = text.contains(primitive);
             assert_eq!(found, allowed, "{primitive} in rtl_ref/{stem}.v");
-        }
-    }
-}
-
-/// Parameters that say how large things are, and what each is by default.
-fn defaults() -> [(&'static str, String); 15] {
-    let (sizes, laser) = (Sizes::default(), vcsel_driver::Params::default());
-    let width = |name| sizes.width(name).unwrap().to_string();
-    let [shortest, others @ ..] = [3, 2, 1, 0].map(|rate| format!("16'd{}", laser.periods[rate]));
-    [
-        ("InputHz", pll::INPUT_HZ.to_string()),
-        ("Multiply", pll::MULTIPLY.to_string()),
-        ("Divide", pll::DIVIDE.to_string()),
-        ("OutputDivide", pll::OUTPUT_DIVIDE.to_string()),
-        ("Taps", width("Taps")),
-        ("CoarseBits", width("CoarseBits")),
-        ("Cycle", sizes.cycle.to_string()),
-        ("Digits", sizes.digits.to_string()),
-        ("AgeBits", width("AgeBits")),
-        ("RateBits", width("RateBits")),
-        ("PeriodBits", width("PeriodBits")),
-        ("Halves", width("Halves")),
-        ("PulseHalfCycles", laser.pulse_half_cycles.to_string()),
-        ("DrainCycles", format!("17'd{}", sizes.drain_cycles)),
-        ("LaserPeriods", format!("{{{{5{{{shortest}}}}}, {}}}", others.join(", "))),
-    ]
-}
-
-#[test]
-fn parameters_have_the_same_defaults() {
-    for (name, default) in defaults() {
-        let declared = sources().into_iter().flat_map(|(stem, text)| {
-            let lines = text.lines().filter(|line| line.trim_start().starts_with("parameter "));
-            let values = lines.filter_map(|line| line.split_once(&format!(" {name} = ")));
-            let value = |(_, value): (&str, &str)| {
-                let value = value.split("//").next().unwrap_or_default().trim();
-                (stem.clone(), value.trim_end_matches(',').to_owned())
-            };
-            values.map(value).collect::<Vec<_>>()
-        });
-        let declared: Vec<_> = declared.collect();
-        assert!(!declared.is_empty(), "no module has {name}");
-        for (stem, value) in declared {
-            assert_eq!(value, default, "{name} in rtl_ref/{stem}.v, and as Rust has it");
         }
     }
 }

@@ -21,7 +21,7 @@ signals! {
         /// SPAD quench mode (Table 6.2), asynchronous.
         pub mode: bool,
         /// Laser repetition rate (Table 6.1), asynchronous.
-        #[size("RateBits")]
+        #[size(RateBits)]
         pub laser_freq: Rate,
         /// Lets the laser fire, asynchronous.
         pub laser_en: bool,
@@ -50,12 +50,12 @@ signals! {
         /// Reset of the TDC and the estimator: the board's or the acquisition computer's.
         pub rst_dsp: bool = true,
         /// Code of a hit, from the source in use [bins].
-        #[size("BinBits")]
+        #[size(BinBits)]
         pub tdc_code: Bin,
         /// `tdc_code` is new.
         pub tdc_valid: bool,
         /// Word of the histogram, from the source in use [hits].
-        #[size("CountBits")]
+        #[size(CountBits)]
         pub count: Count,
         /// Single-ended laser pulse.
         pub laser_on: bool,

@@ -65,7 +65,7 @@ fn count(vectors: &Vectors, row: usize) -> u64 {
     let histogram = value(&vectors.stimulus, "histogram").unwrap();
     let [reads, address] =
         ["read_en", "read_addr"].map(|name| value(&vectors.expected, name).unwrap());
-    let bins = vectors.sizes.histogram.bins as u64;
+    let bins = u64::from(vectors.sizes.bins);
     let word = memory.text.split_whitespace().filter(|word| !word.starts_with("//"));
     match reads {
         0 => 0,

@@ -8,13 +8,10 @@ macro_rules! blocks {
         $(pub(super) mod $name;)*
 
         /// Every block, in the order of their names.
-        pub static BLOCKS: &[Spec] = &[$($name::SPEC),*];
-
-        /// Our own Verilog: file name and text of each block's module.
-        pub const VERILOG: &[(&str, &str)] = &[$((
-            concat!(stringify!($name), ".v"),
-            include_str!(concat!("../../../../rtl_ref/", stringify!($name), ".v")),
-        )),*];
+        pub static BLOCKS: &[Spec] = &[$(Spec {
+            verilog: include_str!(concat!("../../../../rtl_ref/", stringify!($name), ".v")),
+            ..$name::SPEC
+        }),*];
     };
 }
 
@@ -56,6 +53,11 @@ pub const CENTROID: &str = "centroid_estimator";
 /// As [`CENTROID`].
 pub const LIKELIHOOD: &str = "likelihood_estimator";
 
+/// File name and text of each block's module.
+pub fn verilog() -> impl Iterator<Item = (String, &'static str)> {
+    BLOCKS.iter().map(|spec| (format!("{}.v", spec.name), spec.verilog))
+}
+
 /// The block called `name`.
 pub fn find(name: &str) -> Option<&'static Spec> {
     BLOCKS.iter().find(|spec| spec.name == name)
@@ -69,7 +71,7 @@ mod tests {
     use crate::golden::setting::Setting;
     use crate::golden::spec::{FIRST_RESET, Vectors};
     use crate::golden::timing::Step;
-    use tofsim::firmware::tof_top::Sizes;
+    use tofsim::kernel::sizes::Sizes;
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 

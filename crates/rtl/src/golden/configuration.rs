@@ -25,7 +25,7 @@ pub struct Configuration {
 pub const NEURONS_16: Configuration = Configuration {
     name: "neurons_16",
     set: &["estimator.network=uniform-16"],
-    parameters: &[super::parameters::NEURONS],
+    parameters: &["Neurons"],
     ..DEFAULTS
 };
 
@@ -33,7 +33,7 @@ pub const NEURONS_16: Configuration = Configuration {
 pub const COUNT_STAGES_2: Configuration = Configuration {
     name: "count_stages_2",
     set: &["tdc.count_stages=2"],
-    parameters: &[super::parameters::COUNT_STAGES],
+    parameters: &["CountStages"],
     ..DEFAULTS
 };
 
@@ -41,7 +41,7 @@ pub const COUNT_STAGES_2: Configuration = Configuration {
 pub const LEADING: Configuration = Configuration {
     name: "leading",
     set: &["tdc.decoder=leading", "tdc.profile=kintex7"],
-    parameters: &[super::parameters::DECODER],
+    parameters: &["Decoder"],
     ..DEFAULTS
 };
 
@@ -49,7 +49,7 @@ pub const LEADING: Configuration = Configuration {
 pub const REORDERED: Configuration = Configuration {
     name: "reordered",
     set: &["tdc.decoder=reordered", "tdc.profile=kintex7"],
-    parameters: &[super::parameters::DECODER, super::parameters::ORDER],
+    parameters: &["Decoder", "Order"],
     ..DEFAULTS
 };
 
@@ -57,8 +57,8 @@ pub const REORDERED: Configuration = Configuration {
 pub const CALIBRATED: Configuration = Configuration {
     name: "calibrated",
     set: &["tdc.recalibrate_frames=6", "tdc.calibration_hits_log2=10", "tdc.ring_ns=30"],
-    parameters: &[super::parameters::CALIBRATED],
-    module: Some(super::parameters::CALIBRATION),
+    parameters: &["Calibrated"],
+    module: Some("tdc_calibration"),
     ..DEFAULTS
 };
 

@@ -35,7 +35,8 @@ impl<'a> Lines<'a> {
     ) -> Self {
         let (mut stimulus, mut places) = (Vec::new(), Vec::new());
         let sizes = setting.setup.params.sizes();
-        let shared = |signal: Signal| sizes.shares(&signal).then(|| sizes.fitted(signal)).flatten();
+        let shared =
+            |signal: Signal| if signal.is_shared(&sizes) { signal.fitted(&sizes) } else { None };
         for signal in inputs.into_iter().map(shared) {
             places.push(signal.iter().map(|_| stimulus.len()).collect());
             stimulus.extend(signal.map(|Signal { name, width, .. }| Column::new(name, width)));
@@ -86,7 +87,6 @@ impl<'a> Lines<'a> {
             seed: setting.seed,
             source: setting.setup.name.clone(),
             sizes: setting.setup.params.sizes(),
-            count_stages: setting.count_stages(),
             parameters: Vec::new(),
             stimulus,
             expected,

@@ -3,12 +3,12 @@
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tdc_decoder::Decoder;
-use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
+use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params};
 use tofsim::firmware::{
-    centroid_estimator, depth_estimator, forward2, likelihood_estimator, pll, tdc_calibration,
-    tdc_decoder, vcsel_driver,
+    centroid_estimator, depth_estimator, likelihood_estimator, pll, tdc_calibration, vcsel_driver,
 };
 use tofsim::kernel::U;
+use tofsim::kernel::sizes::{Size, Sizes};
 use tofsim::network::mem::{self, Mem, digits, lines};
 use tofsim::sim::setup::Setup;
 
@@ -41,101 +41,83 @@ impl Parameter {
 /// Names and values, in the order in which the benches set them.
 pub type Parameters = Vec<(&'static str, Parameter)>;
 
-/// The parameter with the number of hidden neurons.
-pub const NEURONS: &str = "Neurons";
+/// Parameters that say what a design has. Benches set them before those that say how large it is.
+const OPTIONS: [&str; 5] = ["Neurons", "CountStages", "Decoder", "Order", "Calibrated"];
 
-/// That parameter, where it is not the default: so many another design need not have.
-pub fn neurons(neurons: usize) -> Option<(&'static str, Parameter)> {
-    (neurons != forward2::NEURONS).then_some((NEURONS, Parameter::Number(neurons as u64)))
+/// Verilog of the whole firmware.
+const TOF_TOP: &str = include_str!("../../../../rtl_ref/tof_top.v");
+
+/// Names of the parameters that a module's Verilog declares, in its order.
+pub fn declared(verilog: &'static str) -> impl Iterator<Item = &'static str> {
+    let declarations = verilog.lines().filter_map(|line| line.trim().strip_prefix("parameter "));
+    let names = declarations.filter_map(|line| line.split(" = ").next()?.split(' ').next_back());
+    names.take_while(|name| !name.is_empty())
 }
 
-/// The parameter with the number of registers of the TDC's ones count.
-pub const COUNT_STAGES: &str = "CountStages";
-
-/// That parameter, where it is not the default.
-pub fn count_stages(params: &tdc_decoder::Params) -> Option<(&'static str, Parameter)> {
-    let stages = params.count_stages;
-    (stages != tdc_decoder::COUNT_STAGES).then_some((COUNT_STAGES, Parameter::Number(stages)))
+/// Options of a module with that Verilog that are not the default: another design need not have them.
+pub fn options(params: &Params, verilog: &'static str) -> Parameters {
+    let declares = |option: &&str| declared(verilog).any(|name| name == *option);
+    unusual(params, OPTIONS.into_iter().filter(declares))
 }
 
-/// The parameter with the number of the decoder.
-pub const DECODER: &str = "Decoder";
-/// The parameter with what it takes to put the taps in the order of arrival.
-pub const ORDER: &str = "Order";
-
-/// Those of how the taps are read, where they are not the default.
-pub fn decoder(params: &tdc_decoder::Params) -> Parameters {
-    let encoder = &params.encoder;
-    let number = Decoder::ALL.iter().position(|one| *one == encoder.decoder()).unwrap_or_default();
-    let mut list = Vec::new();
-    if number > 0 {
-        list.push((DECODER, Parameter::Number(number as u64)));
-    }
-    if encoder.decoder() == Decoder::Reordered {
-        let places = (0u16..).zip(encoder.order());
-        let steps = places.map(|(place, tap)| tap.wrapping_sub(place).into());
-        list.push((ORDER, Parameter::Words(steps.collect())));
-    }
-    list
+/// Sizes of a module with that Verilog that are not the default: another design need not have them.
+pub fn sized(params: &Params, verilog: &'static str) -> Parameters {
+    unusual(params, sizes_of(verilog))
 }
 
-/// The block that they are of.
-pub const CALIBRATION: &str = "tdc_calibration";
-
-/// Those of the TDC's calibration, if it has one.
-pub fn tdc_calibration(params: &Params) -> Parameters {
-    let Some(own) = &params.tdc_calibration else { return Vec::new() };
-    let mut list = sized(params, &["Taps", "AgeBits", "Cycle"]);
-    list.extend(of_calibration(own));
-    list
+/// Names of a module's parameters that are no options.
+fn sizes_of(verilog: &'static str) -> impl Iterator<Item = &'static str> {
+    declared(verilog).filter(|name| !OPTIONS.contains(name))
 }
 
-/// Those that it does not share.
-fn of_calibration(own: &tdc_calibration::Params) -> Parameters {
+/// Options and sizes of some names that are not the default.
+fn unusual(params: &Params, names: impl Iterator<Item = &'static str>) -> Parameters {
+    let usual = |name: &str, own: &Parameter| match (name, own) {
+        (LASER_PERIODS, own) => *own == laser_periods(&vcsel_driver::Params::default()),
+        (_, Parameter::Words(words)) => words.iter().all(|word| *word == 0),
+        (name, own) => size(&Sizes::default(), name).unwrap_or(Parameter::Number(0)) == *own,
+    };
+    all(params, names).into_iter().filter(|(name, own)| !usual(name, own)).collect()
+}
+
+/// Options and sizes of some names.
+fn all(params: &Params, names: impl Iterator<Item = &'static str>) -> Parameters {
+    let (sizes, encoder) = (params.sizes(), &params.tdc.decoder.encoder);
+    let value = |name| match name {
+        LASER_PERIODS => Some(laser_periods(&params.vcsel_driver)),
+        "Decoder" => Some(Parameter::Number(encoder.decoder() as u64)),
+        "Order" if encoder.decoder() == Decoder::Reordered => {
+            let places = (0u16..).zip(encoder.order());
+            let steps = places.map(|(place, tap)| tap.wrapping_sub(place).into());
+            Some(Parameter::Words(steps.collect()))
+        }
+        "Order" => Some(Parameter::Words(vec![0; params.tdc.delays.taps()])),
+        name => size(&sizes, name),
+    };
+    names.filter_map(|name| Some((name, value(name)?))).collect()
+}
+
+/// Name of the parameter with the laser periods.
+const LASER_PERIODS: &str = "LaserPeriods";
+
+/// The laser period of every code [cycles of clk_sys].
+fn laser_periods(laser: &vcsel_driver::Params) -> Parameter {
+    Parameter::Words(laser.every_period().to_vec())
+}
+
+/// A size of that name.
+fn size(sizes: &Sizes, name: &str) -> Option<Parameter> {
+    Size::named(name).map(|size| Parameter::Number(sizes.of(size).into()))
+}
+
+/// Hits, frames and ages of the TDC's calibration.
+pub fn tdc_calibration(own: &tdc_calibration::Params) -> Parameters {
     vec![
         ("HitsLog2", Parameter::Number(own.hits_log2.into())),
         ("CalibrationFrames", Parameter::Number(own.frames)),
         ("YoungestAge", Parameter::Number(own.begin)),
         ("EdgeAge", Parameter::Number(own.start)),
     ]
-}
-
-/// The parameter that says where the decoder's ages come from.
-pub const CALIBRATED: &str = "Calibrated";
-
-/// That parameter, where they do not come from the ROM.
-pub fn calibrated(params: &tdc_decoder::Params) -> Option<(&'static str, Parameter)> {
-    params.calibrated.map(|_| (CALIBRATED, Parameter::Number(1)))
-}
-
-/// The parameters of some names that say how large things are, where they are not the default: as large
-/// another design need not have them.
-pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
-    let usual = (Sizes::default(), vcsel_driver::Params::default());
-    let own = |name| {
-        let own = size(&params.sizes(), &params.vcsel_driver, name);
-        (own != size(&usual.0, &usual.1, name)).then_some((name, own))
-    };
-    names.iter().copied().filter_map(own).collect()
-}
-
-/// The parameter of a name that says how large something is.
-fn size(sizes: &Sizes, laser: &vcsel_driver::Params, name: &str) -> Parameter {
-    match name {
-        LASER_PERIODS => Parameter::Words(laser.every_period().to_vec()),
-        "PulseHalfCycles" => Parameter::Number(sizes.pulse_half_cycles.into()),
-        "DrainCycles" => Parameter::Number(sizes.drain_cycles),
-        "Cycle" => Parameter::Number(sizes.cycle),
-        "Digits" => Parameter::Number(sizes.digits.into()),
-        "W1Fraction" => Parameter::Number(sizes.datapath.w1.fraction.into()),
-        "B1Fraction" => Parameter::Number(sizes.datapath.b1.fraction.into()),
-        "W2Fraction" => Parameter::Number(sizes.datapath.w2.fraction.into()),
-        "B2Fraction" => Parameter::Number(sizes.datapath.b2.fraction.into()),
-        "ActivationFraction" => Parameter::Number(sizes.datapath.l1_out.fraction.into()),
-        "AddressBits" => Parameter::Number(sizes.datapath.address_bits.into()),
-        "RangeLog2" => Parameter::Number(sizes.datapath.range_log2.into()),
-        name => Parameter::Number(sizes.width(name).unwrap_or_default().into()),
-    }
 }
 
 /// Oscillator and dividers of the PLL, where they are not the default.
@@ -157,77 +139,6 @@ fn every_clock(p: &pll::Params) -> Parameters {
     values.map(|(name, own)| (name, Parameter::Number(own))).into()
 }
 
-/// The parameter with the laser periods.
-const LASER_PERIODS: &str = "LaserPeriods";
-/// Of [`sized`], those on which widths of ports depend.
-pub const SHAPES: [&str; 10] = [
-    NEURONS,
-    "Taps",
-    "AgeBits",
-    "CoarseBits",
-    "RateBits",
-    "Halves",
-    "BinBits",
-    "CountBits",
-    "SumBits",
-    "ActivationBits",
-];
-/// Of [`sized`], those of the decoder.
-pub const OF_DECODER: [&str; 6] = ["Taps", "CoarseBits", "BinBits", "Cycle", "Digits", "AgeBits"];
-/// Of [`sized`], those of the hidden layer.
-pub const OF_FORWARD1: [&str; 7] =
-    ["BinBits", "CountBits", "SumBits", "W1Bits", "W1Fraction", "B1Bits", "B1Fraction"];
-/// Of [`sized`], those of the activation.
-pub const OF_TANSIG: [&str; 5] =
-    ["SumBits", "W1Fraction", "AddressBits", "RangeLog2", "ActivationBits"];
-/// Of [`sized`], those of the output layer.
-pub const OF_FORWARD2: [&str; 6] =
-    ["ActivationBits", "ActivationFraction", "W2Bits", "W2Fraction", "B2Bits", "B2Fraction"];
-/// Of [`sized`], those of the network.
-pub const OF_NETWORK: [&str; 15] = [
-    "BinBits",
-    "CountBits",
-    "SumBits",
-    "W1Bits",
-    "W1Fraction",
-    "B1Bits",
-    "B1Fraction",
-    "AddressBits",
-    "RangeLog2",
-    "ActivationBits",
-    "ActivationFraction",
-    "W2Bits",
-    "W2Fraction",
-    "B2Bits",
-    "B2Fraction",
-];
-/// Of [`sized`], those of the whole beside the network's.
-const OF_TOP: [&str; 10] = [
-    "DrainCycles",
-    LASER_PERIODS,
-    "RateBits",
-    "PeriodBits",
-    "PulseHalfCycles",
-    "Taps",
-    "CoarseBits",
-    "Cycle",
-    "Digits",
-    "AgeBits",
-];
-
-/// Those of a block of the depth estimator: its memories, how many neurons they are for, and its sizes of
-/// some names.
-pub fn with_neurons(
-    mut memories: Parameters,
-    count: usize,
-    params: &Params,
-    names: &[&'static str],
-) -> Parameters {
-    memories.extend(neurons(count));
-    memories.extend(sized(params, names));
-    memories
-}
-
 /// Memories under the names of their parameters.
 pub fn files(
     names: impl IntoIterator<Item = &'static str>,
@@ -244,13 +155,13 @@ pub fn memories(parameters: &Parameters) -> impl Iterator<Item = &Mem> {
     })
 }
 
-/// Those of the depth estimator, without the number of neurons.
+/// Memories of the depth estimator.
 pub fn depth_estimator(params: &depth_estimator::Params) -> Parameters {
     let names = ["W1File", "B1File", "W2File", "B2File", "TansigFile"];
     files(names, mem::depth_estimator(params))
 }
 
-/// Those of the centroid estimator.
+/// Window and scale of the centroid estimator.
 pub fn centroid_estimator(params: &centroid_estimator::Params) -> Parameters {
     vec![
         ("HalfWidth", Parameter::Number(params.half_width)),
@@ -260,7 +171,7 @@ pub fn centroid_estimator(params: &centroid_estimator::Params) -> Parameters {
     ]
 }
 
-/// Those of the likelihood estimator.
+/// Pulse, bins and memories of the likelihood estimator.
 pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Parameters {
     let number = |value: u64| Parameter::Number(value);
     let mut list = vec![
@@ -281,15 +192,15 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Pa
     list
 }
 
-/// Those of a block of the likelihood estimator: of some names, and its sizes.
-pub fn of_likelihood(params: &Params, names: &[&'static str]) -> Parameters {
-    let mut list = sized(params, &["BinBits", "CountBits"]);
-    let own = likelihood_estimator(&params.likelihood_estimator);
-    list.extend(own.into_iter().filter(|(name, _)| names.contains(name)));
-    list
+/// Parameters of a block of the likelihood estimator with that Verilog.
+pub fn of_likelihood(params: &Params, verilog: &'static str) -> Parameters {
+    let declares =
+        |(own, _): &(&'static str, Parameter)| declared(verilog).any(|name| name == *own);
+    let own = likelihood_estimator(&params.likelihood_estimator).into_iter().filter(declares);
+    sized(params, verilog).into_iter().chain(own).collect()
 }
 
-/// Those of the whole firmware. The memory of an unused stand-in is loaded too: zeros.
+/// Parameters of the whole firmware. The memory of an unused stand-in is loaded too: zeros.
 pub fn tof_top(setup: &Setup) -> Parameters {
     use Parameter::{Memory, Number};
     let params = &setup.params;
@@ -303,13 +214,9 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder))),
         ("DelaysFile", Memory(tap_delays(&params.tdc.delays))),
     ]);
-    list.extend(neurons(params.depth_estimator.neurons()));
-    list.extend(count_stages(&params.tdc.decoder));
-    list.extend(decoder(&params.tdc.decoder));
-    list.extend(calibrated(&params.tdc.decoder));
-    list.extend(params.tdc_calibration.iter().flat_map(of_calibration));
-    list.extend(sized(params, &OF_NETWORK));
-    list.extend(sized(params, &OF_TOP));
+    list.extend(options(params, TOF_TOP));
+    list.extend(params.tdc_calibration.iter().flat_map(tdc_calibration));
+    list.extend(sized(params, TOF_TOP));
     let (preloads_codes, rom) = match &params.code_source {
         CodeSource::Tdc => (false, &[U::new(0)][..]),
         CodeSource::Preload(rom) => (true, &rom[..]),
@@ -339,26 +246,21 @@ pub fn tof_top(setup: &Setup) -> Parameters {
     list
 }
 
-/// Those of the whole firmware, also where they are the default.
+/// Parameters of the whole firmware, also where they are the default.
 pub fn tof_top_in_full(setup: &Setup) -> Parameters {
     let params = &setup.params;
     let mut list = tof_top(setup);
-    let mut all = every_clock(&setup.scenario.pll.params());
-    all.push((NEURONS, Parameter::Number(params.depth_estimator.neurons() as u64)));
-    all.push((COUNT_STAGES, Parameter::Number(params.tdc.decoder.count_stages)));
-    all.push((DECODER, Parameter::Number(0)));
-    all.push((ORDER, Parameter::Words(vec![0; params.tdc.delays.taps()])));
-    all.push((CALIBRATED, Parameter::Number(0)));
-    all.extend(of_calibration(&tdc_calibration::Params::stand_in(&params.tdc)));
-    let (sizes, laser) = (params.sizes(), &params.vcsel_driver);
-    let named = OF_NETWORK.iter().chain(&OF_TOP);
-    all.extend(named.map(|&name| (name, size(&sizes, laser, name))));
-    let socket = Estimator::ALL.iter().position(|one| *one == params.estimator).unwrap_or_default();
-    all.push(("Estimator", Parameter::Number(socket as u64)));
-    all.extend(centroid_estimator(&params.centroid_estimator));
-    all.extend(likelihood_estimator(&params.likelihood_estimator));
+    let every = [
+        every_clock(&setup.scenario.pll.params()),
+        all(params, OPTIONS.into_iter()),
+        tdc_calibration(&tdc_calibration::Params::stand_in(&params.tdc)),
+        all(params, sizes_of(TOF_TOP)),
+        vec![("Estimator", Parameter::Number(params.estimator as u64))],
+        centroid_estimator(&params.centroid_estimator),
+        likelihood_estimator(&params.likelihood_estimator),
+    ];
     let is_new = |(name, _): &(&str, Parameter)| list.iter().all(|(known, _)| known != name);
-    let others: Vec<_> = all.into_iter().filter(is_new).collect();
+    let others: Vec<_> = every.concat().into_iter().filter(is_new).collect();
     list.extend(others);
     list
 }

@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy::{self, Entry, Kind};
 use tofsim::kernel::Time;
+use tofsim::kernel::sizes::Sizes;
 
 use super::parameters::{Parameter, Parameters};
 use super::spec::{Spec, Vectors};

@@ -2,6 +2,7 @@
 
 pub use tofsim::error::Result;
 pub use tofsim::kernel::signals::Signals;
+pub use tofsim::kernel::sizes::Size;
 pub use tofsim::kernel::{Clocked, S, Time, U};
 pub use tofsim::network::mem;
 pub use tofsim::signals;
@@ -12,7 +13,7 @@ pub use super::configuration::{
 pub use super::cover::{Cover, bits, ends};
 pub use super::draw::{Draw, MEMORIES};
 pub use super::model::{Edge, Model};
-pub use super::parameters::{self, Parameter, files, with_neurons};
+pub use super::parameters::{self, Parameter, files};
 pub use super::record::Recorder;
 pub use super::setting::Setting;
 pub use super::spec::{FIRST_RESET, Glue, Latency, Spec, Vectors};

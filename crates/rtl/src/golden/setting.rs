@@ -66,11 +66,6 @@ impl Setting {
         self.setup.params.tdc.delays.order()
     }
 
-    /// Registers of the TDC's ones count.
-    pub fn count_stages(&self) -> u64 {
-        self.setup.params.tdc.decoder.count_stages
-    }
-
     /// How large the histogram is.
     pub fn histogram(&self) -> histogram_builder::Params {
         self.setup.params.histogram

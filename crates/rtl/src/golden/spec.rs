@@ -2,15 +2,15 @@
 
 use tofsim::error::Result;
 use tofsim::firmware::pll::Pll;
-use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy;
 use tofsim::kernel::Time;
+use tofsim::kernel::sizes::Sizes;
 use tofsim::network::mem::Mem;
 
 use super::configuration::Configuration;
 use super::cover::Cover;
 use super::model::Model;
-use super::parameters::{Parameters, memories};
+use super::parameters::{self, Parameters, memories};
 use super::setting::Setting;
 use super::table::Table;
 use super::timing::{ASIDE, CLK_SYS, Timing};
@@ -55,6 +55,8 @@ const NUMBERED: &str = "carry_chain coarse_counter code_preload control_sync ddr
 pub struct Spec {
     /// Its module.
     pub name: &'static str,
+    /// Its Verilog.
+    pub verilog: &'static str,
     /// One place of it in the hierarchy, below the top.
     pub scope: &'static str,
     /// When its clocks move and when it is looked at.
@@ -81,6 +83,7 @@ impl Spec {
     pub const fn new(name: &'static str, scope: &'static str, record: Record) -> Self {
         Spec {
             name,
+            verilog: "",
             scope,
             timing: CLK_SYS,
             reset: None,
@@ -100,6 +103,16 @@ impl Spec {
         let of_name = || self.name.bytes().fold(0xcbf2_9ce4_8422_2325, step) | 1 << 63;
         let number = NUMBERED.split_whitespace().position(|name| name == self.name);
         number.map_or_else(of_name, |number| number as u64)
+    }
+
+    /// Parameters of its Verilog that say what a design has, where they are not the default.
+    pub fn options(&self, setting: &Setting) -> Parameters {
+        parameters::options(&setting.setup.params, self.verilog)
+    }
+
+    /// Parameters of its Verilog that say how large things are, where they are not the default.
+    pub fn sized(&self, setting: &Setting) -> Parameters {
+        parameters::sized(&setting.setup.params, self.verilog)
     }
 
     /// Dotted path of the block in the hierarchy.
@@ -122,8 +135,6 @@ pub struct Vectors {
     pub source: String,
     /// Widths and numbers of signals of the design.
     pub sizes: Sizes,
-    /// Registers of the TDC's ones count.
-    pub count_stages: u64,
     /// Verilog parameters.
     pub parameters: Parameters,
     /// What goes in: line k is taken by edge k.

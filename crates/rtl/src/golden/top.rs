@@ -27,7 +27,7 @@ signals! {
         /// SPAD quench mode.
         mode: bool,
         /// Laser repetition rate.
-        #[size("RateBits")]
+        #[size(RateBits)]
         laser_freq: Rate,
         /// Lets the laser fire.
         laser_en: bool,

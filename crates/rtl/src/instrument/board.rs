@@ -1,5 +1,6 @@
 //! The top for a part's board and its constraints: those of `rtl_ref`, with an instrument's widths and clocks.
 
+use tofsim::kernel::sizes::{Size, Sizes};
 use tofsim::scenario::Part;
 use tofsim::sim::setup::Setup;
 
@@ -26,12 +27,8 @@ pub(super) fn name(setup: &Setup) -> &'static str {
 /// Ports whose width the instrument decides: name, width on the board, own width.
 fn vectors(setup: &Setup) -> [(&'static str, u32, u32); 3] {
     let sizes = setup.params.sizes();
-    let own = |name| sizes.width(name).unwrap_or_default();
-    [
-        ("laser_freq", 2, own("RateBits").max(1)),
-        ("hist_bin", 8, own("BinBits")),
-        ("hist_count", 16, own("CountBits")),
-    ]
+    [("laser_freq", Size::RateBits), ("hist_bin", Size::BinBits), ("hist_count", Size::CountBits)]
+        .map(|(port, size)| (port, Sizes::default().of(size), sizes.of(size)))
 }
 
 /// A frequency as people write it [MHz].

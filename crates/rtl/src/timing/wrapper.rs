@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use tofsim::firmware::tof_top::Sizes;
+use tofsim::kernel::sizes::Sizes;
 
 use crate::golden::blocks;
 use crate::golden::ports::Port;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tofsim::error::Result;
 use tofsim::files::output::write_bytes;
-use tofsim::firmware::tof_top::Sizes;
+use tofsim::kernel::sizes::Sizes;
 
 use crate::golden::bench::Bench;
 use crate::golden::bench::allowances::Allowances;
@@ -35,7 +35,7 @@ impl BlockMap {
 
     /// Words of their histogram.
     fn bins(&self, sizes: &Sizes) -> usize {
-        self.design.bins.unwrap_or(sizes.histogram.bins)
+        self.design.bins.unwrap_or(sizes.bins as usize)
     }
 
     /// Width of our port in a design of that size.
@@ -62,7 +62,7 @@ impl BlockMap {
                 wanted.push(Port { name: theirs.to_owned(), width, ..port });
             }
         }
-        let whole = sizes.histogram.count_bits * self.bins(sizes) as u32;
+        let whole = sizes.count_bits * self.bins(sizes) as u32;
         for (name, output) in [(&self.counts, true), (&self.vector, false)] {
             let meaning = "all counts";
             wanted.extend(name.clone().map(|name| Port { name, width: whole, output, meaning }));
@@ -128,7 +128,7 @@ impl BlockMap {
             }
         }
         let sizes = &bench.vectors.sizes;
-        let (bins, bits) = (self.bins(sizes), sizes.histogram.count_bits);
+        let (bins, bits) = (self.bins(sizes), sizes.count_bits);
         let whole = bits * bins as u32;
         let (range, last, address) = (range(whole), bins - 1, bins.next_power_of_two().ilog2());
         if let Some(counts) = &self.counts {

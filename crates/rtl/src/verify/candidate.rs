@@ -6,10 +6,10 @@ use std::path::Path;
 use tofsim::error::{Input, Result};
 use tofsim::files::output::create_directory;
 use tofsim::firmware::forward2::MOST_NEURONS;
-use tofsim::firmware::tof_top::Sizes;
+use tofsim::kernel::sizes::{Size, Sizes};
 
 use crate::golden::bench::Bench;
-use crate::golden::parameters::{Parameter, SHAPES};
+use crate::golden::parameters::Parameter;
 use crate::golden::ports::Port;
 use crate::golden::spec::Vectors;
 
@@ -104,7 +104,7 @@ impl<'a> Candidate<'a> {
                 found = dut.simulator.interface(work, &module, &shapes, &rtl, limits)?;
             }
         }
-        let word = vectors.sizes.histogram.count_bits;
+        let word = vectors.sizes.count_bits;
         found.check_ports(&rtl.source, &module, (&wanted(&found), word))?;
         Ok(Ok(Candidate { rtl, found, map, fixed }))
     }
@@ -120,7 +120,7 @@ impl Candidate<'_> {
             self.found.ports.get(&port.name).is_some_and(has)
                 && !used.iter().any(|used| used.name == port.name)
         };
-        let most = Sizes { neurons: MOST_NEURONS, ..*sizes };
+        let most = Sizes { neurons: MOST_NEURONS as u32, ..*sizes };
         let calibrated = Sizes { calibrates: true, ..*sizes };
         let all = if self.map.is_none() { task.spec.ports(&most) } else { Vec::new() };
         let inputs = task
@@ -132,10 +132,10 @@ impl Candidate<'_> {
     }
 }
 
-/// A parameter that ports depend on, if it is one.
+/// A parameter that ports may depend on, if it is one.
 fn shape<'a>((ours, theirs, value): &Set<'a>) -> Option<(&'a str, u64)> {
     match value {
-        Parameter::Number(value) if SHAPES.contains(ours) => Some((theirs, *value)),
+        Parameter::Number(value) if Size::named(ours).is_some() => Some((theirs, *value)),
         _ => None,
     }
 }

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use tofsim::error::{Input, Result, hint, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::firmware::forward2::MOST_NEURONS;
-use tofsim::firmware::tof_top::Sizes;
+use tofsim::kernel::sizes::Sizes;
 
 use crate::golden::blocks::{self, BLOCKS};
 use crate::golden::ports::Port;
@@ -148,7 +148,7 @@ fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> 
 impl BlockMap {
     /// Whether everything that is named exists in our block; `valid` has our names from then on.
     fn check(&mut self, spec: &Spec, fault: &dyn Fn(&str, String) -> Input) -> Result<()> {
-        let ports = spec.ports(&Sizes { neurons: MOST_NEURONS, ..Sizes::default() });
+        let ports = spec.ports(&Sizes { neurons: MOST_NEURONS as u32, ..Sizes::default() });
         // Each name of a port of ours: where it stands, and whether it has to be an output.
         let place = |table: &str, name: &str| format!("{table}.{name}");
         let named = (self.ports.keys().map(|name| (place("ports", name), name, false)))

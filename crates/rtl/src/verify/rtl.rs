@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_bytes;
 
-use crate::golden::blocks::VERILOG;
+use crate::golden::blocks;
 
 use file_list::Listed;
 use order::Tree;
@@ -170,7 +170,7 @@ impl Rtl {
     /// When it cannot be written.
     pub fn own(folder: &Path) -> Result<Self> {
         let mut rtl = Rtl { source: "rtl_ref".to_owned(), ..Rtl::default() };
-        for (name, text) in VERILOG {
+        for (name, text) in blocks::verilog() {
             let path = folder.join(name);
             write_bytes(&path, text)?;
             rtl.add(&path, true)?;

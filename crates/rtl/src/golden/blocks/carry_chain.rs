@@ -37,7 +37,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         travelling.see(changes as u64);
     }
     let mut parameters = files(["DelaysFile"], [parameters::tap_delays(delays)]);
-    parameters.extend(parameters::sized(&setting.setup.params, &["Taps"]));
+    parameters.extend(spec.sized(setting));
     let stops = stops.times().to_vec();
     Ok(Vectors { parameters, stops, settles: 1, ..run.vectors([ones, travelling]) })
 }

@@ -13,7 +13,7 @@ mod histograms;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.centroid().done() }],
+    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.centroid_cycles.into() }],
     glue: Some(histograms::GLUE),
     configurations: &[LEVEL],
     model: Some(Model::new::<In>(|at| {
@@ -78,7 +78,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     Ok(Vectors {
         parameters: [
             parameters::centroid_estimator(&params),
-            parameters::sized(&setting.setup.params, &["BinBits", "CountBits"]),
+            spec.sized(setting),
         ]
         .concat(),
         bench_memory: Some(memory(&histograms, &params.histogram)),

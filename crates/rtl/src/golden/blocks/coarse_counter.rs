@@ -39,6 +39,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc.coarse_counter = counter.next(&i, &params);
     }
-    let parameters = parameters::sized(&setting.setup.params, &["CoarseBits"]);
+    let parameters = spec.sized(setting);
     Ok(Vectors { parameters, ..run.vectors([coarse, started_at]) })
 }

@@ -62,6 +62,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     }
     let file = Parameter::Memory(parameters::codes(&rom, &setting.histogram()));
     let mut parameters = vec![("Codes", Parameter::Number(codes)), ("CodeFile", file)];
-    parameters.extend(parameters::sized(&setting.setup.params, &["BinBits"]));
+    parameters.extend(spec.sized(setting));
     Ok(Vectors { parameters, ..run.vectors([words, resets, phases]) })
 }

@@ -22,7 +22,7 @@ pub(super) const SPEC: Spec = Spec {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut pairs = Cover::new("mode, laser_en, dsp_en, dsp_rst as bits, from x 16 + to", 0..256);
-    let rate_bits = setting.setup.params.sizes().width("RateBits").unwrap_or_default();
+    let rate_bits = setting.setup.params.sizes().of(Size::RateBits);
     let codes = 1 << rate_bits;
     let mut rates = Cover::new("laser_freq from x codes + to", 0..codes * codes);
     let mut alone = Cover::new("one signal, 0 to 4, changes alone", 0..5);
@@ -49,6 +49,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.control_sync = run.top.control_sync.next(&i, &());
     }
-    let parameters = parameters::sized(&setting.setup.params, &["RateBits"]);
+    let parameters = spec.sized(setting);
     Ok(Vectors { parameters, settles: 2, ..run.vectors([pairs, rates, alone]) })
 }

@@ -5,14 +5,13 @@
 use tofsim::firmware::depth_estimator::In;
 
 use crate::golden::estimations::{Estimations, memory};
-use crate::golden::parameters::OF_NETWORK;
 use crate::golden::prelude::*;
 
 mod histograms;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network().done() }],
+    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network_cycles.into() }],
     glue: Some(histograms::GLUE),
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
@@ -64,12 +63,12 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         estimator.rise(&In { rst, algo_start, count }, params);
     }
     Ok(Vectors {
-        parameters: with_neurons(
+        parameters: [
             parameters::depth_estimator(params),
-            neurons,
-            &setting.setup.params,
-            &OF_NETWORK,
-        ),
+            spec.options(setting),
+            spec.sized(setting),
+        ]
+        .concat(),
         bench_memory: Some(memory(&histograms, &size)),
         ..run.vectors([vec![ends], estimations.coverage().into()].concat())
     })

@@ -9,7 +9,7 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[
         Latency { from: "algo_start", to: "read_en", cycles: |_| 0 },
-        Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network().done() },
+        Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network_cycles.into() },
     ],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
@@ -66,7 +66,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.depth_estimator.estimator_ctrl = ctrl.next(&i, &p);
     }
-    let parameters =
-        with_neurons(Vec::new(), p.neurons, &setting.setup.params, &["BinBits"]);
+    let parameters = [spec.options(setting), spec.sized(setting)].concat();
     Ok(Vectors { parameters, ..run.vectors([starts, resets, idle]) })
 }

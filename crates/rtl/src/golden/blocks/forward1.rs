@@ -3,7 +3,6 @@
 
 use tofsim::firmware::forward1::In;
 
-use crate::golden::parameters::OF_FORWARD1;
 use crate::golden::prelude::*;
 
 /// Cycles in one style.
@@ -98,7 +97,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         }
     }
     let memories = files(["W1File", "B1File"], mem::forward1(rom, neurons, setting.datapath()));
-    let parameters =
-        with_neurons(memories, neurons, &setting.setup.params, &OF_FORWARD1);
+    let parameters = [memories, spec.options(setting), spec.sized(setting)].concat();
     Ok(Vectors { parameters, ..run.vectors([wraps, rows, situations, sequence]) })
 }

@@ -5,7 +5,6 @@
 use tofsim::firmware::forward2::{In, MOST_NEURONS};
 use tofsim::kernel::wrapped;
 
-use crate::golden::parameters::OF_FORWARD2;
 use crate::golden::prelude::*;
 
 /// Cycles in one style.
@@ -44,7 +43,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         rom.datapath.depth(weight * activation.max()) * PATIENCE > 2 * WRAP
     };
     // Values that `pair` can have.
-    let all_pairs = 1 << setting.setup.params.sizes().width("PairBits").unwrap_or_default();
+    let all_pairs = 1 << setting.setup.params.sizes().of(Size::PairBits);
     let mut situations = Cover::new(
         "rst, forward2_first, forward2_en, depth_en as bits x pairs + pair",
         0..16 * all_pairs,
@@ -110,6 +109,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             wraps.see_if(far && !i.rst, goal);
         }
     }
-    let parameters = with_neurons(files(["W2File", "B2File"], mem::forward2(&rom)), rom.neurons, &setting.setup.params, &OF_FORWARD2);
+    let parameters = [files(["W2File", "B2File"], mem::forward2(&rom)), spec.options(setting), spec.sized(setting)].concat();
     Ok(Vectors { parameters, ..run.vectors([situations, order, wraps]) })
 }

@@ -121,7 +121,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         ("ShotsPerFrame", Parameter::Number(shots.into())),
         ("Preloaded", Parameter::Number(preloaded.into())),
     ];
-    parameters.extend(parameters::sized(&setting.setup.params, &["BinBits", "CountBits", "DrainCycles"]));
-    parameters.extend(parameters::calibrated(&setting.setup.params.tdc.decoder));
+    parameters.extend(spec.sized(setting));
+    parameters.extend(spec.options(setting));
     Ok(Vectors { parameters, ..run.vectors([transitions, resets, kinds, inputs]) })
 }

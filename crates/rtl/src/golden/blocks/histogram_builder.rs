@@ -154,6 +154,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.histogram_builder.tick(&i, &size);
     }
-    let parameters = parameters::sized(&setting.setup.params, &["BinBits", "CountBits"]);
+    let parameters = spec.sized(setting);
     Ok(Vectors { parameters, settles: bins as usize, ..run.vectors([cleared, hits, seen, overlaps, phases, spans, sizes]) })
 }

@@ -40,6 +40,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
     }
     let mut parameters = files(["HistogramFile"], [parameters::histogram(&rom, &size)]);
-    parameters.extend(parameters::sized(&setting.setup.params, &["BinBits", "CountBits"]));
+    parameters.extend(spec.sized(setting));
     Ok(Vectors { parameters, ..run.vectors([words]) })
 }

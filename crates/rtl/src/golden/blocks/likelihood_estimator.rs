@@ -8,7 +8,7 @@ use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.likelihood_cycles }],
+    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.likelihood_cycles.into() }],
     configurations: &[LATE],
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
@@ -36,10 +36,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
     }
-    let all = [
-        "LikelihoodShots", "BoxBins", "BinsBefore", "BinsAfter", "Kappa", "StepLog2", "PulseSigma", "WindowEnd",
-        "Metres", "MetresShift", "LaserDelay", "EdgesFile", "PulseFile", "HazardFile", "LogFile",
-    ];
-    let parameters = parameters::of_likelihood(&setting.setup.params, &all);
+    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
     Ok(Vectors { parameters, ..run.vectors(estimations.coverage()) })
 }

@@ -31,6 +31,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&own);
         run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
     }
-    let parameters = parameters::of_likelihood(&setting.setup.params, &["LikelihoodShots", "BoxBins", "EdgesFile"]);
+    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
     Ok(Vectors { parameters, ..run.vectors([kinds]) })
 }

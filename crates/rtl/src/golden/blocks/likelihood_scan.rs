@@ -39,7 +39,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&own);
         run.top.likelihood_estimator.rise(&i, params);
     }
-    let parameters = parameters::of_likelihood(&setting.setup.params, &["BoxBins", "LogFile"]);
+    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
     Ok(Vectors { parameters, ..run.vectors([scores, lone]) })
 }
 

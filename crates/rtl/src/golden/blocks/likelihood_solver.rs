@@ -43,7 +43,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&own);
         run.top.likelihood_estimator.rise(&i, params);
     }
-    let parameters = parameters::of_likelihood(&setting.setup.params, &["Kappa", "StepLog2", "PulseSigma", "WindowEnd", "Metres", "MetresShift"]);
+    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
     Ok(Vectors { parameters, ..run.vectors([counters]) })
 }
 

@@ -43,7 +43,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&own);
         run.top.likelihood_estimator.rise(&i, params);
     }
-    let parameters = parameters::of_likelihood(&setting.setup.params, &["StepLog2", "PulseFile", "HazardFile"]);
+    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
     Ok(Vectors { parameters, ..run.vectors([predicted, shares]) })
 }
 

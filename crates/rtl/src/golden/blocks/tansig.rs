@@ -5,7 +5,6 @@ use tofsim::firmware::forward1::L1In;
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::tansig::{In, Rom};
 
-use crate::golden::parameters::OF_TANSIG;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
@@ -68,7 +67,12 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.depth_estimator.tansig = run.top.depth_estimator.tansig.next(&i, rom);
     }
-    let parameters = with_neurons(files(["TansigFile"], [mem::tansig(rom, setting.datapath())]), neurons, &setting.setup.params, &OF_TANSIG);
+    let parameters = [
+        files(["TansigFile"], [mem::tansig(rom, setting.datapath())]),
+        spec.options(setting),
+        spec.sized(setting),
+    ]
+    .concat();
     Ok(Vectors { parameters, ..run.vectors([lowest, highest, beyond, situations]) })
 }
 

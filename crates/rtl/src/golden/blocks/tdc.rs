@@ -5,7 +5,6 @@
 use tofsim::firmware::tdc::In;
 use tofsim::firmware::tdc_decoder::{Age, Decoder};
 
-use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
 
 mod light;
@@ -20,8 +19,8 @@ const LAST_RESET: usize = 15;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[
-        Latency { from: "tdc_stop", to: "tdc_valid", cycles: |vectors| vectors.count_stages + 4 },
-        Latency { from: "tdc_stop", to: "tdc_code", cycles: |vectors| vectors.count_stages + 4 },
+        Latency { from: "tdc_stop", to: "tdc_valid", cycles: |vectors| u64::from(vectors.sizes.count_stages) + 4 },
+        Latency { from: "tdc_stop", to: "tdc_code", cycles: |vectors| u64::from(vectors.sizes.count_stages) + 4 },
     ],
     configurations: &[COUNT_STAGES_2, LEADING, REORDERED, CALIBRATED],
     model: Some(Model::new::<In>(|at| {
@@ -39,10 +38,11 @@ signals! {
         /// A shot begins.
         start: bool,
         /// Every hit counts.
-        #[size("Calibration")]
+        #[only_if(Calibrated)]
         free: bool,
         /// Age for the last hit's `n` [units].
-        #[size("Calibration AgeBits")]
+        #[only_if(Calibrated)]
+        #[size(AgeBits)]
         calibrated_age: Age,
     }
 }
@@ -132,10 +132,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     }
     let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&rom.decoder)];
     let mut parameters = files(["DelaysFile", "CalFile"], memories);
-    parameters.extend(parameters::count_stages(&params.decoder));
-    parameters.extend(parameters::decoder(&params.decoder));
-    parameters.extend(parameters::calibrated(&params.decoder));
-    parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
+    parameters.extend(spec.options(setting));
+    parameters.extend(spec.sized(setting));
     Ok(Vectors {
         parameters,
         stops: light.stops.times().to_vec(),

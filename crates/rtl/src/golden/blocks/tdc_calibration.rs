@@ -115,6 +115,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc_calibration.tick(&i, &params);
     }
-    let parameters = parameters::tdc_calibration(&setting.setup.params);
+    let parameters = [spec.sized(&setting), parameters::tdc_calibration(&params)].concat();
     Ok(Vectors { parameters, ..run.vectors([states, inputs, counted, ages, limits, apart, dues]) })
 }

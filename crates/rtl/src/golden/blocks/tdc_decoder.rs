@@ -4,7 +4,6 @@
 use tofsim::firmware::carry_chain::Taps;
 use tofsim::firmware::tdc_decoder::{Decoder, In, Params};
 
-use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
 
 /// Coarse counts that are swept with all ones counts.
@@ -15,8 +14,8 @@ const AT_ENDS: usize = 3;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[
-        Latency { from: "hit", to: "tdc_valid", cycles: |vectors| vectors.count_stages + 2 },
-        Latency { from: "hit_taps", to: "tdc_code", cycles: |vectors| vectors.count_stages + 2 },
+        Latency { from: "hit", to: "tdc_valid", cycles: |vectors| u64::from(vectors.sizes.count_stages) + 2 },
+        Latency { from: "hit_taps", to: "tdc_code", cycles: |vectors| u64::from(vectors.sizes.count_stages) + 2 },
     ],
     configurations: &[COUNT_STAGES_2, LEADING, REORDERED, CALIBRATED],
     model: Some(Model::new::<In>(|at| {
@@ -99,10 +98,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.top.tdc.tdc_decoder = decoder.next(&i, &rom);
     }
     let mut parameters = files(["CalFile"], [mem::tdc_decoder(&rom)]);
-    parameters.extend(parameters::count_stages(&params));
-    parameters.extend(parameters::decoder(&params));
-    parameters.extend(parameters::calibrated(&params));
-    parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
+    parameters.extend(spec.options(setting));
+    parameters.extend(spec.sized(setting));
     Ok(Vectors { parameters, ..run.vectors([ones, coarses, codes, times, situations]) })
 }
 

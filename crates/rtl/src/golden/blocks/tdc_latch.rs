@@ -60,8 +60,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc.tdc_latch = latch.next(&i, &tap_0);
     }
-    let mut parameters = parameters::sized(&setting.setup.params, &["Taps", "CoarseBits"]);
-    parameters.extend(parameters::calibrated(&setting.setup.params.tdc.decoder));
+    let mut parameters = spec.sized(setting);
+    parameters.extend(spec.options(setting));
     Ok(Vectors { parameters, ..run.vectors([hits, coarse, situations, free]) })
 }
 

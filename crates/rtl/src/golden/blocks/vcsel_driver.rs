@@ -28,7 +28,7 @@ const USUAL: u64 = 25;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let p = &setting.setup.params.vcsel_driver;
-    let codes = 1 << setting.setup.params.sizes().width("RateBits").unwrap_or_default();
+    let codes = 1 << setting.setup.params.sizes().of(Size::RateBits);
     let usable = usable(p, codes);
     let longest = usable.iter().map(|&code| p.period(Rate::new(code))).max().unwrap_or_default();
     let mut phases = Cover::new(
@@ -79,8 +79,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.sample();
         run.top.vcsel_driver.rise(&i, p);
     }
-    let names = ["LaserPeriods", "RateBits", "PeriodBits", "PulseHalfCycles"];
-    let parameters = parameters::sized(&setting.setup.params, &names);
+    let parameters = spec.sized(setting);
     Ok(Vectors { parameters, ..run.vectors([changes, phases, endings]) })
 }
 

@@ -4,12 +4,13 @@ use tofsim::firmware::forward2::NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::likelihood_estimator::params::Params as Likelihood;
 use tofsim::firmware::{estimator_ctrl, vcsel_driver};
+use tofsim::kernel::sizes::Size;
 use tofsim::sim::setup::Setup;
 
 use crate::golden::parameters::{Parameter, sized};
 
-/// Parameters of `vcsel_driver`.
-const OF_LASER: [&str; 4] = ["LaserPeriods", "RateBits", "PeriodBits", "PulseHalfCycles"];
+/// The laser's Verilog.
+const VCSEL_DRIVER: &str = include_str!("../../../../../rtl_ref/vcsel_driver.v");
 
 /// Bins of the likelihood estimator's box, and of its fit before and after the one of the echo, unless set.
 const BOX: usize = 15;
@@ -40,16 +41,15 @@ impl Design {
     /// That of a scenario.
     pub fn of(setup: &Setup) -> Self {
         let (sizes, laser) = (setup.params.sizes(), setup.params.vcsel_driver.clone());
-        let own = sized(&setup.params, &OF_LASER);
+        let own = sized(&setup.params, VCSEL_DRIVER);
         let set = |(name, value): &(&str, Parameter)| format!(".{name}({})", value.literal());
-        let width = |name| sizes.width(name).unwrap_or_default();
         Design {
             estimator: setup.params.depth_estimator.ctrl(),
             likelihood: setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).ok(),
             half_ps: setup.pll().cycle.fs() / 4000,
             parameters: own.iter().map(set).collect::<Vec<_>>().join(", "),
-            rate_bits: width("RateBits"),
-            period_bits: width("PeriodBits"),
+            rate_bits: sizes.of(Size::RateBits),
+            period_bits: sizes.of(Size::PeriodBits),
             laser,
         }
     }

@@ -16,7 +16,7 @@ const MEASURED: usize = 5;
 pub(super) const GLUE: Glue = Glue {
     drives: "count",
     verilog: |sizes| {
-        let (bits, words) = (sizes.histogram.count_bits, COUNT * sizes.histogram.bins);
+        let (bits, words) = (sizes.count_bits, COUNT * sizes.bins as usize);
         format!(
             "  reg [{0}:0] histograms [0:{1}];\n  \
                initial $readmemh(\"histograms.mem\", histograms);\n  \
@@ -26,7 +26,7 @@ pub(super) const GLUE: Glue = Glue {
         )
     },
     vhdl: |sizes| {
-        let (bits, words) = (sizes.histogram.count_bits, COUNT * sizes.histogram.bins);
+        let (bits, words) = (sizes.count_bits, COUNT * sizes.bins as usize);
         [
             format!(
                 "constant histograms : words(0 to {}) := read_words(\"histograms.mem\", {words});",
