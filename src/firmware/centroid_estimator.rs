@@ -67,11 +67,11 @@ signals! {
 /// Verilog parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// How large the histogram is.
+    /// Size of the histogram.
     pub histogram: histogram_builder::Params,
     /// W: words of the window to either side of its centre, 1 to 31 [bins].
     pub half_width: u64,
-    /// Whether height is counted from the window's first word and not from zero.
+    /// True if height is counted from the window's first word and not from zero.
     pub background: bool,
     /// Distance of a bin.
     pub slope: Slope,
@@ -278,10 +278,12 @@ impl CentroidEstimator {
         d.first = if q.whole { q.first + 1 } else { U::new(1) };
         d.entering = if q.read_en { i.count } else { U::new(0) };
         d.leaving = if q.whole { first } else { U::new(0) };
-        d.level = match p.background {
-            true if q.whole => first,
-            true => U::new((2 * first.get()).min(p.histogram.most_hits())),
-            false => U::new(0),
+        d.level = if !p.background {
+            U::new(0)
+        } else if q.whole {
+            first
+        } else {
+            U::new((2 * first.get()).min(p.histogram.most_hits()))
         };
         d.centre = self.window[(q.step - p.half_width).index() % WORDS];
     }

@@ -95,7 +95,7 @@ impl Params {
         self.forward2.neurons
     }
 
-    /// What the control's steps follow from.
+    /// Returns the parameters of the control's steps.
     pub fn ctrl(&self) -> estimator_ctrl::Params {
         estimator_ctrl::Params { bins: self.forward1.w1.len(), neurons: self.neurons() }
     }
@@ -118,7 +118,7 @@ impl DepthEstimator {
         self.forward2.tick(&forward2, &p.forward2);
     }
 
-    /// Whether no edge changes anything until an input does.
+    /// Returns whether no edge changes anything until an input does.
     pub fn rests(&self, i: &In, p: &Params) -> bool {
         fn rests<C: Clocked>(block: &C, i: &C::In, p: &C::Params) -> bool {
             block.next(i, p) == *block

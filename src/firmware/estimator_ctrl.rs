@@ -151,11 +151,14 @@ impl Clocked for EstimatorCtrl {
 
     #[inline]
     fn next(&self, i: &In, p: &Params) -> Self {
-        match self.busy {
-            _ if i.rst => Self::default(),
-            true => Self::at(self.step.get() + 1, p),
-            false if i.algo_start => Self::at(0, p),
-            false => Self::default(),
+        if i.rst {
+            Self::default()
+        } else if self.busy {
+            Self::at(self.step.get() + 1, p)
+        } else if i.algo_start {
+            Self::at(0, p)
+        } else {
+            Self::default()
         }
     }
 }

@@ -101,7 +101,7 @@ impl Rom {
         self.sum_bits
     }
 
-    /// What the sum of a neuron begins with.
+    /// Returns the start value of a neuron's sum.
     pub fn bias(&self, neuron: usize) -> L1In {
         L1In::new(self.b1[neuron].get() << self.bias_shift)
     }

@@ -41,7 +41,7 @@ pub struct Rom {
 }
 
 impl Rom {
-    /// What the sums begin with.
+    /// Returns the start value of the sums.
     pub fn bias(&self) -> i64 {
         self.b2.get() << self.datapath.output_bias_shift()
     }

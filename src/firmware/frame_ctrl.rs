@@ -41,7 +41,7 @@ states! {
 pub struct Params {
     /// Shots in a frame, at least 1.
     pub shots_per_frame: u32,
-    /// How large the histogram is.
+    /// Size of the histogram.
     pub histogram: histogram_builder::Params,
     /// The histogram comes from a ROM: nothing to acquire.
     pub preloaded: bool,

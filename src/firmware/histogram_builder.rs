@@ -130,7 +130,7 @@ impl HistogramBuilder {
         if i.read_en { self.ram[self.address(i).index()] } else { U::new(0) }
     }
 
-    /// Whether a hit is on its way to its word.
+    /// Returns whether a hit is on its way to its word.
     #[inline(always)]
     pub fn has_hit(&self) -> bool {
         self.registers.counting

@@ -30,7 +30,7 @@ signals! {
     }
 }
 
-/// What elaboration fixes.
+/// Parameters that elaboration fixes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Params {
     /// Oscillator [Hz].

@@ -35,7 +35,7 @@ signals! {
     }
 }
 
-/// What elaboration and placement fix.
+/// Parameters that elaboration and placement fix.
 #[derive(Clone, Debug)]
 pub struct Params {
     /// Delays of the chain.
@@ -59,19 +59,19 @@ impl Params {
         Params { delays, coarse_counter: coarse_counter::Params { coarse_bits }, decoder, tap_0 }
     }
 
-    /// The same with another decoder, and the ROM that goes with the chain and it.
+    /// Returns the TDC with another decoder, and the ROM that goes with the chain and it.
     pub fn with_decoder(self, decoder: Decoder) -> Self {
         let cal = tdc_decoder::Params::calibration(&self.delays, decoder, &self.decoder.scale);
         let encoder = Encoder::new(decoder, &self.delays);
         Params { decoder: tdc_decoder::Params { cal, encoder, ..self.decoder }, ..self }
     }
 
-    /// The same with another ROM, as long as the chain's own.
+    /// Returns the TDC with another ROM, as long as the chain's own.
     pub fn with_calibration(self, cal: tdc_decoder::Calibration) -> Self {
         Params { decoder: tdc_decoder::Params { cal, ..self.decoder }, ..self }
     }
 
-    /// The same with ages from a calibration of so many hits, as a power of two.
+    /// Returns the TDC with ages from a calibration of so many hits, as a power of two.
     pub fn calibrated(self, hits_log2: u32) -> Self {
         Params {
             decoder: tdc_decoder::Params { calibrated: Some(hits_log2), ..self.decoder },
@@ -79,14 +79,14 @@ impl Params {
         }
     }
 
-    /// The same ROM behind a chain of as many taps with other delays.
+    /// Returns the TDC with its ROM behind a chain of as many taps with other delays.
     pub fn with_delays(self, delays: Delays) -> Self {
         let encoder = Encoder::new(self.decoder.encoder.decoder(), &delays);
         let decoder = tdc_decoder::Params { encoder, ..self.decoder };
         Params { tap_0: delays.tap_0_position(), delays, decoder, ..self }
     }
 
-    /// The same ROM behind a chain of as many taps that come in the order of their numbers.
+    /// Returns the TDC with its ROM behind a chain of as many taps that come in the order of their numbers.
     pub fn in_order(self, delays: Delays) -> Self {
         let encoder = Encoder::new(Decoder::Ones, &delays);
         let decoder = tdc_decoder::Params { encoder, ..self.decoder };
@@ -189,7 +189,7 @@ impl Tdc {
         self.tdc_latch.skip(&Wires::tdc_latch(self, i), &p.tap_0, edges);
     }
 
-    /// Whether a hit is on its way to its code, or a code is new.
+    /// Returns whether a hit is on its way to its code, or a code is new.
     #[inline(always)]
     pub fn has_hit(&self) -> bool {
         self.tdc_latch.hit | self.tdc_decoder.has_hit()

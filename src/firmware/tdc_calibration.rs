@@ -144,17 +144,18 @@ impl TdcCalibration {
         TdcCalibration { registers: Registers::default(), ram: vec![U::new(0); p.taps + 1].into() }
     }
 
-    /// What the block does.
+    /// Returns the block's state.
     pub fn state(&self) -> State {
         self.registers.state
     }
 
-    /// Whether a calibration is due, and hits counted by the one under way.
+    /// Returns whether a calibration is due, and the hits counted by the one under way.
     pub fn progress(&self) -> (bool, u64) {
         (self.registers.due, self.registers.hits.get())
     }
 
-    /// Where an age is being worked out: whether its ages begin by the laser edge, and whether it is limited.
+    /// Returns, while an age is computed, whether its ages begin by the laser edge, and whether it is
+    /// limited.
     pub fn limits(&self, p: &Params) -> Option<(bool, bool)> {
         let q = &self.registers;
         let age = p.age(q.middle.get());

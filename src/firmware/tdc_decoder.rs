@@ -107,14 +107,14 @@ impl TdcDecoder {
         self.n_valid.then_some((self.n.get(), self.n_coarse.get()))
     }
 
-    /// Whether a hit is on its way to its code, or a code is new.
+    /// Returns whether a hit is on its way to its code, or a code is new.
     #[inline(always)]
     pub fn has_hit(&self) -> bool {
         let before = self.sixteens_valid | self.hundreds_valid | self.n_valid;
         before | self.age_valid | self.t_valid | self.tdc_valid
     }
 
-    /// Whether the coming edge makes a code, or finds that there is none.
+    /// Returns whether the coming edge makes a code, or finds that there is none.
     pub fn decides(&self) -> bool {
         self.t_valid
     }

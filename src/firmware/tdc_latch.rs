@@ -53,7 +53,7 @@ signals! {
 }
 
 impl TdcLatch {
-    /// Whether the shot has had its hit, and tap 0 at the edge before.
+    /// Returns whether the shot has had its hit, and tap 0 at the edge before.
     pub fn before(&self) -> (bool, bool) {
         (self.used, self.tap_0_last)
     }

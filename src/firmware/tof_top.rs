@@ -56,7 +56,7 @@ pub struct TofTop {
     pub spad_control: SpadControl,
     /// Converter.
     pub tdc: Tdc,
-    /// What works out its ages.
+    /// Calibration of the converter.
     pub tdc_calibration: TdcCalibration,
     /// Its stand-in.
     pub code_preload: CodePreload,
@@ -244,7 +244,7 @@ impl TofTop {
         self.drive_laser();
     }
 
-    /// What a rising edge of `clk_laser` alone can change; more only follows from it.
+    /// Returns the state that a rising edge of `clk_laser` alone can change; more only follows from it.
     #[inline(always)]
     pub fn registers_laser(&self) -> (ResetSync, vcsel_driver::LaserRegisters, DdrOutput) {
         let driver = &self.vcsel_driver;
@@ -316,7 +316,7 @@ mod tests {
     use crate::kernel::module::{Instance, Module, Visitor};
     use crate::kernel::signals::Signals;
 
-    /// Which pin each port of each module is connected to: module, port, source.
+    /// Connections of the ports of each module: module, port, source.
     #[derive(Default)]
     struct Connections(Vec<[&'static str; 3]>);
 

@@ -39,7 +39,7 @@ pub const LONGEST_PULSE: u32 = 8;
 /// that of a shot [cycles of clk_sys].
 pub const PERIOD_RANGE: std::ops::RangeInclusive<u64> = 4..=65_535;
 
-/// Which of the periods is in force, with room for all.
+/// Code of the period in force, with room for all.
 pub type Rate = U<3>;
 
 /// Verilog parameters.
@@ -210,7 +210,7 @@ impl Clocked for Registers {
 }
 
 impl LaserRegisters {
-    /// Whether a pulse is on its way to the output register.
+    /// Returns whether a pulse is on its way to the output register.
     #[inline(always)]
     fn has_pulse(&self) -> bool {
         let drives = self.laser_pulse != 0 || self.stretch != 0;
@@ -249,7 +249,7 @@ impl Clocked for LaserRegisters {
     }
 }
 
-/// What `clk_laser` sees: the driver's own `fire` and its reset.
+/// Inputs in `clk_laser`: the driver's own `fire` and its reset.
 #[derive(Clone, Copy, Debug)]
 pub struct LaserIn {
     fire: bool,
@@ -291,7 +291,7 @@ impl VcselDriver {
         if self.has_pulse() { AWAKE } else { self.registers.quiet(i, p) }
     }
 
-    /// Whether a pulse is on its way; what is in `clk_laser` stands still if none is.
+    /// Returns whether a pulse is on its way; what is in `clk_laser` stands still if none is.
     #[inline(always)]
     pub fn has_pulse(&self) -> bool {
         self.registers.fire | self.registers_laser.has_pulse() | self.ddr_output.q

@@ -27,9 +27,10 @@ const SECOND_FS: u64 = 1_000_000_000_000_000;
 impl Clock {
     /// The clock of that frequency [Hz].
     pub fn new(hz: u64, phase: Time) -> Self {
-        match SECOND_FS.is_multiple_of(2 * hz) {
-            true => Clock::of_half(Time::from_fs(SECOND_FS / (2 * hz)), phase),
-            false => Clock { half: Half::Of(hz), phase },
+        if SECOND_FS.is_multiple_of(2 * hz) {
+            Clock::of_half(Time::from_fs(SECOND_FS / (2 * hz)), phase)
+        } else {
+            Clock { half: Half::Of(hz), phase }
         }
     }
 

@@ -1,4 +1,4 @@
-//! What every clocked module is.
+//! Trait of every clocked module.
 
 /// A bank of registers and the logic between them.
 ///
@@ -8,7 +8,7 @@ pub trait Clocked: Copy + PartialEq + std::fmt::Debug {
     /// Input ports, as they stand before the edge.
     type In;
 
-    /// What elaboration fixes: Verilog parameters and ROM contents. `()` for most modules.
+    /// Parameters that elaboration fixes: Verilog parameters and ROM contents. `()` for most modules.
     type Params: ?Sized;
 
     /// The registers after the next rising edge. A module has this or [`Clocked::tick`].

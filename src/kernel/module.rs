@@ -12,7 +12,7 @@ pub trait Module {
     fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor);
 }
 
-/// What is done at each place of a hierarchy.
+/// Visitor of a hierarchy.
 pub trait Visitor {
     /// Signals of the module that was entered last; `field` is their path in the module's struct.
     fn signals<S: Signals>(&mut self, field: &'static str, now: &S, then: Option<&mut S>);
@@ -31,7 +31,7 @@ pub struct Instance {
     pub clocks: &'static [(&'static str, &'static str)],
     /// Its input ports beside the clocks.
     pub inputs: fn() -> Vec<Signal>,
-    /// Where each of them comes from: a dotted path inside the parent.
+    /// Source of each input: a dotted path inside the parent.
     pub sources: &'static [(&'static str, &'static str)],
     /// Output ports that are no registers of it, and the wires that they drive.
     pub outputs: &'static [(&'static str, &'static str)],
@@ -41,7 +41,7 @@ pub struct Instance {
 #[derive(Debug)]
 pub struct Alias {
     pub name: &'static str,
-    /// Whether it is an output port; if not, a wire.
+    /// True if it is an output port; if not, a wire.
     pub output: bool,
     /// Dotted path of the value inside the module.
     pub source: &'static str,

@@ -8,18 +8,18 @@ use statrs::function::erf::erfc_inv;
 
 pub use sampled::{Samples, Unusable};
 
-/// What a pulse may be cut to: the part at 4.5 deviations of a Gaussian.
+/// Part of a pulse that may be cut off: that beyond 4.5 deviations of a Gaussian.
 const TAIL: f64 = 3.4e-6;
-/// Where the ends of a Gaussian are that is cut so [standard deviations].
+/// Ends of a Gaussian that is cut so [standard deviations].
 const GAUSSIAN_END: f64 = 4.5;
 /// A Gaussian's part beyond is nothing [standard deviations].
 const GAUSSIAN_REACH: f64 = 8.0;
-/// What an exponential tail leaves after so many of its time constants is nothing, 4e-11.
+/// Reach of an exponential tail, beyond which 4e-11 of it is left [time constants].
 const TAIL_REACH: f64 = 24.0;
 /// Below, a normal distribution function is its asymptotic series [standard deviations].
 const FAR: f64 = -25.0;
 
-/// How arrivals of an echo's photons are spread around their mean.
+/// Distribution of the arrivals of an echo's photons around their mean.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pulse {
     /// A normal distribution.
@@ -38,7 +38,7 @@ pub enum Pulse {
     Sampled(Samples),
 }
 
-/// That of the thesis: a Gaussian of 137 ps.
+/// Pulse of the thesis: a Gaussian of 137 ps.
 impl Default for Pulse {
     fn default() -> Self {
         Pulse::Gaussian { sigma_ps: 137.0 }
@@ -48,9 +48,10 @@ impl Default for Pulse {
 impl Pulse {
     /// A normal time plus an exponential one, of which there may be none.
     pub fn tailed(sigma_ps: f64, tail_ps: f64) -> Self {
-        match tail_ps > 0.0 {
-            true => Pulse::Tailed { sigma_ps, tail_ps },
-            false => Pulse::Gaussian { sigma_ps },
+        if tail_ps > 0.0 {
+            Pulse::Tailed { sigma_ps, tail_ps }
+        } else {
+            Pulse::Gaussian { sigma_ps }
         }
     }
 
@@ -98,7 +99,7 @@ impl Pulse {
         }
     }
 
-    /// Where all but 3.4e-6 at either end of it begins and ends, from its mean [ps].
+    /// Returns begin and end of all but 3.4e-6 at either end, from its mean [ps].
     pub fn ends_ps(&self) -> [f64; 2] {
         match self {
             Pulse::Gaussian { sigma_ps } => [-GAUSSIAN_END * sigma_ps, GAUSSIAN_END * sigma_ps],
@@ -107,7 +108,7 @@ impl Pulse {
         }
     }
 
-    /// Where it begins and ends, for all that can be told, from its mean [ps].
+    /// Returns begin and end of all of it that can be told apart from zero, from its mean [ps].
     pub fn reach_ps(&self) -> [f64; 2] {
         match self {
             Pulse::Gaussian { sigma_ps } => [-GAUSSIAN_REACH * sigma_ps, GAUSSIAN_REACH * sigma_ps],
@@ -155,9 +156,10 @@ fn tailed_density(t_ps: f64, sigma_ps: f64, tail_ps: f64) -> f64 {
     let (t_ps, ratio) = (t_ps + tail_ps, sigma_ps / tail_ps);
     let z = t_ps / sigma_ps - ratio;
     // The logarithm of either factor alone can be far from zero.
-    let log = match z < FAR {
-        true => -0.5 * z * z - libm::log(-z * (2.0 * PI).sqrt()) - 1.0 / (z * z),
-        false => libm::log(normal_cdf(z)),
+    let log = if z < FAR {
+        -0.5 * z * z - libm::log(-z * (2.0 * PI).sqrt()) - 1.0 / (z * z)
+    } else {
+        libm::log(normal_cdf(z))
     };
     libm::exp(0.5 * ratio * ratio - t_ps / tail_ps + log) / tail_ps
 }

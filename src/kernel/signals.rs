@@ -4,7 +4,7 @@ use super::bits::{S, U};
 use super::sizes::{Size, Sizes};
 use super::thermometer::{PartialOnes, Thermometer};
 
-/// How a value reads best.
+/// Display format of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignalFormat {
     /// One bit, or a word whose value is a pattern.
@@ -22,15 +22,15 @@ pub enum SignalFormat {
     Taps,
 }
 
-/// Who looks at a signal first.
+/// Presentation of a signal in a viewer and a logic analyser.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct View {
     /// The heading under which a viewer shows it; empty: with all others.
     pub heading: &'static str,
-    /// Whether a viewer shows it as a curve as well.
+    /// True if a viewer shows it as a curve as well.
     pub curve: bool,
-    /// Whether a logic analyser on the board would probe it, so that runs too long to compare
-    /// everything compare it.
+    /// True if a logic analyser on the board would probe it, so that runs too long to compare everything
+    /// compare it.
     pub probe: bool,
 }
 
@@ -50,15 +50,15 @@ pub struct Signal {
     pub size: Option<Size>,
     /// Its number in an array.
     pub element: u32,
-    /// How many elements the array has, where elaboration decides that.
+    /// Number of elements of the array, where elaboration decides it.
     pub count: Option<Size>,
-    /// What must not be zero for a port to be there.
+    /// Size that must not be zero for the port to exist.
     pub only_if: Option<Size>,
-    /// How to show it.
+    /// Display format.
     pub format: SignalFormat,
-    /// Whether other modules may read it.
+    /// True if other modules may read it.
     pub output: bool,
-    /// Who looks at it first.
+    /// Presentation.
     pub view: View,
     pub doc: &'static str,
 }
@@ -71,7 +71,7 @@ impl Signal {
         Signal { name, width, size, element: 0, count, only_if, format, output: false, view, doc }
     }
 
-    /// Whether a port is one in a design of those sizes.
+    /// Returns whether a port is one in a design of those sizes.
     pub fn is_shared(&self, sizes: &Sizes) -> bool {
         self.only_if.is_none_or(|size| sizes.of(size) > 0)
     }
@@ -111,7 +111,7 @@ pub trait Source {
 
 /// A value that stands for one or more signals.
 pub trait Field: Copy + PartialEq {
-    /// How many signals.
+    /// Number of signals.
     const COUNT: usize;
     /// Appends the signals, shaped after `like` (its name, doc and direction).
     fn declare(like: Signal, list: &mut Vec<Signal>);
@@ -123,7 +123,7 @@ pub trait Field: Copy + PartialEq {
 
 /// A struct of signals: the ports or the registers of one module.
 pub trait Signals: Copy + PartialEq {
-    /// How many signals.
+    /// Number of signals.
     const COUNT: usize;
     /// The signals in order of declaration.
     fn list() -> Vec<Signal>;
@@ -137,7 +137,7 @@ pub trait Signals: Copy + PartialEq {
 pub trait Word: Copy + PartialEq {
     /// Its width [bits].
     const WIDTH: u32;
-    /// How to show it.
+    /// Display format.
     const FORMAT: SignalFormat;
     fn bits(&self) -> u64;
     /// The word of those bits; a number has its sign extended.

@@ -20,7 +20,7 @@ pub struct Sizes {
     pub age_bits: u32,
     /// Registers of the ones count.
     pub count_stages: u32,
-    /// Whether the firmware calibrates its TDC.
+    /// True if the firmware calibrates its TDC.
     pub calibrates: bool,
     /// Hits of a calibration, as a power of two.
     pub hits_log2: u32,

@@ -42,7 +42,7 @@ impl Thermometer {
         taps
     }
 
-    /// The same of a line of `count` taps, of which a rank may be all or more: such a transition has passed.
+    /// Creates a line of `count` taps, of which a rank may be all or more: such a transition has passed.
     pub fn clipped(count: usize, level: bool, ranks: impl IntoIterator<Item = usize>) -> Self {
         Self::new(level, ranks.into_iter().take_while(|&rank| rank < count))
     }
@@ -76,13 +76,13 @@ impl Thermometer {
         }
     }
 
-    /// Whether no transition is inside.
+    /// Returns whether no transition is inside.
     #[inline(always)]
     pub const fn is_settled(&self) -> bool {
         self.shape < 2
     }
 
-    /// Whether all taps are at that level.
+    /// Returns whether all taps are at that level.
     #[inline(always)]
     pub const fn is_settled_at(&self, level: bool) -> bool {
         self.shape == level as u16
@@ -98,7 +98,7 @@ impl Thermometer {
         self.level() ^ (passed % 2 == 1)
     }
 
-    /// How many of `count` taps are high.
+    /// Returns how many of `count` taps are high.
     #[inline]
     pub fn ones(&self, count: usize) -> usize {
         let (mut ones, mut start, mut level) = (0, 0, self.level());
@@ -137,7 +137,7 @@ impl Thermometer {
         self.shape % 2 == 1
     }
 
-    /// How many transitions are inside.
+    /// Returns how many transitions are inside.
     #[inline(always)]
     const fn len(&self) -> usize {
         (self.shape / 2) as usize

@@ -30,17 +30,17 @@ impl Time {
         Time((ps * 1e3).round() as u64)
     }
 
-    /// This time [fs].
+    /// Returns the time in femtoseconds [fs].
     pub const fn fs(self) -> u64 {
         self.0
     }
 
-    /// This time in whole picoseconds, rounded down, as waveform files have it [ps].
+    /// Returns the time in whole picoseconds, rounded down, as waveform files have it [ps].
     pub const fn ps(self) -> u64 {
         self.0 / 1000
     }
 
-    /// This time for physics and for people [s].
+    /// Returns the time in seconds, for physics and for people [s].
     pub fn seconds(self) -> f64 {
         self.0 as f64 * 1e-15
     }

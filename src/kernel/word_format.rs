@@ -13,7 +13,7 @@ pub struct WordFormat {
     pub fraction: u32,
 }
 
-/// What to do with a value that the word cannot hold.
+/// Treatment of a value that the word cannot hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overflow {
     /// Take the nearest value it can hold.
@@ -45,7 +45,7 @@ impl WordFormat {
         (f64::from(self.width) - 1.0 - f64::from(self.fraction)).exp2()
     }
 
-    /// What the last bit stands for.
+    /// Returns the weight of the last bit.
     pub fn lsb(self) -> f64 {
         (-f64::from(self.fraction)).exp2()
     }

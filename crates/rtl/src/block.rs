@@ -107,8 +107,8 @@ impl Block {
         })
     }
 
-    /// Whether its registers have been reset, or where there is no reset have taken their first values: until then
-    /// another's need not be the model's.
+    /// Returns whether its registers have been reset, or without a reset have taken their first values: until
+    /// then those of another implementation may differ.
     pub fn is_settled(&self) -> bool {
         self.quiet == Some(0)
     }
@@ -118,7 +118,7 @@ impl Block {
         self.quiet = Some(0);
     }
 
-    /// What it is.
+    /// Returns the block's specification.
     pub fn spec(&self) -> &'static Spec {
         self.spec
     }
@@ -133,7 +133,7 @@ impl Block {
         &self.ports
     }
 
-    /// Where the inputs beside the clocks are in a line, and the outputs.
+    /// Returns the layouts of the inputs beside the clocks, and of the outputs.
     pub fn layouts(&self) -> [&Layout; 2] {
         [&self.input_layout, &self.outputs.layout]
     }
@@ -224,7 +224,7 @@ fn settles(spec: &'static Spec, setup: &Setup) -> Result<u64> {
     Ok((spec.record)(spec, &setting)?.settles as u64)
 }
 
-/// What a scenario without that block would have to have.
+/// Returns the key that a scenario without that block lacks.
 fn lacks(setup: &Setup, block: &str) -> Option<&'static str> {
     let params = &setup.params;
     match (block, &params.code_source, &params.histogram_source, &params.tdc_calibration) {

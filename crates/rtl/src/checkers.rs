@@ -16,7 +16,7 @@ use crate::golden::{BLOCKS, Spec};
 
 mod vpi;
 
-/// What checkers are written for.
+/// Scenario, seed and language of checkers.
 pub struct Checkers {
     setup: Arc<Setup>,
     /// The scenario as the library is told it: its name or path, and a line for each key that is set.

@@ -1,5 +1,5 @@
-//! How fast a design's blocks can be clocked: measured after place-and-route for an ECP5, estimated
-//! from the netlist for a Kintex-7.
+//! Clock rates of a design's blocks: measured after place-and-route for an ECP5, estimated from the netlist
+//! for a Kintex-7.
 
 pub mod block;
 mod delays;

@@ -74,7 +74,7 @@ impl Delays {
         Delays::new(Time::from_fs(begin), &delays).unwrap_or_else(|| self.clone())
     }
 
-    /// The same chain with every delay so many times as long. `None` if a tap would be reached at time 0.
+    /// Returns the chain with every delay so many times as long; `None` if a tap would be reached at time 0.
     pub fn stretched(&self, factor: f64) -> Option<Self> {
         let stretched = |at: Time| (at.fs() as f64 * factor).round() as i64;
         let mut reached = vec![stretched(self.end); self.taps() + 1];
@@ -91,13 +91,13 @@ impl Delays {
         self.arrivals.len()
     }
 
-    /// How many taps a transition of that age has reached.
+    /// Returns how many taps a transition of that age has reached.
     #[inline]
     pub fn rank(&self, age: Time) -> usize {
         if age >= self.longest { self.taps() } else { self.rank_inside(age) }
     }
 
-    /// The same for a transition that has not reached every tap.
+    /// Returns the rank of a transition that has not reached every tap.
     #[inline(always)]
     pub(super) fn rank_inside(&self, age: Time) -> usize {
         let mut rank = self.guide[(age.fs() >> CELL) as usize] as usize;

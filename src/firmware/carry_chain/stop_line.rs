@@ -44,12 +44,13 @@ impl StopLine {
         }
     }
 
-    /// It is low, and has been for long.
+    /// Sets it low, as if it had been for long.
     pub fn settle(&mut self) {
         *self = StopLine::default();
     }
 
-    /// How old the last transitions are at `now`, the newest first, also those that have left the chain.
+    /// Returns the ages of the last transitions at `now`, the newest first, also of those that have left the
+    /// chain.
     pub fn ages(&self, now: Time) -> impl Iterator<Item = Time> {
         let known = self.recent.iter().take_while(|at| **at != Time::NEVER);
         known.map(move |at| now - *at)
@@ -60,7 +61,7 @@ impl StopLine {
         self.recent.into_iter().take_while(move |at| *at != Time::NEVER && *at > past)
     }
 
-    /// Whether the taps of the last edge are those of every edge to come, until the level changes.
+    /// Returns whether the taps of the last edge are those of every edge to come, until the level changes.
     #[inline(always)]
     pub fn is_shown_by(&self, taps: &Taps) -> bool {
         self.travelling == 0 && taps.is_settled_at(self.level)

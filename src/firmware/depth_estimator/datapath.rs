@@ -73,7 +73,7 @@ impl Datapath {
         Self::WORDS.into_iter().zip(words).find(|(word, _)| *word == name).map(|(_, format)| format)
     }
 
-    /// Whether its words are of a size that is built, can be aligned, and its table has a step of 2^-k.
+    /// Checks that its words are of a size that is built, can be aligned, and its table has a step of 2^-k.
     ///
     /// # Errors
     /// When not, of `source`.
@@ -86,7 +86,7 @@ impl Datapath {
         }
     }
 
-    /// What is wrong with them: which word, its value, and what was expected.
+    /// Returns the word that is wrong, its value, and what was expected.
     pub fn fault(&self) -> Option<(String, u32, String)> {
         for (name, WordFormat { width, fraction }) in self.words() {
             if !(2..=24).contains(&width) {

@@ -10,7 +10,7 @@ pub const FRACTION: u32 = 8;
 /// Fewest hits of a calibration, as a power of two.
 pub const FEWEST_HITS_LOG2: u32 = 10;
 
-/// What elaboration fixes.
+/// Parameters that elaboration fixes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Params {
     /// Length of the chain [taps].
@@ -37,7 +37,7 @@ impl Params {
         Params { taps, cycle, hits_log2, frames, begin, start }
     }
 
-    /// What stands in a design that has no calibration: fewest hits, before every frame.
+    /// Returns the parameters of a design that has no calibration: fewest hits, before every frame.
     pub fn stand_in(tdc: &tdc::Params) -> Self {
         Params::new(&tdc.delays, &tdc.decoder.scale, FEWEST_HITS_LOG2, 1)
     }

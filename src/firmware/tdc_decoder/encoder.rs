@@ -1,4 +1,4 @@
-//! What number the decoder makes of the taps.
+//! Encoder of the decoder: the number `n` that it makes of the taps.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -58,7 +58,7 @@ impl Encoder {
         Encoder { decoder, order: order.to_vec(), highest }
     }
 
-    /// Which decoder it is.
+    /// Returns its decoder.
     #[inline(always)]
     pub fn decoder(&self) -> Decoder {
         self.decoder
@@ -101,8 +101,8 @@ impl Encoder {
         taps.high_runs(count).map(highest).max().unwrap_or(0).into()
     }
 
-    /// Whether a single transition can have that `n`: with `leading` a tap that is reached before the one below
-    /// it hides that one.
+    /// Returns whether a single transition can have that `n`: with `leading` a tap that is reached before the
+    /// one below it hides that one.
     pub fn occurs(&self, n: usize) -> bool {
         self.decoder != Decoder::Leading || self.highest.binary_search(&(n as u16)).is_ok()
     }

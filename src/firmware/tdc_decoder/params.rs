@@ -28,16 +28,16 @@ pub struct Params {
     pub cal: Calibration,
     /// Registers from the taps to `n`, 2 or 3.
     pub count_stages: u64,
-    /// What times count.
+    /// Units of times.
     pub scale: TimeScale,
-    /// How taps become `n`.
+    /// Encoder from taps to `n`.
     pub encoder: Encoder,
     /// Hits of a calibration, as a power of two, if ages come from `tdc_calibration` and not from the ROM.
     pub calibrated: Option<u32>,
 }
 
 impl Params {
-    /// The same with a ROM that is empty, if ages do not come from it.
+    /// Returns the parameters with a ROM that is empty, if ages do not come from it.
     pub fn beside_calibration(&self) -> Self {
         let cal =
             self.cal.iter().map(|age| if self.calibrated.is_some() { U::new(0) } else { *age });
@@ -122,7 +122,7 @@ impl Params {
         self.code(coarse, self.encoder.of_rank(rank))
     }
 
-    /// Whether the time of such a hit is past the range.
+    /// Returns whether the time of such a hit is past the range.
     pub fn is_late(&self, coarse: u64, rank: usize) -> bool {
         self.time(coarse, self.cal[self.encoder.of_rank(rank)]).get() >= self.scale.range() as i64
     }

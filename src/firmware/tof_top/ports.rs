@@ -62,7 +62,7 @@ signals! {
     }
 }
 
-/// Where codes come from.
+/// Source of codes.
 #[derive(Clone, Debug)]
 pub enum CodeSource {
     /// The TDC.
@@ -71,7 +71,7 @@ pub enum CodeSource {
     Preload(Box<[Bin]>),
 }
 
-/// Where the estimator's histogram comes from.
+/// Source of the estimator's histogram.
 #[derive(Clone, Debug)]
 pub enum HistogramSource {
     /// The histogram builder.
@@ -119,10 +119,10 @@ pub struct Socket {
     pub algo_done: bool,
 }
 
-/// What elaboration fixes.
+/// Parameters that elaboration fixes.
 #[derive(Clone, Debug)]
 pub struct Params {
-    /// How large the histogram is.
+    /// Size of the histogram.
     pub histogram: histogram_builder::Params,
     /// Frame length.
     pub frame_ctrl: frame_ctrl::Params,
@@ -130,7 +130,7 @@ pub struct Params {
     pub vcsel_driver: vcsel_driver::Params,
     /// Delay chain and its ROM.
     pub tdc: tdc::Params,
-    /// How it calibrates itself, if it does.
+    /// Parameters of its calibration, if it has one.
     pub tdc_calibration: Option<tdc_calibration::Params>,
     /// ROMs of the network.
     pub depth_estimator: depth_estimator::Params,
@@ -140,9 +140,9 @@ pub struct Params {
     pub likelihood_estimator: Arc<likelihood_estimator::params::Params>,
     /// What finds the depth.
     pub estimator: Estimator,
-    /// Where codes come from.
+    /// Source of codes.
     pub code_source: CodeSource,
-    /// Where the estimator's histogram comes from.
+    /// Source of the estimator's histogram.
     pub histogram_source: HistogramSource,
 }
 

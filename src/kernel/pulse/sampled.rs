@@ -15,7 +15,7 @@ pub struct Samples {
     before: Arc<[f64]>,
 }
 
-/// Why a density is none.
+/// Reason why a density is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unusable {
     /// There are too few samples to tell a shape.
@@ -74,7 +74,7 @@ impl Samples {
         libm::sqrt(variance + self.step_ps * self.step_ps / 6.0)
     }
 
-    /// Where the straight lines begin and end, from the mean [ps].
+    /// Returns begin and end of the straight lines, from the mean [ps].
     pub fn reach_ps(&self) -> [f64; 2] {
         [-1.0, self.density.len() as f64].map(|place| self.from_ps + place * self.step_ps)
     }

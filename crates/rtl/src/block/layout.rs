@@ -1,4 +1,4 @@
-//! Where ports are in a line of bits, and a line of outputs.
+//! Layout of ports in a line of bits, and a line of outputs.
 
 use tofsim::hierarchy::IDS;
 use tofsim::kernel::Thermometer;
@@ -8,7 +8,7 @@ use tofsim::waves::{Bits, TapDigits};
 use crate::golden::inputs::bits;
 use crate::golden::ports::Port;
 
-/// Where a port is in its line.
+/// Place of a port in its line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The port.
@@ -27,12 +27,12 @@ impl Place {
         steps.map(move |low| bits(line, low, (end - low).min(32)))
     }
 
-    /// Whether it has the same bits in both lines.
+    /// Returns whether both lines have the same bits there.
     pub fn agrees(&self, one: &[u32], other: &[u32]) -> bool {
         self.words(one).eq(self.words(other))
     }
 
-    /// Whether one of its bits is 1.
+    /// Returns whether one of its bits is 1.
     pub fn has_any(&self, line: &[u32]) -> bool {
         self.words(line).any(|word| word != 0)
     }

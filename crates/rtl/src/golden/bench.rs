@@ -30,7 +30,7 @@ use super::verilog::{parameter_list, place, range};
 /// With `+progress`, a bench says after so many cycles how far it is.
 const BEAT: usize = 100;
 
-/// What a bench is written in.
+/// Language of a bench.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Language {
     /// Verilog-2005.
@@ -43,20 +43,20 @@ pub enum Language {
 /// A bench, with what another implementation is allowed.
 #[derive(Clone, Debug)]
 pub struct Bench<'a> {
-    /// What it runs.
+    /// Vectors that it runs.
     pub vectors: &'a Vectors,
-    /// Where it is not strict.
+    /// Deviations that it allows.
     pub allowed: Allowances,
     /// The module that is instantiated.
     pub module: String,
-    /// Whether the module has its parameters already and cannot be given any.
+    /// True if the module has its parameters already and cannot be given any.
     pub fixed: bool,
     /// Ports that the module has for neurons past the last or a calibration: inputs that it does not look at, outputs that
     /// stay 0.
     pub past: Vec<Port>,
     /// Parameters that are constants inside the module: it loads memories of its own for them.
     pub constants: BTreeSet<&'static str>,
-    /// What it is written in.
+    /// Its language.
     pub language: Language,
     /// An object whose keys go into `ports.json` too: where the vectors come from.
     pub about: Value,
@@ -125,9 +125,12 @@ impl<'a> Bench<'a> {
         let parameters: Vec<_> = self.set().map(parameter).collect();
         let connected: Vec<_> =
             ports.iter().map(|port| format!("    .{0}({0})", port.name)).collect();
-        let past = self.past.iter().map(|port| match port.output {
-            true => format!("    .{0}({0})", port.name),
-            false => format!("    .{}({{{}{{1'b1}}}})", port.name, port.width),
+        let past = self.past.iter().map(|port| {
+            if port.output {
+                format!("    .{0}({0})", port.name)
+            } else {
+                format!("    .{}({{{}{{1'b1}}}})", port.name, port.width)
+            }
         });
         let connected: Vec<_> = connected.into_iter().chain(past).collect();
         let columns = vectors.expected.columns();
@@ -135,9 +138,10 @@ impl<'a> Bench<'a> {
         let inputs: Vec<_> = vectors.stimulus.columns().iter().map(|c| c.name.as_str()).collect();
         let inputs = inputs.join(", ");
         let before = vectors.first_edge.since(vectors.period());
-        let before = match before > Time::ZERO {
-            true => format!("    {{{inputs}}} = stimulus[0];\n    {};\n", wait(before)),
-            false => String::new(),
+        let before = if before > Time::ZERO {
+            format!("    {{{inputs}}} = stimulus[0];\n    {};\n", wait(before))
+        } else {
+            String::new()
         };
         format!(
             include_str!("bench/bench.v"),
@@ -192,7 +196,7 @@ impl<'a> Bench<'a> {
         self.past_outputs().map(show).collect()
     }
 
-    /// What a line that resets the block changes about the lines that are compared.
+    /// Statements for a line that resets the block: which lines are compared from then on.
     fn resets(&self) -> String {
         let columns = self.vectors.stimulus.columns().iter();
         let resets = columns.filter(|column| RESETS.contains(&column.name.as_str()));
@@ -263,7 +267,7 @@ fn looks(vectors: &Vectors) -> String {
     (0..vectors.spec.timing.samples()).map(look).collect()
 }
 
-/// What shows all bits of a line: in pieces, because Verilator shows no more than 8192 bits at once.
+/// Statements that show all bits of a line, in pieces: Verilator shows no more than 8192 bits at once.
 fn pieces(line: &str, width: usize) -> String {
     const PIECE: usize = 4096;
     if width <= PIECE {

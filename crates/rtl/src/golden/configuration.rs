@@ -1,4 +1,4 @@
-//! What a block can be besides what the scenario makes of it.
+//! Configurations of a block beside the one that the scenario sets.
 
 use tofsim::error::Result;
 use tofsim::scenario::{self, DEFAULT};
@@ -13,7 +13,7 @@ pub struct Configuration {
     pub name: &'static str,
     /// The scenario that has it.
     pub scenario: &'static str,
-    /// What is set in that.
+    /// Keys set in that scenario.
     pub set: &'static [&'static str],
     /// The parameters that tell a design of it. One that has not all of them cannot be it.
     pub parameters: &'static [&'static str],

@@ -1,11 +1,11 @@
-//! What a stimulus has reached, against what it should.
+//! Coverage of a stimulus: cases reached, and cases that should be.
 
 use std::collections::BTreeSet;
 
 /// One goal: a set of cases, each to be met at least once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cover {
-    /// What the cases are of.
+    /// Meaning of the cases.
     pub what: &'static str,
     missing: BTreeSet<u64>,
     cases: usize,

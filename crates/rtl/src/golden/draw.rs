@@ -64,7 +64,7 @@ impl Draw {
         S::new(self.signed_of(N))
     }
 
-    /// The same, of a word of so many bits: what is above them is for the word to drop.
+    /// Draws a signed word of so many bits as [`Draw::signed`] does; the word drops what is above them.
     pub fn signed_of(&mut self, bits: u32) -> i64 {
         let any = self.bits() as i64;
         match self.below(8) {
@@ -75,7 +75,8 @@ impl Draw {
         }
     }
 
-    /// The same, without what is above them: for a port that is narrower than its word.
+    /// Draws a signed word as [`Draw::signed_of`] does, sign-extended, for a port that is narrower than its
+    /// word.
     pub fn signed_within(&mut self, bits: u32) -> i64 {
         self.signed_of(bits) << (64 - bits) >> (64 - bits)
     }

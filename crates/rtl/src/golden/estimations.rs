@@ -31,7 +31,7 @@ const PARTS: usize = 4;
 /// One of so many estimations is cut short.
 const CUT: u64 = 6;
 
-/// Which histogram is estimated, what comes in each cycle, and what that has reached.
+/// Sequence of estimations: which histogram is there, the control signals of each cycle, and the coverage.
 pub struct Estimations {
     /// The histogram that is there.
     pub histogram: u64,
@@ -43,7 +43,7 @@ pub struct Estimations {
     begun: u64,
     /// Cycle in which this one is cut short.
     cut: Option<u64>,
-    /// How long a slower estimator is left alone after an estimation [cycles], and how long yet.
+    /// Cycles for which a slower estimator is left alone after an estimation, and those still to come.
     slack: u64,
     rest: u64,
     line: usize,
@@ -103,7 +103,7 @@ impl Estimations {
         self.cut = self.begun.is_multiple_of(CUT).then_some(place);
     }
 
-    /// What has been reached.
+    /// Returns the coverage.
     pub fn coverage(self) -> [Cover; 3] {
         [self.done, self.starts, self.resets]
     }

@@ -4,7 +4,7 @@ use tofsim::kernel::Thermometer;
 use tofsim::kernel::signals::{Signal, SignalFormat, Source};
 use tofsim::waves::TapDigits;
 
-/// Where the bits of a port are in its line.
+/// Place of the bits of a port in its line.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     low: usize,
@@ -41,7 +41,7 @@ impl Inputs {
     }
 }
 
-/// So many bits from `low` on, 64 at most.
+/// Returns `width` bits from `low` on, 64 at most.
 pub(crate) fn bits(words: &[u32], low: usize, width: usize) -> u64 {
     let word = |place: usize| words.get(place).copied().map_or(0, u128::from);
     let first = low / 32;
@@ -53,10 +53,7 @@ impl Source for Inputs {
     fn word(&mut self, id: usize) -> u64 {
         let Some(Place { low, width, signed }) = self.places[id] else { return 0 };
         let word = bits(&self.words, low, width);
-        match signed {
-            true => ((word << (64 - width)) as i64 >> (64 - width)) as u64,
-            false => word,
-        }
+        if signed { ((word << (64 - width)) as i64 >> (64 - width)) as u64 } else { word }
     }
 
     fn taps(&mut self, id: usize) -> Thermometer {

@@ -39,7 +39,7 @@ const TRIES: u64 = 100;
 /// Kinds of extreme histograms.
 const EXTREMES: u64 = 8;
 
-/// What comes of a histogram.
+/// Result of a histogram.
 #[derive(Default)]
 struct Outcome {
     /// Score of the first scan.
@@ -54,7 +54,7 @@ struct Outcome {
 }
 
 impl Outcome {
-    /// Whether it is of its kind: the reason that its status has, or misses, is the one.
+    /// Returns whether the histogram is of its kind: the status has, or lacks, that one reason.
     fn is(&self, kind: u64) -> bool {
         let flags = |which: u64| self.flags >> which & 1 != 0;
         match kind {
@@ -144,8 +144,8 @@ impl<'a> Estimations<'a> {
         In { rst, algo_start, mode, count: U::new(word.into()) }
     }
 
-    /// Whether these lines and all that follow are drawn for one block alone: from the middle of so many on, once
-    /// the estimator is idle. A few histograms reach few of the limits that its words have.
+    /// Returns whether these lines and all that follow are drawn for one block alone: from the middle of
+    /// `lines` on, once the estimator is idle. A few histograms reach few of the limits that its words have.
     pub fn over(&mut self, block: &LikelihoodEstimator, lines: usize) -> bool {
         self.over |= self.line >= lines / 2 && block.state() == State::Idle;
         self.over
@@ -177,7 +177,7 @@ impl<'a> Estimations<'a> {
         }
     }
 
-    /// What the model makes of a histogram.
+    /// Returns the model's result of a histogram.
     fn outcome(&self, histogram: &[u32]) -> Outcome {
         let (mut block, mut outcome) = (LikelihoodEstimator::default(), Outcome::default());
         for line in 0..=self.params.done() {
@@ -282,7 +282,7 @@ impl<'a> Estimations<'a> {
         (0..bins).map(|bin| count(kind, bin, draw.bits()) as u32).collect()
     }
 
-    /// What has been reached.
+    /// Returns the coverage.
     pub fn coverage(self) -> [Cover; 4] {
         [self.starts, self.resets, self.seen, self.modes]
     }

@@ -1,4 +1,4 @@
-//! How a block of the model takes an edge by itself, with inputs that somebody else has.
+//! Steps a block of the model by itself, with inputs from elsewhere.
 
 use tofsim::firmware::carry_chain::StopLine;
 use tofsim::firmware::pll::Pll;
@@ -19,12 +19,12 @@ pub enum Edge {
     Fall,
 }
 
-/// What takes an edge of a block.
+/// Functions that step a block.
 #[derive(Clone, Copy, Debug)]
 pub struct Model {
     /// The input ports that it reads.
     pub inputs: fn() -> Vec<Signal>,
-    /// What follows from the inputs, or from the time, before an edge.
+    /// Updates what follows from the inputs, or from the time, before an edge.
     pub settle: fn(&mut Stepping),
     /// The edge.
     pub edge: fn(&mut Stepping),
@@ -46,7 +46,7 @@ impl Model {
 pub struct Stepping<'a> {
     /// The block, inside an otherwise idle top.
     pub top: &'a mut TofTop,
-    /// What elaboration fixes.
+    /// Parameters of the firmware.
     pub params: &'a Params,
     /// The clocks.
     pub pll: &'a Pll,
@@ -54,7 +54,7 @@ pub struct Stepping<'a> {
     pub line: &'a mut StopLine,
     /// The instant.
     pub now: Time,
-    /// Which edge.
+    /// Edge that is taken.
     pub edge: Edge,
     pub(crate) inputs: &'a mut Inputs,
 }

@@ -17,9 +17,9 @@ pub struct Port {
     pub name: String,
     /// Its width [bits].
     pub width: u32,
-    /// Whether the block drives it.
+    /// True if the block drives it.
     pub output: bool,
-    /// What it means.
+    /// Its meaning.
     pub meaning: &'static str,
 }
 

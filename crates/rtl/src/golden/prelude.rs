@@ -1,4 +1,4 @@
-//! What the file of a block's stimulus needs.
+//! Imports for the file of a block's stimulus.
 
 pub use tofsim::error::Result;
 pub use tofsim::kernel::signals::Signals;

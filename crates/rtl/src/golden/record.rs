@@ -26,8 +26,9 @@ impl<'a> Recorder<'a> {
         Self::with(spec, setting, inputs, |_| true)
     }
 
-    /// As `new`, without what is inside its parts, which have benches of their own: where there is
-    /// so much of it that a simulator reads the lines for longer than it takes to simulate them.
+    /// Begins as [`Recorder::new`] does, without the signals inside the block's parts, which have benches of
+    /// their own: where there is so much of it that a simulator reads the lines for longer than it takes to
+    /// simulate them.
     pub fn without_parts(spec: &'static Spec, setting: &'a Setting, inputs: Vec<Signal>) -> Self {
         Self::with(spec, setting, inputs, |entry| entry.scope == spec.path())
     }
@@ -58,7 +59,7 @@ impl<'a> Recorder<'a> {
         self.lines.sample(|sink| hierarchy::changes(top, None, sink));
     }
 
-    /// What has been recorded, with what the stimulus has reached.
+    /// Returns what has been recorded, with its coverage.
     pub fn vectors(self, coverage: impl Into<Vec<Cover>>) -> Vectors {
         Vectors { coverage: coverage.into(), ..self.lines.vectors() }
     }

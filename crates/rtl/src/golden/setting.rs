@@ -1,4 +1,4 @@
-//! What golden vectors are made from.
+//! Settings of golden vectors.
 
 use std::collections::BTreeSet;
 
@@ -19,7 +19,7 @@ pub enum Constants {
 }
 
 impl Constants {
-    /// Whether the parameter of that name is one.
+    /// Returns whether the parameter of that name is a constant.
     pub fn has(&self, parameter: &str) -> bool {
         match self {
             Constants::These(names) => names.contains(parameter),
@@ -28,12 +28,12 @@ impl Constants {
     }
 }
 
-/// What vectors are made from.
+/// Settings of golden vectors.
 #[derive(Clone, Debug)]
 pub struct Setting {
     /// Network, chain, frame length and, for the top, light and control signals.
     pub setup: Setup,
-    /// Whether the scenario, and not random control, is what the top runs.
+    /// True if the top runs the scenario as it is, and not under random control.
     pub as_told: bool,
     /// Seed of the stimulus.
     pub seed: u64,
@@ -47,10 +47,10 @@ pub struct Setting {
     pub bins: u64,
     /// Shots of a frame, for a design that has them as a constant.
     pub shots_per_frame: Option<u32>,
-    /// What else it has as constants.
+    /// Other constants of the design.
     pub constants: Constants,
-    /// Whether the histogram has an address of its own for reading: then nothing is read while a word
-    /// is cleared or counted, when ours shows that one.
+    /// True if the histogram has an address of its own for reading: then nothing is read while a word is
+    /// cleared or counted, when ours shows that one.
     pub reads_apart: bool,
     /// Clock cycles that the estimator under test may take longer than ours; so long it is not
     /// started again.
@@ -66,7 +66,7 @@ impl Setting {
         self.setup.params.tdc.delays.order()
     }
 
-    /// How large the histogram is.
+    /// Returns the size of the histogram.
     pub fn histogram(&self) -> histogram_builder::Params {
         self.setup.params.histogram
     }
@@ -100,7 +100,7 @@ impl Setting {
         }
     }
 
-    /// How many taps may be high, in the order of arrival, but tap 0 always.
+    /// Returns how many taps may be high, in the order of arrival, but tap 0 always.
     pub fn places(&self) -> usize {
         let allowed = self.order().iter().take_while(|&&tap| (tap as usize) < self.taps).count();
         allowed.max(self.setup.params.tdc.delays.tap_0_position() + 1)

@@ -1,4 +1,4 @@
-//! What a block is, and what its golden vectors are.
+//! Specification of a block, and its golden vectors.
 
 use tofsim::error::Result;
 use tofsim::firmware::pll::Pll;
@@ -15,8 +15,8 @@ use super::setting::Setting;
 use super::table::Table;
 use super::timing::{ASIDE, CLK_SYS, Timing};
 
-/// How many clocks an effect takes at least, from the edge that takes the input to the one that
-/// changes the output: 0 for a plain register. A combinational path has none.
+/// Latency of an effect: clocks that it takes at least, from the edge that takes the input to the one that
+/// changes the output; 0 for a plain register. A combinational path has none.
 #[derive(Clone, Copy, Debug)]
 pub struct Latency {
     /// Input port.
@@ -50,7 +50,7 @@ const NUMBERED: &str = "carry_chain coarse_counter code_preload control_sync ddr
     estimator_ctrl forward1 forward2 frame_ctrl histogram_builder histogram_preload lvds_output pll \
     reset_sync spad_control tansig tdc tdc_decoder tdc_latch tof_top vcsel_driver centroid_estimator";
 
-/// What a block is, beside its ports.
+/// Specification of a block, beside its ports.
 #[derive(Debug)]
 pub struct Spec {
     /// Its module.
@@ -65,9 +65,9 @@ pub struct Spec {
     pub reset: Option<&'static str>,
     /// Outputs and registers that change within a cycle of the clock that counts.
     pub fast: &'static [&'static str],
-    /// How long effects take.
+    /// Latencies of its effects.
     pub latency: &'static [Latency],
-    /// What the block can be besides what the scenario makes of it.
+    /// Configurations beside the one that the scenario sets.
     pub configurations: &'static [Configuration],
     /// A loop around the block, if it needs one.
     pub glue: Option<Glue>,
@@ -124,7 +124,7 @@ impl Spec {
     }
 }
 
-/// What a block was given and what it did.
+/// Inputs and outputs of a block, line by line.
 #[derive(Debug)]
 pub struct Vectors {
     /// The block.
@@ -137,9 +137,9 @@ pub struct Vectors {
     pub sizes: Sizes,
     /// Verilog parameters.
     pub parameters: Parameters,
-    /// What goes in: line k is taken by edge k.
+    /// Inputs: line k is taken by edge k.
     pub stimulus: Table,
-    /// What comes out: line k is seen just before edge k.
+    /// Outputs and registers: line k is seen just before edge k.
     pub expected: Table,
     /// The clocks.
     pub pll: Pll,
@@ -151,7 +151,7 @@ pub struct Vectors {
     pub bench_memory: Option<Mem>,
     /// Of a block without reset: lines from power-up until its registers have all taken a value.
     pub settles: usize,
-    /// What the stimulus has reached.
+    /// Coverage of the stimulus.
     pub coverage: Vec<Cover>,
 }
 
@@ -166,7 +166,7 @@ impl Vectors {
         self.spec.timing.period(self.pll.cycle)
     }
 
-    /// How long before the end of a cycle that sample of it is taken.
+    /// Returns how long before the end of a cycle that sample of it is taken.
     pub fn before_edge(&self, sample: usize) -> Time {
         self.spec.timing.before_edge(sample, self.pll.cycle) + ASIDE
     }

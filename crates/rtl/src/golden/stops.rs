@@ -5,7 +5,7 @@ use tofsim::kernel::Time;
 
 use super::draw::Draw;
 
-/// What has been planned, and how much of it has come to pass.
+/// Planned changes of `tdc_stop`, and how many of them have happened.
 #[derive(Clone, Debug)]
 pub struct Stops {
     /// Period of the clock.
@@ -44,7 +44,7 @@ impl Stops {
         self.times.last().copied().unwrap_or_default()
     }
 
-    /// Whether the level is high after all that is planned.
+    /// Returns whether the level is high after all that is planned.
     pub fn ends_high(&self) -> bool {
         self.times.len() % 2 == 1
     }
@@ -70,7 +70,7 @@ impl Stops {
     }
 }
 
-/// So many eighths of a clock period: nanoseconds on the KC705.
+/// Returns a number of eighths of a clock period: nanoseconds on the KC705.
 pub fn of_eighths(eighths: u64, cycle: Time) -> Time {
     Time::from_fs(eighths * cycle.fs() / 8)
 }

@@ -17,7 +17,7 @@ pub struct Column {
     pub width: usize,
     /// Lowest bit of its place.
     pub low: usize,
-    /// Which sample of the clock cycle, from 0.
+    /// Sample of the clock cycle, from 0.
     pub sample: usize,
     /// A register inside, which another implementation need not have.
     pub internal: bool,
@@ -115,7 +115,7 @@ pub fn hex(bits: &BitSlice<u64, Lsb0>) -> String {
 
 /// Puts reported signals into the line under construction.
 pub struct LineSink<'a> {
-    /// Where the values go.
+    /// Table that takes the values.
     pub table: &'a mut Table,
     /// Columns of each id.
     pub places: &'a [Vec<usize>],

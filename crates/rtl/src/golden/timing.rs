@@ -11,7 +11,7 @@ pub const ASIDE: Time = Time::from_fs(1000);
 pub struct Step {
     /// Its length [quarters of a period of clk_sys].
     pub quarters: u64,
-    /// Whether the outputs are looked at [`ASIDE`] its end.
+    /// True if the outputs are sampled, [`ASIDE`] before its end.
     pub sample: bool,
     /// Clock ports that change at its end, and to what.
     pub edges: &'static [(&'static str, bool)],
@@ -27,7 +27,7 @@ pub struct Timing {
     pub clock: &'static str,
     /// Parts of the cycle.
     pub steps: &'static [Step],
-    /// Whether the bench makes the board's oscillator beside it, for a block with a PLL.
+    /// True if the bench makes the board's oscillator beside it, for a block with a PLL.
     pub oscillator: bool,
 }
 
@@ -42,8 +42,8 @@ impl Timing {
         self.steps.iter().filter(|step| step.sample).count()
     }
 
-    /// How long before the end of the cycle sample `n` is taken, but for [`ASIDE`], where `cycle` is the
-    /// period of `clk_sys`.
+    /// Returns how long before the end of the cycle sample `n` is taken, but for [`ASIDE`], where `cycle` is
+    /// the period of `clk_sys`.
     pub fn before_edge(&self, n: usize, cycle: Time) -> Time {
         let places = self.steps.iter().enumerate().filter(|(_, step)| step.sample);
         let after = places.map(|(place, _)| &self.steps[place + 1..]).nth(n);
@@ -52,7 +52,7 @@ impl Timing {
     }
 }
 
-/// So many quarters of a period of `clk_sys`.
+/// Returns a number of quarters of a period of `clk_sys`.
 pub fn of_quarters(quarters: u64, cycle: Time) -> Time {
     Time::from_fs(quarters * cycle.fs() / 4)
 }
@@ -70,7 +70,7 @@ const fn cycle(clock: &'static str, steps: &'static [Step]) -> Timing {
 pub const CLK_SYS: Timing =
     cycle("clk_sys", &[step(2, false, &[("clk_sys", false)]), step(2, true, &[("clk_sys", true)])]);
 
-/// The same in a module that serves any domain.
+/// Plain cycle of a module that serves any domain.
 pub const CLK: Timing =
     cycle("clk", &[step(2, false, &[("clk", false)]), step(2, true, &[("clk", true)])]);
 
@@ -91,10 +91,10 @@ pub const BOTH: Timing = cycle(
     ],
 );
 
-/// The same cycle, with the clocks made by the block's own PLL.
+/// Cycle whose clocks are made by the block's own PLL.
 pub const OWN: Timing = Timing { oscillator: true, ..cycle("clk_sys", &[step(1, true, &[]); 4]) };
 
-/// The same with a reset that the edge in the middle of the cycle sees too: it may change after it.
+/// Cycle with a PLL of its own and a reset that the edge in the middle sees too: it may change after it.
 pub const OWN_WITH_RESET: Timing = Timing {
     steps: &[
         step(1, true, &[]),

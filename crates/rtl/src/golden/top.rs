@@ -79,10 +79,8 @@ pub(super) fn record(
 fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<()> {
     let (setup, mut frames) = (&setting.setup, Frames::default());
     let whole_frames = setting.as_told && setting.cycles.is_none();
-    let limit = match whole_frames {
-        true => setup.longest_run(setting.frames),
-        false => setting.cycles() as u64,
-    };
+    let limit =
+        if whole_frames { setup.longest_run(setting.frames) } else { setting.cycles() as u64 };
     device.power_up(sampler, &mut Off);
     while device.cycle() < limit {
         device.step(&setup.params, sampler, &mut Off);
@@ -99,7 +97,7 @@ fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<
     Ok(())
 }
 
-/// What the Verilog's PLL and the bench's clocks cannot do.
+/// Refuses what the Verilog's PLL and the bench's clocks cannot do.
 pub(crate) fn check(setup: &Setup) -> Result<()> {
     let (pll, source) = (&setup.scenario.pll, format!("scenario {}", setup.name));
     let fault = |field: &str, value: String, expected: &str| {
@@ -130,7 +128,7 @@ struct Sampler<'a> {
     lines: Lines<'a>,
     /// The firmware since the last instant at which something changed.
     current: TofTop,
-    /// What the samples of each kind have shown.
+    /// Values that the samples of each kind have shown.
     sampled: Vec<Part>,
     /// Instant of the next sample.
     next: Time,

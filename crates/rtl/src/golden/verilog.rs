@@ -7,7 +7,7 @@ pub fn range(width: u32) -> String {
     if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) }
 }
 
-/// Where a column is in its line, as the index of a select.
+/// Returns the place of a column in its line, as the index of a select.
 pub fn place(column: &Column) -> String {
     match column.width {
         1 => column.low.to_string(),

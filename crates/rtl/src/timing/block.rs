@@ -1,4 +1,4 @@
-//! What is timed: single blocks between registers, and the whole.
+//! Blocks that are timed: single ones between registers, and the whole.
 
 use tofsim::error::{Input, Result, hint};
 
@@ -11,7 +11,7 @@ pub struct TimedBlock {
     pub modules: &'static [&'static str],
     /// Ports that go to a pin and not to a register.
     pub pins: &'static [&'static str],
-    /// Whether it is timed when nobody says what.
+    /// True if it is timed by default.
     pub usual: bool,
 }
 
@@ -39,7 +39,7 @@ pub static BLOCKS: &[TimedBlock] = &[
 ];
 
 impl TimedBlock {
-    /// Whether it is the whole firmware, with its own clocks and pins.
+    /// Returns whether it is the whole firmware, with its own clocks and pins.
     pub fn is_top(&self) -> bool {
         self.modules.is_empty()
     }
@@ -57,7 +57,7 @@ impl TimedBlock {
     }
 }
 
-/// What a clock has to reach [MHz]; a clock of another name is taken as the slower one.
+/// Returns the rate that a clock has to reach [MHz]; a clock of another name is taken as the slower one.
 pub fn required_mhz(clock: &str) -> f64 {
     if clock.contains("laser") { 250.0 } else { 125.0 }
 }

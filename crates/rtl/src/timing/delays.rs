@@ -12,12 +12,12 @@ type Ps = u32;
 /// A pin: port and index in it.
 type Pin = (&'static str, usize);
 
-/// What is known of a cell.
+/// Delays of a cell.
 #[derive(Clone, Debug, Default)]
 pub struct Delays {
     /// From an input to an output, for all indices.
     pub through: Vec<(&'static str, &'static str, Ps)>,
-    /// The same, from pin to pin.
+    /// Delays from pin to pin.
     pub between: Vec<(Pin, Pin, Ps)>,
     /// From the clock to an output.
     pub starts: Vec<(&'static str, Ps)>,
@@ -46,7 +46,7 @@ const CARRY4: [[Ps; 8]; 10] = [
 ];
 
 impl Delays {
-    /// Those of a cell; `None` for one that is not known.
+    /// Returns the delays of a cell; `None` for one that is not known.
     pub fn of(cell: &Cell) -> Option<Self> {
         let kind = cell.kind.as_str();
         let lut = |port| (port, "O", LUT);

@@ -11,7 +11,7 @@ use super::netlist::Netlist;
 use super::paths::{TimedPath, TimingGraph};
 use super::synthesis::{Design, Part};
 
-/// What a routed net is taken to need [ps]: little, usual and much.
+/// Assumed delays of a routed net [ps]: little, usual and much.
 pub const NET_PS: [u32; 3] = [300, 600, 900];
 
 /// An estimate: there is no placement in it.

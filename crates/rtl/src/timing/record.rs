@@ -1,4 +1,4 @@
-//! What place-and-route of our own Verilog last came to, so that it is repeated only for another netlist.
+//! Record of the last place-and-route of our own Verilog, so that it is repeated only for another netlist.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,7 +11,7 @@ use tofsim::files::output::write_bytes;
 use super::estimate::Estimate;
 use super::nextpnr::Measurement;
 
-/// What came out for each block.
+/// Results of all blocks.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Versions of the tools.
@@ -20,7 +20,7 @@ pub struct Record {
     pub blocks: BTreeMap<String, BlockTiming>,
 }
 
-/// What came out for a block.
+/// Result of a block.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BlockTiming {
     /// Measured for an ECP5; none where that was not asked for, or cannot be.
@@ -32,7 +32,7 @@ pub struct BlockTiming {
 }
 
 impl Record {
-    /// That of a file; none if there is no such file.
+    /// Reads the record of a file; returns `None` if there is no such file.
     ///
     /// # Errors
     /// When it cannot be read, or is none.

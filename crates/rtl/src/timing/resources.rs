@@ -1,4 +1,4 @@
-//! What a design takes of a part, by Yosys.
+//! Resources of a part that a design takes, by Yosys.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -15,7 +15,7 @@ use crate::verify::yosys;
 
 use super::synthesis::Part;
 
-/// What a design takes of a part.
+/// Resources of a part that a design takes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Resources {
     /// LUTs, those of carry cells and distributed RAM among them.
@@ -32,7 +32,7 @@ pub struct Resources {
     pub cells: BTreeMap<String, u64>,
 }
 
-/// How many LUTs a primitive takes, and whether as RAM (UG474; Lattice FPGA-TN-02205).
+/// Returns the LUTs of a primitive, and whether they are RAM (UG474; Lattice FPGA-TN-02205).
 fn luts(part: Part, cell: &str) -> (u64, bool) {
     match (part, cell) {
         (Part::Kintex7, "RAM256X1S") => (4, true),

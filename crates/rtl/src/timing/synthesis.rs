@@ -24,7 +24,7 @@ const ECP5_LPF: &str = include_str!("../../../../rtl_ref/ecp5.lpf");
 pub enum Part {
     /// Lattice's, which open tools place and route.
     Ecp5,
-    /// That of the KC705.
+    /// The KC705's part.
     Kintex7,
 }
 
@@ -33,9 +33,9 @@ pub enum Part {
 pub struct Design<'a> {
     /// Its sources.
     pub rtl: &'a Rtl,
-    /// Where the tools run: paths in the sources, such as those of ROMs, are relative to it.
+    /// Folder in which the tools run: paths in the sources, such as those of ROMs, are relative to it.
     pub folder: &'a Path,
-    /// Where they write.
+    /// Folder in which they write.
     pub work: &'a Path,
     /// When to give up.
     pub limits: Limits<'a>,

@@ -1,4 +1,4 @@
-//! Which versions of the tools there are.
+//! Versions of the tools.
 
 use std::path::Path;
 use std::time::Duration;
@@ -7,7 +7,7 @@ use tofsim::error::Result;
 
 use crate::verify::process::{Limits, Tool};
 
-/// What a tool says of itself, without the date and place of its making, such as `Yosys 0.23`.
+/// Returns the version of a tool, without the date and place of its making, such as `Yosys 0.23`.
 ///
 /// # Errors
 /// When it is missing or cannot be run.

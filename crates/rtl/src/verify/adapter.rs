@@ -27,7 +27,7 @@ impl BlockMap {
         (self.design.parameters && !theirs.is_empty()).then_some(theirs)
     }
 
-    /// Whether an adapter stands in for a port of ours.
+    /// Returns whether an adapter stands in for a port of ours.
     fn is_made(&self, name: &str) -> bool {
         let adapted = self.counts.is_some() || self.vector.is_some();
         adapted && ["read_en", "read_addr", "count"].contains(&name)
@@ -165,7 +165,7 @@ impl BlockMap {
         )
     }
 
-    /// What is declared for a port of theirs, and what is connected to it.
+    /// Returns the declaration for a port of theirs, and its connection.
     fn connection(&self, spec: &Spec, port: &Port) -> (String, String) {
         let inverted = if self.invert.contains(&port.name) { "~" } else { "" };
         let (name, width) = (port.name.as_str(), self.width(spec, port));
@@ -183,8 +183,8 @@ impl BlockMap {
     }
 }
 
-/// What is declared for a port with all counts, and what is connected to it: the vector of the
-/// adapter, or the words of an unpacked array, of which the one with the lowest index is bin 0.
+/// Returns the declaration for a port with all counts, and its connection: the vector of the adapter, or the
+/// words of an unpacked array, of which the one with the lowest index is bin 0.
 fn words(vector: &str, bits: u32, port: Option<&PortShape>) -> (String, String) {
     let Some(PortShape { output, words: Some((first, last)), .. }) = port else {
         return (String::new(), vector.to_owned());

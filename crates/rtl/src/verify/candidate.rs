@@ -26,9 +26,9 @@ use super::vhdl;
 pub struct Dut<'a> {
     /// Its sources.
     pub rtl: &'a Rtl,
-    /// How it differs from ours by intention.
+    /// Intended differences from ours.
     pub map: Option<&'a RtlMap>,
-    /// What reads and runs it.
+    /// Simulator that reads and runs it.
     pub simulator: Simulator,
     /// When to give up.
     pub limits: Limits<'a>,
@@ -41,9 +41,9 @@ pub(super) struct Candidate<'a> {
     pub(super) rtl: Cow<'a, Rtl>,
     /// Ports and parameters of the module.
     pub(super) found: Interface,
-    /// What the map says of it.
+    /// Its part of the map.
     pub(super) map: Option<BlockMap>,
-    /// Whether it has its parameters already: one in VHDL has been given them as generics.
+    /// True if it has its parameters already: one in VHDL has been given them as generics.
     pub(super) fixed: bool,
 }
 
@@ -161,7 +161,7 @@ impl Dut<'_> {
         Ok(())
     }
 
-    /// Why the design cannot be what a task is about, if it cannot.
+    /// Returns why the design cannot be what a task is about, if it cannot.
     fn cannot_be(&self, task: &Task, module: &str, found: &Interface) -> Option<String> {
         let configuration = task.configuration?;
         let module_of = |block: &str| {

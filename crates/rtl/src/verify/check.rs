@@ -19,25 +19,26 @@ use super::task::Task;
 use super::verdict::{Mismatch, Verdict};
 use super::wave;
 
-/// What is checked, and how.
+/// Subject and strictness of a check.
 #[derive(Clone, Debug)]
 pub struct BlockCheck<'a> {
     /// The design, and what it is checked with.
     pub dut: Dut<'a>,
-    /// Whether registers are compared, too.
+    /// True if registers are compared, too.
     pub registers: bool,
-    /// Whether what comes before the first reset is compared, too.
+    /// True if what comes before the first reset is compared, too.
     pub from_power_up: bool,
-    /// Whether a bench ends at its first mismatch, without a second look.
+    /// True if a bench ends at its first mismatch, without a second look.
     pub first_only: bool,
-    /// Where the waveform of a mismatch goes.
+    /// Folder for the waveform of a mismatch.
     pub output: &'a Path,
 }
 
 /// A bench that says nothing for so long stands still.
 const SILENCE: Duration = Duration::from_secs(15);
 
-/// It reads its lines before it says anything; Verilator reads 9 MB/s, and a busy machine less [B/s].
+/// Rate at which a simulator reads the lines, before it prints anything; Verilator reads 9 MB/s, a busy
+/// machine less [B/s].
 const READING: u64 = 2_000_000;
 
 impl BlockCheck<'_> {

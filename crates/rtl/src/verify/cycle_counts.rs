@@ -32,25 +32,25 @@ use super::rtl::Rtl;
 /// One promise: a row of `tofsim verify --cycle-counts`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Count {
-    /// What is counted, for people.
+    /// Name of the count, for people.
     pub what: String,
-    /// What the design promises.
+    /// Number that the design promises.
     pub expected: u64,
     /// Unit of the three numbers.
     pub unit: &'static str,
-    /// What stepping the Rust model shows. Where the same thing is counted more than once, the
-    /// first count that is not the promised one. `None`: it never happens.
+    /// Count in the Rust model. Where the same thing is counted more than once, the first count that is not
+    /// the promised one; `None` if it never happens.
     pub model: Option<u64>,
-    /// What Icarus Verilog shows, in the same way.
+    /// Count in a simulation by Icarus Verilog, as for the model.
     pub rtl: Option<u64>,
-    /// Whether Yosys proves it of the Verilog.
+    /// True if Yosys proves it of the Verilog.
     pub proven: bool,
-    /// Why not, if it does not.
+    /// Reason why it is not proven, if it is not.
     pub reason: Option<String>,
 }
 
 impl Count {
-    /// Whether all three agree with the promise.
+    /// Returns whether all three agree with the promise.
     pub fn holds(&self) -> bool {
         let expected = Some(self.expected);
         self.model == expected && self.rtl == expected && self.proven

@@ -31,7 +31,7 @@ pub(super) fn bring(work: &Path, rtl: &Rtl, said: &str) -> Result<bool> {
     Ok(brought)
 }
 
-/// Whether a design had all that it wanted to read.
+/// Returns whether a design had all that it wanted to read.
 ///
 /// # Errors
 /// Names the first file that it had not.

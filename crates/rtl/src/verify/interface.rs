@@ -12,7 +12,7 @@ pub(super) mod verilator;
 /// A port as a simulator tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PortShape {
-    /// Whether the module drives it.
+    /// True if the module drives it.
     pub output: bool,
     /// Its width, of all words together [bits].
     pub width: u32,
@@ -20,7 +20,7 @@ pub struct PortShape {
     pub words: Option<(u32, u32)>,
 }
 
-/// What a module shows to whoever instantiates it.
+/// Interface of a module.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Interface {
     /// Its ports by name.
@@ -30,7 +30,7 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// Whether it has the ports that are wanted of it; the words of an array have `word` bits.
+    /// Checks that it has the ports that are wanted of it; the words of an array have `word` bits.
     ///
     /// # Errors
     /// Names the first port that is missing, or is no output, or has another width.
@@ -66,7 +66,7 @@ impl Interface {
         Ok(())
     }
 
-    /// Whether it has the parameters that the bench of `block` sets: our name and theirs of each.
+    /// Checks that it has the parameters that the bench of `block` sets: our name and theirs of each.
     ///
     /// # Errors
     /// Names the first one that is missing, and the entry of a map that leaves it out.

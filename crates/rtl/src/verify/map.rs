@@ -1,4 +1,4 @@
-//! How a user's design differs from ours by intention: a TOML file.
+//! Intended differences between a user's design and ours: a TOML file.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -118,9 +118,10 @@ impl RtlMap {
             let left_out = block.parameters.iter().filter(|(_, theirs)| theirs.is_empty());
             left_out.map(|(ours, _)| ours.clone()).collect()
         };
-        let constants = match design.parameters {
-            true => Constants::These(self.block.get(spec.name).map(empty).unwrap_or_default()),
-            false => Constants::All,
+        let constants = if design.parameters {
+            Constants::These(self.block.get(spec.name).map(empty).unwrap_or_default())
+        } else {
+            Constants::All
         };
         Setting {
             taps: design.taps.map_or(setting.taps, |taps| setting.taps.min(taps)),
@@ -133,7 +134,7 @@ impl RtlMap {
         }
     }
 
-    /// What is different in a block: nothing but the design's sizes if the file does not name it.
+    /// Returns the differences of a block: nothing but the design's sizes if the file does not name it.
     pub fn block(&self, name: &str) -> BlockMap {
         let design = self.design.clone();
         self.block.get(name).cloned().unwrap_or(BlockMap { design, ..BlockMap::default() })
@@ -146,7 +147,7 @@ fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> 
 }
 
 impl BlockMap {
-    /// Whether everything that is named exists in our block; `valid` has our names from then on.
+    /// Checks that everything that is named exists in our block; `valid` has our names from then on.
     fn check(&mut self, spec: &Spec, fault: &dyn Fn(&str, String) -> Input) -> Result<()> {
         let ports = spec.ports(&Sizes { neurons: MOST_NEURONS as u32, ..Sizes::default() });
         // Each name of a port of ours: where it stands, and whether it has to be an output.
@@ -181,7 +182,7 @@ impl BlockMap {
         Ok(())
     }
 
-    /// Which output is compared only where which port is high, by our names.
+    /// Returns, by our names, the port that has to be high where an output is compared.
     fn valid_by_our_names(
         &self,
         spec: &Spec,
@@ -221,8 +222,8 @@ impl BlockMap {
         Ok(valid)
     }
 
-    /// Whether nothing is read while something is counted: where `count` is compared only while something
-    /// is read, or all counts are there at once.
+    /// Returns whether nothing is read while something is counted: where `count` is compared only while
+    /// something is read, or all counts are there at once.
     fn reads_apart(&self) -> bool {
         self.counts.is_some() || self.valid.get("count").is_some_and(|level| level == "read_en")
     }

@@ -1,4 +1,4 @@
-//! What the bench saw, line by line, beside what it should have observed.
+//! Values that the bench observed, line by line, beside the expected ones.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ pub struct Observed<'a> {
     /// In hexadecimal.
     pub lines: Vec<String>,
     bench: &'a Bench<'a>,
-    /// Whether registers were looked at.
+    /// True if registers were looked at.
     registers: bool,
 }
 
@@ -37,7 +37,7 @@ impl<'a> Observed<'a> {
         Ok(Observed { lines: text.lines().map(str::to_owned).collect(), bench, registers })
     }
 
-    /// Whether the design has a column, as far as was looked.
+    /// Returns whether the design has a column, as far as was looked.
     pub fn has(&self, column: &Column) -> bool {
         let is_absent = self.bench.allowed.absent.contains(&column.name);
         !is_absent && (self.registers || !column.internal)
@@ -59,8 +59,8 @@ impl<'a> Observed<'a> {
         bits.get(end.saturating_sub(width)..end).unwrap_or("").to_owned()
     }
 
-    /// What a value should have been, as binary digits, or x where nothing is expected: before an
-    /// output that comes later has come, where it means nothing, and of one that is not compared.
+    /// Returns the expected value, as binary digits, or x where nothing is expected: before an output that
+    /// comes later has come, where it means nothing, and of one that is not compared.
     pub fn wanted(&self, cycle: usize, column: &Column) -> String {
         let (vectors, allowed) = (self.bench.vectors, &self.bench.allowed);
         let row = usize::try_from(cycle as i64 - allowed.delay(&column.name)).ok();
@@ -79,7 +79,7 @@ impl<'a> Observed<'a> {
         }
     }
 
-    /// Whether the two sides differ there, in what is compared.
+    /// Returns whether the two sides differ there, in what is compared.
     pub fn differs(&self, cycle: usize, column: &Column) -> bool {
         let (wanted, bits) = (self.wanted(cycle, column), self.bits(cycle, column));
         let compared = self.bench.allowed.bits.get(&column.name).map_or(column.width, |bits| *bits);
@@ -98,11 +98,9 @@ impl<'a> Observed<'a> {
             let head = [name.to_owned(), side.to_owned()];
             head.into_iter().chain(cycles.clone().map(values)).collect()
         };
-        let mut rows: Vec<Vec<String>> =
-            vec![row("cycle", "", &|cycle| match cycle == first.cycle {
-                true => format!("{cycle} *"),
-                false => cycle.to_string(),
-            })];
+        let mut rows: Vec<Vec<String>> = vec![row("cycle", "", &|cycle| {
+            if cycle == first.cycle { format!("{cycle} *") } else { cycle.to_string() }
+        })];
         for (k, column) in vectors.stimulus.columns().iter().enumerate() {
             if column.width <= WIDEST {
                 rows.push(row(&column.name, "input", &|cycle| vectors.stimulus.hex(cycle, k)));

@@ -36,34 +36,34 @@ pub const GHDL: Tool = Tool { program: "ghdl", package: "ghdl" };
 /// The shell.
 pub const SHELL: Tool = Tool { program: "sh", package: "dash" };
 
-/// How a program ended.
+/// Outcome of a program.
 #[derive(Clone, Debug)]
 pub struct Finished {
     /// By itself or not.
     pub end: End,
-    /// What it wrote on standard output and standard error, in that order.
+    /// Its standard output and standard error, in that order.
     pub output: String,
 }
 
-/// What ended a program.
+/// Way in which a program ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// Itself, and whether it says that all went well.
     Exit(bool),
-    /// It was killed because this time was up.
+    /// Killed because this time was up.
     OutOfTime(Duration),
-    /// It was killed because it had written nothing for so long.
+    /// Killed because it had written nothing for so long.
     Stalled(Duration),
-    /// It was killed because it had written too much.
+    /// Killed because it had written too much.
     Wild,
 }
 
 /// When to give up.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits<'a> {
-    /// How long a program may take.
+    /// Time that a program may take.
     pub time: Duration,
-    /// How long it may write nothing, if it is one that says how far it is: processor time, so that a
+    /// Time for which it may write nothing, if it is one that reports progress: processor time, so that a
     /// busy machine is no fault of its own, or four times as long by the clock.
     pub silence: Option<Duration>,
     /// Set from outside to stop.
@@ -85,14 +85,14 @@ impl Limits<'_> {
 }
 
 impl Finished {
-    /// Whether it ended by itself and says that all went well.
+    /// Returns whether it ended by itself and says that all went well.
     pub fn success(&self) -> bool {
         self.end == End::Exit(true)
     }
 }
 
 impl Tool {
-    /// Whether it is on the PATH.
+    /// Returns whether it is on the PATH.
     pub fn is_installed(&self) -> bool {
         let Some(path) = std::env::var_os("PATH") else { return false };
         std::env::split_paths(&path).any(|it| it.join(self.program).is_file())

@@ -1,17 +1,17 @@
-//! How a block came out.
+//! Report on a block.
 
 use std::path::PathBuf;
 
 use super::verdict::Verdict;
 
-/// How a block came out.
+/// Report on a block.
 #[derive(Clone, Debug)]
 pub struct BlockReport {
     /// The block, and what of it if that is not its own bench.
     pub name: String,
     /// Lines compared.
     pub cycles: usize,
-    /// How it came out.
+    /// Result of the check.
     pub verdict: Verdict,
     /// The cycles around the first mismatch, as rows of a table; none without one.
     pub around: Vec<Vec<String>>,
@@ -19,17 +19,17 @@ pub struct BlockReport {
     pub wave: Option<PathBuf>,
     /// Goals of the stimulus met, and goals.
     pub coverage: (usize, usize),
-    /// What it has not reached, and how many cases of it of how many.
+    /// Coverage that it has not reached: name, cases missed, cases in all.
     pub missed: Vec<(&'static str, usize, usize)>,
 }
 
 impl BlockReport {
-    /// Whether the block does not do what it should; one that was not run is not said to.
+    /// Returns whether the block does not do what it should; one that was not run is not said to.
     pub fn failed(&self) -> bool {
         !matches!(self.verdict, Verdict::Pass | Verdict::NotRun { .. })
     }
 
-    /// Whether it never came to an end.
+    /// Returns whether it never came to an end.
     pub fn hangs(&self) -> bool {
         matches!(self.verdict, Verdict::Hangs { .. } | Verdict::TimedOut { .. })
     }
@@ -47,7 +47,7 @@ impl BlockReport {
         }
     }
 
-    /// What went wrong, in a line; empty if nothing did.
+    /// Returns what went wrong, in a line; empty if nothing did.
     pub fn fault(&self) -> String {
         match &self.verdict {
             Verdict::Pass => String::new(),
@@ -79,7 +79,7 @@ impl BlockReport {
         }
     }
 
-    /// How it came out, in a word or two.
+    /// Returns the result in a word or two.
     pub fn word(&self) -> &'static str {
         match self.verdict {
             Verdict::Pass => "pass",

@@ -20,7 +20,7 @@ use scan::Scan;
 
 pub use source::Source;
 
-/// Where the sources of a design are.
+/// Places of the sources of a design.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     /// Folders, which are searched with all below them, and files.
@@ -42,7 +42,7 @@ pub struct Rtl {
     pub vhdl: Vec<Source>,
     /// Folders of includes and libraries, macros, and what was passed over.
     pub options: Listed,
-    /// Where they come from, for people.
+    /// Their origin, for people.
     pub source: String,
 }
 
@@ -55,7 +55,7 @@ impl Rtl {
         Self::read(&Sources { paths: vec![folder.to_owned()], ..Sources::default() })
     }
 
-    /// Those that are named, each file once.
+    /// Reads the sources that are named, each file once.
     ///
     /// # Errors
     /// When a file, folder or list cannot be read, or there is no source among them.
@@ -110,7 +110,8 @@ impl Rtl {
         Ok(())
     }
 
-    /// Whether one of the files declares that module, or that entity, whatever the case of its letters.
+    /// Returns whether one of the files declares that module, or that entity, whatever the case of its
+    /// letters.
     pub fn has(&self, module: &str) -> bool {
         let declares = |source: &Source| source.scan.modules.iter().any(|it| it.name == module);
         let in_library = |folder: &PathBuf| {
@@ -121,7 +122,7 @@ impl Rtl {
             || self.options.libraries.iter().any(in_library)
     }
 
-    /// Whether a VHDL file declares that entity, and no Verilog file a module of that name.
+    /// Returns whether a VHDL file declares that entity, and no Verilog file a module of that name.
     pub fn has_entity(&self, name: &str) -> bool {
         let lower = name.to_lowercase();
         let is_named =
@@ -130,7 +131,7 @@ impl Rtl {
             && !self.files.iter().any(|source| is_named(source, name))
     }
 
-    /// Those of some names that the files of an entity have, as its generics have to be.
+    /// Selects, of some names, those that the files of an entity have, as its generics have to be.
     pub fn generics<'a>(
         &self,
         entity: &str,

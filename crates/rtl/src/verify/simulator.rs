@@ -12,7 +12,7 @@ use super::interface::{Interface, icarus, verilator};
 use super::process::{self, Finished, IVERILOG, Limits, VERILATOR, VVP};
 use super::rtl::Rtl;
 
-/// Which simulator.
+/// A simulator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Simulator {
     /// Icarus Verilog: compiles at once.
@@ -144,9 +144,10 @@ impl Simulator {
         }
         args.extend(needed.iter().map(|source| OsString::from(&source.path)));
         let finished = tool.run(folder, args, limits)?;
-        match finished.success() && !refusal::lacks_macro(&finished) {
-            true => Ok(()),
-            false => Err(refusal::of(rtl, top, &finished).into()),
+        if finished.success() && !refusal::lacks_macro(&finished) {
+            Ok(())
+        } else {
+            Err(refusal::of(rtl, top, &finished).into())
         }
     }
 }

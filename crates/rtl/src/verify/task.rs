@@ -1,4 +1,4 @@
-//! What is checked, and in which order.
+//! Checks to be made, and their order.
 
 use tofsim::error::Result;
 use tofsim::hierarchy;
@@ -17,9 +17,9 @@ pub struct Task {
     pub name: String,
     /// The block.
     pub spec: &'static Spec,
-    /// What its vectors are made from.
+    /// Settings of its vectors.
     pub setting: Setting,
-    /// What it is besides what the scenario makes of it.
+    /// Configuration beside the one that the scenario sets.
     pub configuration: Option<&'static Configuration>,
 }
 
@@ -48,12 +48,12 @@ impl Task {
         configurations.iter().map(other).collect()
     }
 
-    /// How far its block is below the top.
+    /// Returns how far its block is below the top.
     fn depth(&self) -> usize {
         self.spec.path().matches('.').count()
     }
 
-    /// Whether its block contains that of another.
+    /// Returns whether its block contains that of another.
     fn contains(&self, other: &Task) -> bool {
         let (outer, inner) = (self.spec.path(), other.spec.path());
         outer != inner && hierarchy::within(&inner, &outer)

@@ -1,4 +1,4 @@
-//! What a bench says, and what is made of it.
+//! Output of a bench, and the verdict on it.
 
 use serde::Serialize;
 
@@ -19,14 +19,14 @@ pub struct Mismatch {
     pub got: String,
 }
 
-/// How a block came out.
+/// Verdict on a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Every cycle is as expected.
     Pass,
     /// Cycles that differ, and the first.
     Differs {
-        /// How many cycles.
+        /// Number of cycles with a mismatch.
         mismatches: usize,
         /// The first.
         first: Mismatch,
@@ -38,9 +38,9 @@ pub enum Verdict {
         /// The cycle that it last said it had reached.
         cycle: u64,
     },
-    /// It was not run.
+    /// The block was not run.
     NotRun {
-        /// Why.
+        /// Reason for that.
         reason: String,
     },
     /// The bench did not end in time.

@@ -36,9 +36,10 @@ pub fn write(
     first: &Mismatch,
 ) -> Result<()> {
     let count = observed.lines.len();
-    let cycles = match count > WHOLE {
-        true => first.cycle.saturating_sub(PART)..(first.cycle + PART).min(count),
-        false => 0..count,
+    let cycles = if count > WHOLE {
+        first.cycle.saturating_sub(PART)..(first.cycle + PART).min(count)
+    } else {
+        0..count
     };
     let wave = format!("{stem}.vcd");
     write_file(&folder.join(&wave), |file| body(file, vectors, observed, cycles))?;

@@ -1,4 +1,4 @@
-//! How Yosys is told the sources of a design.
+//! Arguments that give Yosys the sources of a design.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! What another implementation is allowed.
+//! Deviations that another implementation is allowed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use crate::golden::spec::Vectors;
 use crate::golden::table::Column;
 use crate::golden::verilog::place;
 
-/// Where a bench is not strict; nowhere, to begin with.
+/// Deviations that a bench allows; none by default.
 #[derive(Clone, Debug, Default)]
 pub struct Allowances {
     /// Clock cycles that an output comes later than the reference.
@@ -26,7 +26,7 @@ pub struct Allowances {
 /// Inputs that reset a block: after a line with one, a pipeline may have to settle.
 pub const RESETS: [&str; 2] = ["rst", "rst_late"];
 
-/// Where the level is that says whether a column is compared.
+/// Place of the level by which a column is compared or not.
 #[derive(Clone, Copy, Debug)]
 pub struct Valid<'a> {
     /// Memory of the bench with it: `stimulus` or `expected`.

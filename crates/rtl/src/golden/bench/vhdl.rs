@@ -1,4 +1,4 @@
-//! The same bench in VHDL-2008. It compares ports only: VHDL keeps its registers to itself.
+//! Bench in VHDL-2008. It compares ports only: VHDL keeps its registers to itself.
 
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
@@ -30,9 +30,10 @@ pub fn text(vectors: &Vectors) -> Result<String> {
         .iter()
         .map(|column| format!("{} <= {};\n", column.name, slice("stimulus", column)))
         .collect();
-    let before = match vectors.first_edge > vectors.period() {
-        true => format!("{}    wait for FirstEdge - Period;\n", indented(&apply, 4)),
-        false => String::new(),
+    let before = if vectors.first_edge > vectors.period() {
+        format!("{}    wait for FirstEdge - Period;\n", indented(&apply, 4))
+    } else {
+        String::new()
     };
     Ok(format!(
         include_str!("bench.vhd"),
@@ -115,7 +116,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
     text
 }
 
-/// What drives inputs beside the main process.
+/// Concurrent statements that drive inputs beside the main process.
 fn statements(vectors: &Vectors) -> String {
     let mut text = String::new();
     if let Some(glue) = vectors.spec.glue {
@@ -193,7 +194,7 @@ fn compare(vectors: &Vectors) -> String {
     )
 }
 
-/// What a line that resets the entity changes about the lines that are compared.
+/// Statements for a line that resets the entity: which lines are compared from then on.
 fn resets(inputs: &[Column]) -> String {
     let resets = inputs.iter().filter(|column| RESETS.contains(&column.name.as_str()));
     let levels: Vec<_> = resets.map(|column| format!("stimulus({}) = '1'", column.low)).collect();
@@ -210,8 +211,9 @@ fn edges(step: &Step, last: bool) -> String {
     let set: String = (step.edges.iter())
         .map(|(name, level)| format!("{name} <= '{}';\n", u8::from(*level)))
         .collect();
-    match step.edges.iter().any(|(_, level)| *level) && !last {
-        true => format!("if cycle /= 0 then\n{}end if;\n", indented(&set, 2)),
-        false => set,
+    if step.edges.iter().any(|(_, level)| *level) && !last {
+        format!("if cycle /= 0 then\n{}end if;\n", indented(&set, 2))
+    } else {
+        set
     }
 }

@@ -26,11 +26,13 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let counter = run.top.tdc.coarse_counter;
         let start = edges_until_start == 0;
-        edges_until_start = match start {
+        edges_until_start = if !start {
+            edges_until_start - 1
+        } else if window > 16 && run.draw.one_in(2) {
             // Of a long window mostly to its ends.
-            true if window > 16 && run.draw.one_in(2) => window - 9 + run.draw.below(14),
-            true => run.draw.below(window.min(16) + 6),
-            false => edges_until_start - 1,
+            window - 9 + run.draw.below(14)
+        } else {
+            run.draw.below(window.min(16) + 6)
         };
         coarse.see_if(counter.window, counter.coarse.get());
         started_at.see_if(start, if counter.window { counter.coarse.get() } else { window });

@@ -38,7 +38,7 @@ pub(super) const SPEC: Spec = Spec {
     ..Spec::new("histogram_builder", "histogram_builder", record)
 };
 
-/// Which of the three addresses are equal: none, two of them, all.
+/// Returns which of the three addresses are equal: none, two of them, all.
 fn equal(i: &In) -> u64 {
     let [clear, hit, read] = [i.clear_addr, i.tdc_code, i.read_addr];
     match (clear == hit, hit == read, read == clear) {
@@ -50,7 +50,7 @@ fn equal(i: &In) -> u64 {
     }
 }
 
-/// What can meet in each line of a hit: as bits, `clear` and `read_en`. Where reads have to keep away,
+/// Lists what can meet in each line of a hit: as bits, `clear` and `read_en`. Where reads have to keep away,
 /// `clear` meets a hit only in its first line: others may have counted it by the second.
 fn phases(reads_apart: bool) -> Vec<u64> {
     if reads_apart { vec![0, 2, 4, 8] } else { (0..4 * HIT as u64).collect() }

@@ -86,9 +86,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         }
         counted = if rst { [None; 2] } else { [decoder.counted(), counted[0]] };
         // Other decoders see what most hits are: a single transition.
-        let hit_taps = match counts_ones || special > 0 && draw.one_in(4) {
-            true => with_ones(n, (taps, count), draw),
-            false => Taps::clipped(count, true, [n]),
+        let hit_taps = if counts_ones || special > 0 && draw.one_in(4) {
+            with_ones(n, (taps, count), draw)
+        } else {
+            Taps::clipped(count, true, [n])
         };
         // Of the RAM as of the ROM: a cycle after `n`.
         let calibrated_age = last_age;
@@ -119,7 +120,7 @@ fn ages_at_ends(p: &Params, window: u64) -> Vec<(u64, u64)> {
     ages
 }
 
-/// So many ones among the first `taps` of a chain of `count`, in one run or two, with the gaps anywhere.
+/// Draws `n` ones among the first `taps` of a chain of `count`, in one run or two, with the gaps anywhere.
 fn with_ones(n: usize, (taps, count): (usize, usize), draw: &mut Draw) -> Taps {
     let zeros = taps - n;
     let mut below = |n: usize| draw.below(n as u64 + 1) as usize;

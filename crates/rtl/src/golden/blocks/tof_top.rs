@@ -100,12 +100,11 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     setting.setup.scenario.control = control(&setting, shots.into());
     let params = &setting.setup.params;
     // Without Acquire, or without the TDC, there is less to reach.
-    let (transitions, in_states, hits): (&[_], &[_], _) = match params.frame_ctrl.preloaded {
-        true => (&[(0, 3), (3, 0)], &[0, 3], false),
-        false => {
-            let all = &[(0, 1), (1, 2), (2, 3), (3, 0), (1, 0)];
-            (all, &[0, 1, 3], matches!(params.code_source, CodeSource::Tdc))
-        }
+    let (transitions, in_states, hits): (&[_], &[_], _) = if params.frame_ctrl.preloaded {
+        (&[(0, 3), (3, 0)], &[0, 3], false)
+    } else {
+        let all = &[(0, 1), (1, 2), (2, 3), (3, 0), (1, 0)];
+        (all, &[0, 1, 3], matches!(params.code_source, CodeSource::Tdc))
     };
     let transitions = transitions.iter().map(|(from, to)| from * 4 + to);
     let mut states = Cover::new("states, from x 4 + to", transitions);

@@ -23,7 +23,7 @@ pub(super) const SPEC: Spec = Spec {
 
 /// Longer periods are left to the whole, if there are others [cycles].
 const LONG: u64 = 1000;
-/// What comes at random comes so often in this many cycles; in longer periods mostly near their ends.
+/// Mean spacing of random events [cycles]; in longer periods they come mostly near the ends.
 const USUAL: u64 = 25;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
@@ -103,7 +103,7 @@ fn ends_of(period: u64) -> impl Iterator<Item = u64> + Clone {
     (0..period).filter(move |&n| period <= 2 * USUAL || n < 8 || period - n <= 8)
 }
 
-/// How much less often than usual things come there.
+/// Returns by how much rarer than usual random events are there.
 fn rareness(period: u64, count: u64) -> u64 {
     let near = count < 8 || period - count <= 8;
     if near || period <= 2 * USUAL { 1 } else { period / USUAL }

@@ -1,4 +1,4 @@
-//! What cycle counts depend on: how large the estimator is, and how the laser fires.
+//! Sizes that cycle counts depend on: how large the estimator is, and how the laser fires.
 
 use tofsim::firmware::forward2::NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
@@ -38,7 +38,7 @@ pub struct Design {
 }
 
 impl Design {
-    /// That of a scenario.
+    /// Returns the design of a scenario.
     pub fn of(setup: &Setup) -> Self {
         let (sizes, laser) = (setup.params.sizes(), setup.params.vcsel_driver.clone());
         let own = sized(&setup.params, VCSEL_DRIVER);

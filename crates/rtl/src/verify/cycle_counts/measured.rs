@@ -1,4 +1,4 @@
-//! What has been counted, by name.
+//! Counts, by name.
 
 use std::collections::BTreeMap;
 

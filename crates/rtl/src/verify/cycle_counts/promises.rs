@@ -1,4 +1,4 @@
-//! What is promised, and which property in which Verilog says so.
+//! Promised numbers, and the property in Verilog that states each.
 
 use tofsim::firmware::centroid_estimator;
 use tofsim::firmware::histogram_builder;
@@ -81,11 +81,11 @@ static PULSE: Properties = Properties {
 /// A promise.
 #[derive(Debug)]
 pub struct Promise {
-    /// What is promised, for people.
+    /// Name of the number, for people.
     pub what: String,
     /// The number.
     pub expected: u64,
-    /// Where its property stands.
+    /// Verilog that has its property.
     pub properties: &'static Properties,
     /// The property: a wire in that module.
     pub property: &'static str,
@@ -123,7 +123,7 @@ impl Promise {
     }
 }
 
-/// What is promised of an estimator that a design may leave out.
+/// Returns the promise of an estimator that a design may leave out.
 pub fn centroid(design: &Design) -> Promise {
     let bins = design.estimator.bins;
     let histogram = histogram_builder::Params { bins, ..histogram_builder::Params::default() };

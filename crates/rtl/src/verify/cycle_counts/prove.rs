@@ -12,11 +12,11 @@ use crate::verify::yosys;
 use super::design::with_defines;
 use super::promises::Promise;
 
-/// What one run of Yosys says.
+/// Result of one run of Yosys.
 enum Answer {
-    /// It is proven.
+    /// The property is proven.
     Holds,
-    /// It is not.
+    /// The property does not hold, for this reason.
     Fails(String),
     /// There is no answer.
     Stuck(String),
@@ -64,7 +64,7 @@ fn ask(
     Ok(answer(promise, &YOSYS.run(folder, args, limits)?, limits))
 }
 
-/// What Yosys is to do. A module that is left open is one that it does not know.
+/// Commands for Yosys. A module that is left open is one that it does not know.
 fn script(promise: &Promise, number: u64) -> String {
     let Promise { properties, property, parameter, .. } = promise;
     let module = properties.module;

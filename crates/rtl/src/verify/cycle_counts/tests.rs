@@ -1,4 +1,4 @@
-//! What is promised holds of our own Verilog; what cannot be counted or proven is said so.
+//! Promises hold of our own Verilog; what cannot be counted or proven is reported.
 
 use std::fs;
 use std::time::Duration;
@@ -52,7 +52,7 @@ fn everything_that_is_promised_is_counted_and_proven() {
     }
 }
 
-/// What is promised of either estimator with so many bins and neurons, each counted and proven.
+/// Proves the promises of either estimator with so many bins and neurons; returns the numbers.
 fn proven(bins: usize, neurons: usize) -> Vec<u64> {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
@@ -96,7 +96,7 @@ fn below_eight_neurons_the_pipeline_decides_and_from_there_on_a_clock_a_neuron()
     }
 }
 
-/// What is promised of the likelihood estimator of such an instrument, counted and proven.
+/// Proves the promise of the likelihood estimator of such an instrument; returns the number.
 fn likelihood(set: &[&str]) -> u64 {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
@@ -124,7 +124,7 @@ fn a_likelihood_estimation_takes_as_long_as_bins_box_and_fit_say() {
     assert_eq!(cycles, [2023, 2103, 2643, 4883, 8495]);
 }
 
-/// What is promised of other lasers is counted and proven, each with its numbers.
+/// Counts and proves the promises of other lasers, each with its numbers.
 #[test]
 #[ignore = "long: ./check --full"]
 fn other_laser_periods_pulses_and_clocks_are_counted_and_proven() {

@@ -1,4 +1,4 @@
-//! What Icarus says of a module, from its compiled form.
+//! Reads the interface of a module from Icarus's compiled form.
 
 use super::{Interface, PortShape};
 

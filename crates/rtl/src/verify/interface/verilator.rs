@@ -1,4 +1,4 @@
-//! What Verilator says of a module, from its XML.
+//! Reads the interface of a module from Verilator's XML.
 
 use roxmltree::{Document, Node};
 

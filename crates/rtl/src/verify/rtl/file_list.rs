@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tofsim::error::{Error, Input, Result, read_text};
 
-/// What file lists and options name.
+/// Files and options that file lists name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Listed {
     /// Sources, in order.
@@ -19,7 +19,7 @@ pub struct Listed {
     pub library_files: Vec<PathBuf>,
     /// Suffixes of files in those folders, with their dot.
     pub suffixes: Vec<String>,
-    /// Whether all files are SystemVerilog, whatever their suffix.
+    /// True if all files are SystemVerilog, whatever their suffix.
     pub system_verilog: bool,
     /// Options that are passed over, with their place.
     pub unknown: Vec<String>,

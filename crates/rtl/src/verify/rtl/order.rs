@@ -1,4 +1,4 @@
-//! Which files are compiled, and in which order.
+//! Selects the files to compile, and their order.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use super::source::Source;
 /// The Verilog of a design.
 #[derive(Clone, Copy, Debug)]
 pub struct Tree<'a> {
-    /// Where it comes from, for people.
+    /// Its origin, for people.
     pub name: &'a str,
     /// Its files.
     pub files: &'a [Source],
@@ -32,7 +32,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// What a file names, with what the files name that it includes.
+/// Collects the names in a file and in the files that it includes.
 fn words(tree: &Tree, source: &Source) -> Included {
     let mut all = Included::default();
     all.add(tree, &source.path, &source.scan);
@@ -92,7 +92,7 @@ fn choose(tree: &Tree, roots: &BTreeSet<String>) -> BTreeSet<PathBuf> {
     chosen
 }
 
-/// Whether no two files declare the same module; one under a condition is the simulator's to judge.
+/// Checks that no two files declare the same module; one under a condition is the simulator's to judge.
 fn duplicates(tree: &Tree, files: &[&Source]) -> Result<()> {
     let mut first = BTreeMap::new();
     for file in files {

@@ -1,5 +1,5 @@
-//! What a source file declares and what it names, without a parser: comments and strings are passed over,
-//! and so nothing in them counts.
+//! Finds what a source file declares and names, without a parser: comments and strings are passed over, and
+//! so nothing in them counts.
 
 use std::collections::BTreeSet;
 
@@ -23,7 +23,7 @@ pub struct Scan {
 pub struct Declared {
     /// Its name.
     pub name: String,
-    /// Whether it stands under an `` `ifdef `` or the like, so that it need not be there.
+    /// True if it stands under an `` `ifdef `` or the like, so that it need not be there.
     pub conditional: bool,
 }
 
@@ -97,10 +97,10 @@ impl Scan {
     }
 }
 
-/// How a language writes comments.
+/// Comment and string syntax of a language.
 struct Syntax {
     line_comment: &'static str,
-    /// Whether a backslash in a string takes the next character with it.
+    /// True if a backslash in a string takes the next character with it.
     escapes: bool,
 }
 
@@ -149,7 +149,8 @@ fn tokens<'a>(text: &'a str, syntax: &Syntax) -> Vec<Token<'a>> {
     tokens
 }
 
-/// Where the string ends whose opening quote is before `text`; at the end of a line without one.
+/// Returns the end of the string whose opening quote is before `text`; the end of the line if it is not
+/// closed.
 fn end_of_string(text: &str, escapes: bool) -> usize {
     let mut escaped = false;
     let end = text.char_indices().find(|(_, c)| {

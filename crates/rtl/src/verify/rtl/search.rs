@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use tofsim::error::{Error, Result};
 
-/// Whether a path has one of these suffixes, in upper or lower case.
+/// Returns whether a path has one of these suffixes, in upper or lower case.
 pub fn ends_in(path: &Path, ends: &[&str]) -> bool {
     path.extension().is_some_and(|end| ends.iter().any(|it| end.eq_ignore_ascii_case(it)))
 }

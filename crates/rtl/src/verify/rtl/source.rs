@@ -12,9 +12,9 @@ use super::search;
 pub struct Source {
     /// Its absolute path.
     pub path: PathBuf,
-    /// What it declares and names.
+    /// Names that it declares and uses.
     pub scan: Scan,
-    /// Whether it was found in a folder: then it is compiled only where something in it is needed.
+    /// True if it was found in a folder: then it is compiled only where something in it is needed.
     pub found: bool,
 }
 
@@ -37,7 +37,7 @@ impl Source {
         search::ends_in(&self.path, &["vhd", "vhdl"])
     }
 
-    /// Whether it says by its name that it is SystemVerilog.
+    /// Returns whether it says by its name that it is SystemVerilog.
     pub fn is_system_verilog(&self) -> bool {
         search::ends_in(&self.path, &["sv"])
     }

@@ -1,4 +1,4 @@
-//! Why a simulator does not take a design: the first real error that it tells, and what helps.
+//! Explains why a simulator refuses a design: its first real error, and an option that helps.
 
 use tofsim::error::Input;
 
@@ -8,10 +8,10 @@ use crate::verify::rtl::Rtl;
 /// Lines of a simulator's message that are passed on.
 const LINES: usize = 12;
 
-/// What it says where there is no such module, or where none is left after another error.
+/// Messages for a missing module, or for none that is left after another error.
 const NO_ROOT: [&str; 2] = ["Unable to find the root module", "was not found in design"];
 
-/// What a line says, and the option that helps.
+/// Words in a message, and the option that helps.
 const HINTS: [(&str, &str); 5] = [
     ("Include file ", "-I DIR names a folder to look in"),
     ("Cannot find include file", "-I DIR names a folder to look in"),
@@ -20,10 +20,10 @@ const HINTS: [(&str, &str); 5] = [
     ("was already declared here", "name the sources one by one, or in a file list (-f)"),
 ];
 
-/// What Icarus says of an unknown macro before it goes on as if it were empty.
+/// Icarus's message on an unknown macro before it goes on as if it were empty.
 const NO_MACRO: &str = "undefined (and assumed null)";
 
-/// Whether it went on without a macro.
+/// Returns whether it went on without a macro.
 pub fn lacks_macro(finished: &Finished) -> bool {
     finished.output.contains(NO_MACRO)
 }

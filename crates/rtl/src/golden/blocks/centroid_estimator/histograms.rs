@@ -7,10 +7,11 @@ use tofsim::sim::estimates::centroid::Found;
 use crate::golden::estimations::{Histogram, draws};
 use crate::golden::prelude::*;
 
-/// How many histograms.
+/// Number of histograms.
 const COUNT: usize = 32;
 
-/// How the bench reads them: as from `histogram_preload`, there is a word while `read_en` is low too.
+/// Connection of `count` in the bench: as from `histogram_preload`, there is a word while `read_en` is low
+/// too.
 pub(super) const GLUE: Glue = Glue {
     drives: "count",
     verilog: |sizes| {
@@ -38,17 +39,17 @@ pub(super) const GLUE: Glue = Glue {
     },
 };
 
-/// What [`cases`] are of.
+/// Description of [`cases`].
 pub(super) const CASES: &str =
     "nothing, peak in the first bin, in the last, window cut on the left, on the right, equal maxima";
 
-/// Which of the cases those parameters allow: bin 0 does not stand above itself.
+/// Marks the cases that those parameters allow: bin 0 does not stand above itself.
 pub(super) fn reachable(p: &Params) -> [bool; 6] {
     [true, !p.background, true, !p.background || p.half_width > 1, true, true]
 }
 
-/// Which limits of its range an estimation met: nothing stands out; the maximum is the first word, or
-/// the last; the window begins before the first word, or ends after the last; a later bin is as high.
+/// Marks the limits of its range that an estimation met: nothing stands out; the maximum is the first word,
+/// or the last; the window begins before the first word, or ends after the last; a later bin is as high.
 pub(super) fn cases(p: &Params, histogram: &[u32], found: &Found) -> [bool; 6] {
     if found.best == 0 {
         return [true, false, false, false, false, false];
@@ -62,7 +63,7 @@ pub(super) fn cases(p: &Params, histogram: &[u32], found: &Found) -> [bool; 6] {
     [false, peak == 0, peak == last, peak < w, peak + w > last, equal]
 }
 
-/// Those of every kind.
+/// Draws histograms of every kind.
 pub(super) fn new(p: &Params, draw: &mut Draw) -> Vec<Histogram> {
     let (w, size) = (p.half_width as usize, &p.histogram);
     let (bins, last, most) = (size.bins, size.bins - 1, size.most_hits());

@@ -7,12 +7,12 @@ use tofsim::firmware::histogram_builder;
 use crate::golden::estimations::{Histogram, draws};
 use crate::golden::prelude::*;
 
-/// How many histograms.
+/// Number of histograms.
 const COUNT: usize = 64;
-/// How many are measured ones that each estimator under test must have seen, at least.
+/// Number of measured histograms that each estimator under test must have seen, at least.
 const MEASURED: usize = 5;
 
-/// How the bench reads them.
+/// Connection of `count` in the bench.
 pub(super) const GLUE: Glue = Glue {
     drives: "count",
     verilog: |sizes| {

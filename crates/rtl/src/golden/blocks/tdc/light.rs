@@ -30,11 +30,11 @@ fn ages(delays: &Delays, cycle: Time) -> impl Iterator<Item = Ages> {
     })
 }
 
-/// What the SPAD sees.
+/// Pulses that the SPAD makes.
 pub(super) struct Light {
     /// Its output.
     pub(super) stops: Stops,
-    /// What is swept.
+    /// Ages that are swept.
     pub(super) ages: Vec<Ages>,
     turn: usize,
     delays: Delays,
