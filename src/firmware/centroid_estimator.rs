@@ -27,27 +27,20 @@ use crate::kernel::{S, U};
 use crate::signals;
 
 use super::forward2::Depth;
-use super::histogram_builder::{self, Bin, Count};
+use super::histogram_builder::{Bin, Count};
 
-/// Largest W [bins].
-pub const MOST_HALF_WIDTH: u64 = 31;
+mod params;
+
+pub use params::{
+    MOST_HALF_WIDTH, Offset, POSITION_FRACTION, Params, SLOPE_FRACTION, Slope, position_bits,
+};
+use params::{QUOTIENT_BITS, SUMS};
+
 /// Words that the window can remember.
 const WORDS: usize = 64;
-/// Cycles from the one of a word to the one that lets it into the sums.
-const SUMS: u64 = 2;
-/// Bits of the quotient: 6 before the point, 12 after it.
-const QUOTIENT_BITS: u32 = 18;
-/// Fraction bits of quotient and position.
-pub const POSITION_FRACTION: u32 = 12;
 /// Bits of the position that one multiplier takes.
 const FINE_BITS: u32 = 18;
 
-/// Distance of a bin, 24 fraction bits [m].
-pub type Slope = U<17>;
-/// Fraction bits of [`Slope`].
-pub const SLOPE_FRACTION: u32 = 24;
-/// Distance that is added [m].
-pub type Offset = S<30, 29>;
 /// Fraction bits of the product that a depth word does not have.
 pub const SURPLUS: u32 = POSITION_FRACTION + SLOPE_FRACTION - 29;
 
@@ -61,62 +54,6 @@ signals! {
         /// Word of the histogram at `read_addr` [hits].
         #[size(CountBits)]
         pub count: Count,
-    }
-}
-
-/// Verilog parameters.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Params {
-    /// Size of the histogram.
-    pub histogram: histogram_builder::Params,
-    /// W: words of the window to either side of its centre, 1 to 31 [bins].
-    pub half_width: u64,
-    /// True if height is counted from the window's first word and not from zero.
-    pub background: bool,
-    /// Distance of a bin.
-    pub slope: Slope,
-    /// Distance that is added.
-    pub offset: Offset,
-}
-
-impl Default for Params {
-    /// As the Verilog: W = 23, above the background, c/2 for 25 ps a bin, no offset.
-    fn default() -> Self {
-        Params {
-            histogram: histogram_builder::Params::default(),
-            half_width: 23,
-            background: true,
-            slope: U::new(62_871),
-            offset: S::new(0),
-        }
-    }
-}
-
-/// Width of the position in a histogram: 12 fraction bits, and a bin's number, which has 7 bits at least, so
-/// that one multiplier never takes all of it [bits].
-pub fn position_bits(histogram: &histogram_builder::Params) -> u32 {
-    histogram.bins.ilog2().max(7) + POSITION_FRACTION
-}
-
-impl Params {
-    /// First cycle of the division, when the last centre has been looked at with any W.
-    pub fn divide(&self) -> u64 {
-        self.histogram.bins as u64 + MOST_HALF_WIDTH + 1 + SUMS
-    }
-
-    /// Cycle before the edge that makes the position.
-    pub fn place(&self) -> u64 {
-        self.divide() + QUOTIENT_BITS as u64
-    }
-
-    /// Cycle before the edge that makes the depth.
-    fn last(&self) -> u64 {
-        self.done() - 1
-    }
-
-    /// Cycle in which the depth is ready: the estimator's latency [cycles of clk_sys].
-    pub fn done(&self) -> u64 {
-        self.place() + 4
     }
 }
 
@@ -326,70 +263,4 @@ impl Registers {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::histogram_builder::BINS;
-    use super::*;
-
-    const IDLE: In = In { rst: false, algo_start: false, count: U::new(0) };
-    const GO: In = In { algo_start: true, ..IDLE };
-
-    /// The block in each cycle from e0 on, over a histogram, with the inputs `at` says.
-    fn cycles(histogram: &[u64; BINS], at: impl Fn(u64) -> In) -> Vec<Registers> {
-        let mut block = CentroidEstimator::default();
-        block.rise(&GO, &Params::default());
-        (0..700)
-            .map(|cycle| {
-                let now = block.registers;
-                let count = if now.read_en { histogram[now.read_addr.index()] } else { 999 };
-                block.rise(&In { count: U::new(count), ..at(cycle) }, &Params::default());
-                now
-            })
-            .collect()
-    }
-
-    fn one(bin: usize) -> [u64; BINS] {
-        std::array::from_fn(|k| if k == bin { 50 } else { 0 })
-    }
-
-    #[test]
-    fn the_depth_is_ready_311_edges_after_the_start_is_taken() {
-        let cycles = cycles(&one(100), |_| IDLE);
-        let done: Vec<_> = (0..700).filter(|&cycle| cycles[cycle].algo_done).collect();
-        assert_eq!(done, [312]);
-        let metres = cycles[312].depth.to_f64();
-        assert!((metres - 100.5 * 0.003_747_405_725).abs() < 1e-6, "{metres}");
-        assert_eq!(cycles[699].depth, cycles[312].depth);
-    }
-
-    #[test]
-    fn each_word_is_read_once_and_in_order() {
-        let cycles = cycles(&one(100), |_| IDLE);
-        let read = cycles.iter().filter(|now| now.read_en).map(|now| now.read_addr.get());
-        assert!(read.eq(0..256));
-    }
-
-    #[test]
-    fn a_start_while_busy_is_ignored_and_one_with_algo_done_is_taken() {
-        let at = |again| move |cycle| if cycle == again { GO } else { IDLE };
-        assert_eq!(cycles(&one(100), at(311)), cycles(&one(100), |_| IDLE));
-        let again = cycles(&one(100), at(312));
-        assert!(again[313].read_en && again[312 + 313].algo_done);
-    }
-
-    #[test]
-    fn a_reset_drops_everything_and_leaves_no_trace_in_the_next_estimation() {
-        let reset = |cycle| In { rst: cycle == 200, algo_start: cycle == 210, ..IDLE };
-        let cycles = cycles(&one(100), reset);
-        assert_eq!(cycles[201], Registers::default());
-        assert_eq!(cycles.iter().position(|now| now.algo_done), Some(211 + 312));
-        let metres = cycles[211 + 312].depth.to_f64();
-        assert!((metres - 100.5 * 0.003_747_405_725).abs() < 1e-6, "{metres}");
-    }
-
-    #[test]
-    fn nothing_stands_out_of_an_empty_or_a_full_histogram() {
-        for histogram in [[0; BINS], [65_535; BINS]] {
-            assert_eq!(cycles(&histogram, |_| IDLE)[312].depth, Depth::new(0));
-        }
-    }
-}
+mod tests;

@@ -3,68 +3,9 @@
 //! A signal names its size with `#[size(BinBits)]` ([`crate::signals`]), a Verilog module with a
 //! parameter of the same name.
 
-use super::word_format::WordFormat;
+mod design;
 
-/// Independent numbers of a design, from which every [`Size`] follows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sizes {
-    /// Taps of the delay chain.
-    pub taps: u32,
-    /// Bits of the coarse count.
-    pub coarse_bits: u32,
-    /// Clock period [time units of the decoder].
-    pub cycle: u32,
-    /// Binary digits of a time below a bin.
-    pub digits: u32,
-    /// Bits of an age in the calibration ROM.
-    pub age_bits: u32,
-    /// Registers of the ones count.
-    pub count_stages: u32,
-    /// True if the firmware calibrates its TDC.
-    pub calibrates: bool,
-    /// Hits of a calibration, as a power of two.
-    pub hits_log2: u32,
-    /// Laser rates to choose from.
-    pub rates: u32,
-    /// Longest laser period [cycles of clk_sys].
-    pub longest_period: u32,
-    /// Length of the laser pulse [half cycles of clk_laser].
-    pub pulse_half_cycles: u32,
-    /// Length of Drain [cycles of clk_sys].
-    pub drain_cycles: u32,
-    /// Bins of the histogram, a power of two.
-    pub bins: u32,
-    /// Bits of a bin count.
-    pub count_bits: u32,
-    /// Hidden neurons.
-    pub neurons: u32,
-    /// Format of the hidden layer's weights.
-    pub w1: WordFormat,
-    /// Format of the hidden layer's biases.
-    pub b1: WordFormat,
-    /// Format of the output layer's weights.
-    pub w2: WordFormat,
-    /// Format of the output layer's bias.
-    pub b2: WordFormat,
-    /// Format of an activation.
-    pub activation: WordFormat,
-    /// Bits of an address of the activation table.
-    pub address_bits: u32,
-    /// Range of the activation table: minus to plus two to this power.
-    pub range_log2: u32,
-    /// Bits of a sum of the hidden layer.
-    pub sum_bits: u32,
-    /// Bits of a sum of the output layer.
-    pub output_sum_bits: u32,
-    /// Latency of the network [cycles of clk_sys].
-    pub network_cycles: u32,
-    /// Latency of the centroid estimator [cycles of clk_sys].
-    pub centroid_cycles: u32,
-    /// Latency of the likelihood estimator [cycles of clk_sys].
-    pub likelihood_cycles: u32,
-    /// Bits of a word of the likelihood estimator's solver.
-    pub word_bits: u32,
-}
+pub use design::Sizes;
 
 /// Declares [`Size`]: a line has the meaning of a size, its name in Rust and Verilog, its value in a
 /// design, and after `point` the fraction bits of a signed word of that width.
@@ -203,11 +144,11 @@ sizes! { s:
     /// Bits of a remainder of the division.
     RemainderBits = s.count_bits + 13;
     /// Bits of a position in the histogram.
-    PositionBits = s.position_bits();
+    PositionBits = s.position_bits;
     /// Bits of the position's upper part.
-    PositionCoarseBits = s.position_bits() - 1;
+    PositionCoarseBits = s.position_bits - 1;
     /// Bits of a distance before it is cut to a depth.
-    DistanceBits = s.position_bits() + 10;
+    DistanceBits = s.position_bits + 10;
 
     /// Bits of a number of bins.
     PlaceBits = s.bin_bits() + 1;
@@ -309,25 +250,6 @@ impl Size {
     /// Size of a Verilog parameter.
     pub fn named(name: &str) -> Option<Self> {
         Size::ALL.iter().copied().find(|size| size.name() == name)
-    }
-}
-
-impl Sizes {
-    fn bin_bits(&self) -> u32 {
-        self.bins.ilog2()
-    }
-
-    /// 12 fraction bits and the number of a bin, which has 7 bits at least, so that one multiplier never takes all.
-    fn position_bits(&self) -> u32 {
-        self.bin_bits().max(7) + 12
-    }
-
-    fn rest_bits(&self) -> u32 {
-        self.count_bits + self.bin_bits()
-    }
-
-    fn weight_bits(&self) -> u32 {
-        (self.count_bits + 8).max(24)
     }
 }
 

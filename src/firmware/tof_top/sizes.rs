@@ -89,6 +89,7 @@ fn usual(
         output_sum_bits: datapath.output_sum_bits(),
         network_cycles: network.done() as u32,
         centroid_cycles: centroid.done() as u32,
+        position_bits: centroid_estimator::position_bits(histogram),
         likelihood_cycles: 0,
         word_bits: likelihood_estimator::params::word_bits(histogram),
     }
