@@ -8,11 +8,7 @@ module bench_shot;
     reg [`RATE_BITS-1:0] laser_freq = 0;
     wire pre_start, start, laser_on, spad_rst;
 
-`ifdef LASER
-    vcsel_driver #(`LASER) vcsel_driver (
-`else
-    vcsel_driver vcsel_driver (
-`endif
+    vcsel_driver `LASER vcsel_driver (
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
         .rst(rst),

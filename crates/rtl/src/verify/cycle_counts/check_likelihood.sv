@@ -1,21 +1,5 @@
-`default_nettype none
-
-// What holds of likelihood_estimator in every cycle, for every pattern of starts and resets, once it has been reset
-// in the first. `HOLDS names the property to prove.
-//
-// The blocks that go through the bins are left open, so it holds whatever is in the histogram. Of the solver remains
-// how it goes through its programs. The registers of both make the induction go through without unrolling an
-// estimation. `LIKELIHOOD sets the parameters where they are not the default; the other macros are of the same names
-// in any case.
-module check_likelihood #(
-    parameter Latency = 3779  // cycle of algo_done, counted from the edge that takes a start
-) (
-    input wire clk_sys,
-    input wire rst,
-    input wire algo_start,
-    input wire mode,
-    input wire [15:0] count
-);
+    // The blocks that go through the bins are left open, so it holds whatever is in the histogram. Of the solver remains
+    // how it goes through its programs.
     localparam [3:0] Idle = 4'd0, Load = 4'd1, Ambient = 4'd2, Scan = 4'd3, Start = 4'd4, Fit = 4'd5, Step = 4'd6,
         Check = 4'd7, Rescan = 4'd8, End = 4'd9;
     // Cycles of each state
@@ -28,7 +12,6 @@ module check_likelihood #(
     localparam [15:0] FitFrom = StartFrom + StartFor, CheckFrom = FitFrom + 6 * (FitFor + StepFor);
     localparam [15:0] RescanFrom = CheckFrom + FitFor, EndFrom = RescanFrom + ScanFor;
 
-    wire algo_done;
     (* hierconn *) wire [3:0] \dut.state ;
     (* hierconn *) wire [$clog2(`LIKELIHOOD_BINS)+2:0] \dut.waited ;
     (* hierconn *) wire [2:0] \dut.steps ;
@@ -39,11 +22,7 @@ module check_likelihood #(
     (* hierconn *) wire [6:0] \dut.likelihood_solver.counter ;
     (* hierconn *) wire [5:0] \dut.likelihood_solver.pause ;
 
-`ifdef LIKELIHOOD
-    likelihood_estimator #(`LIKELIHOOD) dut (
-`else
-    likelihood_estimator dut (
-`endif
+    likelihood_estimator `LIKELIHOOD dut (
         .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
@@ -51,19 +30,6 @@ module check_likelihood #(
         .count(count),
         .algo_done(algo_done)
     );
-
-    // Counts by itself: a start is taken unless one is under way, and is under way until algo_done.
-    reg first = 1'b1;      // the first cycle
-    reg under_way = 1'b0;  // cycles e0 .. e(Latency - 1)
-    reg done = 1'b0;       // cycle eLatency
-    reg [15:0] k = 16'd0;  // in cycle ek
-
-    always @(posedge clk_sys) begin
-        first <= 1'b0;
-        under_way <= !rst && (under_way ? k + 1 < Latency : algo_start);
-        done <= !rst && under_way && k + 1 == Latency;
-        k <= !rst && under_way ? k + 16'd1 : 16'd0;
-    end
 
     wire likelihood_latency = algo_done == done;
 
@@ -184,9 +150,3 @@ module check_likelihood #(
         ? k == from + in_state && in_state < within && (solves ? in_program : !solver_works)
             && (state < Fit ? steps == 0 : state > Step || steps <= 5) && k < Latency && !done
         : state == Idle && !solver_works && done == (k == Latency) && (done || k == 16'd0);
-
-    always @* begin
-        if (first) assume (rst);
-        else assert (in_step && `HOLDS);
-    end
-endmodule

@@ -19,11 +19,7 @@ module check_pulse #(
     wire clk_laser = !half[0];
     wire start, laser_on;
 
-`ifdef LASER
-    vcsel_driver #(`LASER) dut (
-`else
-    vcsel_driver dut (
-`endif
+    vcsel_driver `LASER dut (
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
         .rst(rst),

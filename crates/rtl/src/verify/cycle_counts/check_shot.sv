@@ -17,11 +17,7 @@ module check_shot #(
 );
     wire pre_start, start, spad_rst;
 
-`ifdef LASER
-    vcsel_driver #(`LASER) vcsel_driver (
-`else
-    vcsel_driver vcsel_driver (
-`endif
+    vcsel_driver `LASER vcsel_driver (
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
         .rst(rst),
@@ -93,7 +89,7 @@ module check_shot #(
 
     // Of a laser with parameters the registers are known; they make the induction go through without unrolling
     // a period.
-`ifdef LASER
+`ifdef PERIODS
     (* hierconn *) wire [`PERIOD_BITS-1:0] \vcsel_driver.count ;
     (* hierconn *) wire [`PERIOD_BITS-1:0] \vcsel_driver.last ;
     localparam [127:0] Periods = `PERIODS;
@@ -104,9 +100,3 @@ module check_shot #(
 `else
     wire in_step = 1'b1;
 `endif
-
-    always @* begin
-        if (first) assume (rst);
-        else assert (in_step && `HOLDS);
-    end
-endmodule

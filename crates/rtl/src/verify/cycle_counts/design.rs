@@ -30,7 +30,7 @@ pub struct Design {
     pub laser: vcsel_driver::Params,
     /// Half a cycle of `clk_laser`, rounded down [ps].
     pub half_ps: u64,
-    /// Parameters of the laser that are not the default.
+    /// Parameters of the laser that are not the default, as an instance sets them.
     parameters: String,
     /// Bits of `laser_freq`, and of a count in the longest period.
     rate_bits: u32,
@@ -42,12 +42,12 @@ impl Design {
     pub fn of(setup: &Setup) -> Self {
         let (sizes, laser) = (setup.params.sizes(), setup.params.vcsel_driver.clone());
         let own = sized(&setup.params, VCSEL_DRIVER);
-        let set = |(name, value): &(&str, Parameter)| format!(".{name}({})", value.literal());
+        let own = own.iter().map(|(name, value)| format!(".{name}({})", value.literal()));
         Design {
             estimator: setup.params.depth_estimator.ctrl(),
             likelihood: setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).ok(),
             half_ps: setup.pll().cycle.fs() / 4000,
-            parameters: own.iter().map(set).collect::<Vec<_>>().join(", "),
+            parameters: set(own.collect()),
             rate_bits: sizes.of(Size::RateBits),
             period_bits: sizes.of(Size::PeriodBits),
             laser,
@@ -59,17 +59,19 @@ impl Design {
         6 * self.laser.longest_period() + 100
     }
 
-    /// The macros that set numbers of bins and neurons, where they are not the default: another design need not
-    /// have those parameters.
+    /// The macros with numbers of bins and neurons, and the parameters that set them.
     pub fn of_estimator(&self) -> Vec<Define> {
-        let sizes =
-            [("NEURONS", self.estimator.neurons, NEURONS), ("BINS", self.estimator.bins, BINS)];
-        let others = sizes.into_iter().filter(|(_, own, usual)| own != usual);
-        others.map(|(name, own, _)| (name, own.to_string())).collect()
+        let estimator_ctrl::Params { bins, neurons } = self.estimator;
+        let bin_bits = ("BinBits", bins.ilog2() as usize, BINS.ilog2() as usize);
+        vec![
+            ("BINS", bins.to_string()),
+            ("NEURONS", neurons.to_string()),
+            ("NETWORK", others(&[("Neurons", neurons, NEURONS), bin_bits])),
+            ("CENTROID", others(&[bin_bits])),
+        ]
     }
 
-    /// The macros that say how large the likelihood estimator is, and set its parameters where they are not the
-    /// default.
+    /// The macros that say how large the likelihood estimator is, and its parameters.
     pub fn of_likelihood(&self) -> Vec<Define> {
         let Some(params) = &self.likelihood else { return Vec::new() };
         let bins = params.histogram.bins;
@@ -80,21 +82,16 @@ impl Design {
             ("BinsBefore", before, BESIDE),
             ("BinsAfter", after, BESIDE),
         ];
-        let others = sizes.iter().filter(|(_, own, usual)| own != usual);
-        let own: Vec<_> = others.map(|(name, own, _)| format!(".{name}({own})")).collect();
-        let mut defines = vec![
+        vec![
             ("LIKELIHOOD_BINS", bins.to_string()),
             ("LIKELIHOOD_BOX", params.box_bins.to_string()),
             ("LIKELIHOOD_BEFORE", before.to_string()),
             ("LIKELIHOOD_AFTER", after.to_string()),
-        ];
-        if !own.is_empty() {
-            defines.push(("LIKELIHOOD", own.join(", ")));
-        }
-        defines
+            ("LIKELIHOOD", others(&sizes)),
+        ]
     }
 
-    /// The macros that say how the laser fires, and set its parameters where they are not the default.
+    /// The macros that say how the laser fires, and its parameters. The periods are known where it has any.
     pub fn of_laser(&self) -> Vec<Define> {
         let mut defines = vec![
             ("CODES", self.laser.periods.len().to_string()),
@@ -102,10 +99,10 @@ impl Design {
             ("PERIOD_BITS", self.period_bits.to_string()),
             ("HALF", self.half_ps.to_string()),
             ("PATIENCE", self.patience().to_string()),
+            ("LASER", self.parameters.clone()),
         ];
         if !self.parameters.is_empty() {
             let periods = Parameter::Words(self.laser.every_period().to_vec());
-            defines.push(("LASER", self.parameters.clone()));
             defines.push(("PERIODS", periods.literal()));
         }
         defines
@@ -117,8 +114,20 @@ impl Design {
     }
 }
 
-/// A text after the lines that define macros.
-pub fn with_defines(defines: &[Define], text: &str) -> String {
+/// Parameters of an instance, of those that are not the default: another design need not have them.
+fn others(sizes: &[(&str, usize, usize)]) -> String {
+    let others = sizes.iter().filter(|(_, own, usual)| own != usual);
+    set(others.map(|(name, own, _)| format!(".{name}({own})")).collect())
+}
+
+/// The list of parameters of an instance, if there are any.
+fn set(parameters: Vec<String>) -> String {
+    if parameters.is_empty() { String::new() } else { format!("#({})", parameters.join(", ")) }
+}
+
+/// The text of a module after the lines that define macros.
+pub fn with_defines(module: &str, defines: &[Define], text: &str) -> String {
     let line = |(name, value): &Define| format!("`define {name} {value}\n");
-    defines.iter().map(line).collect::<String>() + text
+    let lines: String = defines.iter().map(line).collect();
+    format!("`define MODULE {module}\n{lines}{text}")
 }

@@ -33,15 +33,22 @@ impl Properties {
     }
 }
 
+/// Properties of an estimator: the part of its own between the head and the tail that all have.
+macro_rules! of_estimator {
+    ($own:literal) => {
+        concat!(include_str!("check_head.sv"), include_str!($own), include_str!("check_tail.sv"))
+    };
+}
+
 static ESTIMATOR: Properties = Properties {
     open: &["forward1", "forward2", "tansig"],
     registers: &["estimator_ctrl.busy", "estimator_ctrl.step"],
-    ..Properties::new("check_estimator", include_str!("check_estimator.sv"))
+    ..Properties::new("check_estimator", of_estimator!("check_estimator.sv"))
 };
 
 static CENTROID: Properties = Properties {
     registers: &["busy", "step"],
-    ..Properties::new("check_centroid", include_str!("check_centroid.sv"))
+    ..Properties::new("check_centroid", of_estimator!("check_centroid.sv"))
 };
 
 /// The solver's program is a large `case`, which `proc` would make a memory, and no proof reads memories. What only
@@ -62,13 +69,16 @@ static LIKELIHOOD: Properties = Properties {
     logic: "proc -norom; delete */t:likelihood_memory */t:likelihood_terms */t:likelihood_sums */t:likelihood_scan \
             */t:$memwr*",
     steps: 2,
-    ..Properties::new("check_likelihood", include_str!("check_likelihood.sv"))
+    ..Properties::new("check_likelihood", of_estimator!("check_likelihood.sv"))
 };
 
 static SHOT: Properties = Properties {
     open: &["ddr_output"],
     steps: 40,
-    ..Properties::new("check_shot", include_str!("check_shot.sv"))
+    ..Properties::new(
+        "check_shot",
+        concat!(include_str!("check_shot.sv"), include_str!("check_tail.sv")),
+    )
 };
 
 static PULSE: Properties = Properties {
@@ -123,6 +133,12 @@ impl Promise {
     }
 }
 
+/// The macros of an estimator with the latency that is promised of it.
+fn with_latency(mut defines: Vec<Define>, latency: u64) -> Vec<Define> {
+    defines.push(("LATENCY", latency.to_string()));
+    defines
+}
+
 /// Returns the promise of an estimator that a design may leave out.
 pub fn centroid(design: &Design) -> Promise {
     let bins = design.estimator.bins;
@@ -131,7 +147,7 @@ pub fn centroid(design: &Design) -> Promise {
     let what = "centroid estimator: algo_start taken to algo_done";
     Promise {
         parameter: "Latency",
-        defines: design.of_estimator(),
+        defines: with_latency(design.of_estimator(), done),
         ..Promise::new(&CENTROID, "centroid_latency", done, what)
     }
 }
@@ -142,16 +158,19 @@ pub fn likelihood(design: &Design) -> Option<Promise> {
     let what = "likelihood estimator: algo_start taken to algo_done";
     Some(Promise {
         parameter: "Latency",
-        defines: design.of_likelihood(),
+        defines: with_latency(design.of_likelihood(), done),
         ..Promise::new(&LIKELIHOOD, "likelihood_latency", done, what)
     })
 }
 
 /// Everything else that is promised of a design.
 pub fn promises(design: &Design) -> Vec<Promise> {
+    let (bins, neurons) = (design.estimator.bins as u64, design.estimator.neurons as u64);
+    let pairs = neurons.div_ceil(2);
+    let latency = bins + (3 + neurons).max(7 + pairs);
     let estimator = |property, parameter, expected, what| Promise {
         parameter,
-        defines: design.of_estimator(),
+        defines: with_latency(design.of_estimator(), latency),
         ..Promise::new(&ESTIMATOR, property, expected, format!("estimator: {what}"))
     };
     let layer = |property, parameter, expected, enable| Promise {
@@ -162,11 +181,9 @@ pub fn promises(design: &Design) -> Vec<Promise> {
         defines: design.of_laser(),
         ..Promise::new(properties, property, expected, what)
     };
-    let latency = "algo_start taken to algo_done".to_owned();
-    let (bins, neurons) = (design.estimator.bins as u64, design.estimator.neurons as u64);
-    let pairs = neurons.div_ceil(2);
+    let to_done = "algo_start taken to algo_done".to_owned();
     let mut promises = vec![
-        estimator("latency", "Latency", bins + (3 + neurons).max(7 + pairs), latency),
+        estimator("latency", "Latency", latency, to_done),
         layer("forward1_cycles", "Forward1", bins, "forward1_en"),
         layer("tansig_cycles", "Tansig", 1, "tansig_en"),
         layer("forward2_cycles", "Forward2", pairs, "forward2_en"),

@@ -34,7 +34,10 @@ pub fn prove(
     limits: &Limits,
 ) -> Result<Option<String>> {
     let file = folder.join(promise.properties.module).with_extension("sv");
-    write_bytes(&file, with_defines(&promise.defines, promise.properties.text))?;
+    write_bytes(
+        &file,
+        with_defines(promise.properties.module, &promise.defines, promise.properties.text),
+    )?;
     match ask(promise, promise.expected, rtl, folder, limits)? {
         Answer::Holds => {}
         Answer::Fails(why) | Answer::Stuck(why) => return Ok(Some(why)),

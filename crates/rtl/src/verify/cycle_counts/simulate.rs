@@ -13,12 +13,19 @@ use crate::verify::simulator::Simulator;
 use super::design::{Design, with_defines};
 use super::measured::Measured;
 
+/// The bench of an estimator: the part of its own between the head and the tail that all have.
+macro_rules! of_estimator {
+    ($own:literal) => {
+        concat!(include_str!("bench_head.v"), include_str!($own), include_str!("bench_tail.v"))
+    };
+}
+
 /// The benches: name of the module, which is the file's stem, and text.
 const BENCHES: [(&str, &str); 4] = [
-    ("bench_estimator", include_str!("bench_estimator.v")),
+    ("bench_estimator", of_estimator!("bench_estimator.v")),
     ("bench_shot", include_str!("bench_shot.v")),
-    ("bench_centroid", include_str!("bench_centroid.v")),
-    ("bench_likelihood", include_str!("bench_likelihood.v")),
+    ("bench_centroid", of_estimator!("bench_centroid.v")),
+    ("bench_likelihood", of_estimator!("bench_likelihood.v")),
 ];
 
 /// Runs the benches on `rtl`, which is to be such a design.
@@ -35,7 +42,7 @@ pub fn measure(rtl: &Rtl, design: &Design, folder: &Path, limits: &Limits) -> Re
     };
     for (name, text) in BENCHES.into_iter().filter(is_there) {
         let bench = format!("{name}.v");
-        write_bytes(&folder.join(&bench), with_defines(&design.defines(), text))?;
+        write_bytes(&folder.join(&bench), with_defines(name, &design.defines(), text))?;
         let bench = [folder.join(bench)];
         let compiled = Simulator::Icarus.compile(folder, name, &bench, rtl, false, limits)?;
         let run = compiled.run(&[], limits)?;
