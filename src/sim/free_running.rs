@@ -3,6 +3,8 @@
 //! It is the diode of a run ([`Spads`]) in the light of a run ([`Light`]), without firmware. Numbers come as means of
 //! batches, each with random numbers of its own, so that their scatter is the standard error.
 
+use serde::Serialize;
+
 use crate::kernel::Time;
 use crate::optics::{Budget, Hazard};
 use crate::sensor::light::{Light, Optics};
@@ -19,7 +21,7 @@ pub mod rates;
 pub const BATCHES: u64 = 50;
 
 /// A mean and its standard error.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Measured {
     /// The mean.
     pub value: f64,

@@ -33,7 +33,7 @@ pub fn millimetres(given: &str) -> Result<f64, &'static str> {
     length.ok_or("expected a number above 0, in mm")
 }
 
-/// How the digits of a value are written.
+/// Radices of a value.
 pub const RADIX: &[Choice<Radix>] = &[
     ("hex", Radix::Hex, "Hexadecimal, lower case, all digits"),
     ("signed", Radix::Signed, "Two's complement, decimal"),
@@ -42,41 +42,41 @@ pub const RADIX: &[Choice<Radix>] = &[
     ("octal", Radix::Octal, "Three bits to a digit, all digits"),
 ];
 
-/// What a capture is written as.
+/// Formats of a capture.
 pub const CAPTURE_FORMAT: &[Choice<CaptureFormat>] = &[
     ("csv", CaptureFormat::Csv, "A row for each sample"),
     ("vcd", CaptureFormat::Vcd, "Value change dump, its time the number of the sample"),
     ("ila", CaptureFormat::Ila, "Vivado's own archive"),
 ];
 
-/// What a replay takes from a capture.
+/// Parts of a capture that a replay takes.
 pub const REPLAY: &[Choice<ReplayKind>] = &[
     ("photons", ReplayKind::Photons, "When a photon arrived in each shot"),
     ("codes", ReplayKind::Codes, "The code of each shot, by the ROM in the TDC's place"),
     ("histogram", ReplayKind::Histogram, "The histogram that the estimator read"),
 ];
 
-/// What a calibration of the pulse fits.
+/// Shapes of the pulse.
 pub const CALIBRATED: &[Choice<Kind>] = &[
     ("gaussian", Kind::Gaussian, "A Gaussian: laser.pulse_sigma_ps"),
     ("tail", Kind::Tail, "A Gaussian with an exponential tail: laser.pulse_tail_ps too"),
     ("samples", Kind::Samples, "Samples of any pulse: laser.pulse_file"),
 ];
 
-/// What a design is timed for.
+/// Parts to time a design for.
 pub const PART: &[Choice<Part>] = &[
     ("ecp5", Part::Ecp5, "Lattice ECP5, placed, routed and measured"),
     ("kintex7", Part::Kintex7, "Xilinx Kintex-7, estimated from the netlist"),
 ];
 
-/// What an unknown bit is the same as.
+/// Treatments of unknown bits.
 pub const UNKNOWNS: &[Choice<Unknowns>] = &[
     ("exact", Unknowns::Exact, "x only is x"),
     ("any", Unknowns::Any, "x is anything"),
     ("none", Unknowns::None, "x is nothing, not even x"),
 ];
 
-/// What a bench is written in.
+/// Languages of a bench.
 pub const LANGUAGE: &[Choice<Language>] =
     &[("verilog", Language::Verilog, "Verilog-2005"), ("vhdl", Language::Vhdl, "VHDL-2008")];
 
@@ -86,13 +86,13 @@ pub const SIMULATOR: &[Choice<Simulator>] = &[
     ("verilator", Simulator::Verilator, "Verilator: compiles for seconds, then runs fast"),
 ];
 
-/// What a data set is written as.
+/// Formats of a dataset.
 pub const DATASET_FORMAT: &[Choice<DatasetFormat>] = &[
     ("parquet", DatasetFormat::Parquet, "One table, dataset.parquet"),
     ("npy", DatasetFormat::Npy, "Arrays: histograms.npy, truth.npy and rows.npy"),
 ];
 
-/// How a run is simulated.
+/// Simulation fidelities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fidelity {
     Cycle,
@@ -120,7 +120,7 @@ impl Fidelity {
 /// The format of a waveform, if there is to be one.
 pub type WaveformChoice = Option<WaveFormat>;
 
-/// What a waveform is written as.
+/// Formats of a waveform.
 pub const WAVEFORM: &[Choice<WaveformChoice>] = &[
     ("vcd", Some(WaveFormat::Vcd), "Value change dump"),
     ("fst", Some(WaveFormat::Fst), "GTKWave's compressed format"),

@@ -1,4 +1,4 @@
-//! What an output says of where it comes from, and how that is found again.
+//! The record of its origin that every output carries.
 
 use std::path::Path;
 
@@ -27,7 +27,7 @@ const LEFT_OUT: [&str; 10] = [
     "checkpoints",
 ];
 
-/// Where an output comes from.
+/// Origin of an output.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Version of the program.
@@ -45,7 +45,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// Of what `command` makes of a setup.
+    /// Records a command on a setup.
     pub fn new(setup: &Setup, command: &[String]) -> Self {
         Record {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -110,7 +110,7 @@ impl Record {
     }
 }
 
-/// Where `wanted` first stands in `bytes`.
+/// Returns the first place of `wanted` in `bytes`.
 fn memmem(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
     bytes.windows(wanted.len()).position(|window| window == wanted)
 }

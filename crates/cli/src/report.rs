@@ -1,4 +1,4 @@
-//! What a run leaves behind for people and scripts.
+//! Results for people, programs and folders.
 
 pub mod box_plot;
 pub mod calibration;
@@ -24,6 +24,7 @@ pub mod pairs;
 pub mod readings;
 pub mod run_files;
 pub mod scenario_page;
+pub mod sheet;
 pub mod spad;
 pub mod statistics;
 pub mod summary;
@@ -37,3 +38,4 @@ pub mod tdc_rom;
 pub mod timing;
 pub mod training;
 pub mod verification;
+pub mod writer;

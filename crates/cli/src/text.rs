@@ -1,4 +1,4 @@
-//! What people and other programs read: tables, pictures and JUnit.
+//! Tables, pictures and JUnit.
 
 pub mod colour;
 pub mod junit;

@@ -17,6 +17,7 @@ pub mod host;
 pub mod ila;
 pub mod interrupt;
 pub mod man;
+pub mod options;
 mod progress;
 pub mod quantize;
 pub mod report;
@@ -50,7 +51,7 @@ use crate::record::command_line;
 /// Cycle-accurate simulator of the FPGA firmware of a time-of-flight rangefinder
 #[derive(Debug, Parser)]
 #[command(name = "tofsim", version, propagate_version = true)]
-#[command(after_help = "Data goes to standard output, talk to standard error.\n\
+#[command(after_help = "Results go to standard output, messages to standard error.\n\
     Exit status: 0 fine or same, 1 differences found or a check failed, \
     2 usage or input error, 130 interrupted.")]
 pub struct Cli {
@@ -60,12 +61,12 @@ pub struct Cli {
     talk: Talk,
 }
 
-/// What came of a command within another program.
+/// Result of a command that ran within another program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
     /// Whether all was the same or fine.
     pub is_fine: bool,
-    /// What it printed.
+    /// Text on its standard output.
     pub text: String,
 }
 

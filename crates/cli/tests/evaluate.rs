@@ -82,7 +82,7 @@ fn a_folder_gets_the_figures_and_the_plots() {
         assert!(both.contains(words), "{words}");
     }
     let spread = fs::read_to_string(folder.path().join("out/spread_by_distance_m.svg")).unwrap();
-    for words in ["network-float", "Cramer-Rao bound", "2 sd [mm]", "distance [m]", "tofsim-record"]
+    for words in ["network-float", "Cramer-Rao bound", "2σ [mm]", "distance [m]", "tofsim-record"]
     {
         assert!(spread.contains(words), "{words}");
     }
@@ -179,7 +179,7 @@ fn several_frames_give_each_estimator_mean_error_spread_outliers_and_failures() 
     assert_eq!(row("truth"), ["truth", "0.500000"]);
     assert_eq!(row("outliers"), ["outliers", "6", "6", "6"], "{table}");
     assert_eq!(row("failures"), ["failures", "-", "0", "0"], "{table}");
-    assert_eq!(row("mean").len() + row("2 sd").len() + row("error").len(), 4 + 5 + 5);
+    assert_eq!(row("mean").len() + row("2σ").len() + row("error").len(), 4 + 5 + 5);
 }
 
 #[test]

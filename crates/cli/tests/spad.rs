@@ -45,7 +45,7 @@ fn traps_of_two_kinds_have_a_mean_time_and_tell_no_probability() {
     let text = stdout(folder.path(), &with(&set));
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     assert!(text.contains("mean time after it"), "{text}");
-    assert!(text.contains("not told by a mean over two time constants"), "{text}");
+    assert!(text.contains("unknown: the mean is over two time constants"), "{text}");
     let found = json(folder.path(), &with(&[&set[..], &["--json"]].concat()));
     let faint = &found["faint_light"];
     assert!(faint["probability"].is_null() && !faint["time_constant_s"].is_null(), "{faint}");

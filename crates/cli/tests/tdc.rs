@@ -41,6 +41,52 @@ fn a_characterisation_fits_the_terminal_and_is_made_again() {
 }
 
 #[test]
+fn the_file_of_decoders_has_the_numbers_of_the_object_under_their_names() {
+    let folder = empty();
+    let here = folder.path();
+    let text = stdout(here, &with(&["tdc", "--decoders", "--hits", "2000", "-o", "out"], &KINTEX7));
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    let found: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(here.join("out/decoders.json")).unwrap()).unwrap();
+    let csv = fs::read(here.join("out/decoders.csv")).unwrap();
+    let mut csv = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(&csv[..]);
+    let columns = [
+        ("decoder", "/decoder"),
+        ("codes", "/codes"),
+        ("empty", "/empty"),
+        ("lsb_ps", "/lsb_ps"),
+        ("dnl_rms_lsb", "/dnl_lsb/rms"),
+        ("dnl_least_lsb", "/dnl_lsb/least"),
+        ("dnl_largest_lsb", "/dnl_lsb/largest"),
+        ("widest_ps", "/widest_ps"),
+        ("equivalent_ps", "/equivalent_ps"),
+        ("raw_precision_ps", "/raw_precision_ps"),
+        ("precision_ps", "/precision_ps"),
+        ("raw_off", "/raw_off_by_a_bin"),
+        ("off", "/off_by_a_bin"),
+        ("luts", "/luts"),
+        ("ffs", "/ffs"),
+    ];
+    assert_eq!(csv.headers().unwrap(), columns.map(|(name, _)| name).as_slice());
+    let rows: Vec<_> = csv.records().map(Result::unwrap).collect();
+    let objects = found["decoders"].as_array().unwrap();
+    assert_eq!((rows.len(), objects.len()), (4, 4));
+    for (row, object) in rows.iter().zip(objects) {
+        for (field, (name, pointer)) in row.iter().zip(columns) {
+            match object.pointer(pointer).unwrap() {
+                serde_json::Value::String(word) => assert_eq!(field, word),
+                serde_json::Value::Null => assert_eq!(field, "", "{name}"),
+                number => {
+                    let decimals = field.split_once('.').map_or(0, |(_, after)| after.len());
+                    assert!(decimals == 0 || decimals >= 3, "{name}: {field}");
+                    assert_eq!(field, format!("{:.decimals$}", number.as_f64().unwrap()), "{name}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn counts_become_a_calibration_that_a_run_takes() {
     let folder = empty();
     let here = folder.path();

@@ -8,6 +8,8 @@ pub mod rom;
 pub mod timing;
 pub mod transfer;
 
+use serde::Serialize;
+
 use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_decoder::{self, Decoder, Encoder};
 use tofsim::sim::disturbance::Disturbance;
@@ -22,7 +24,7 @@ use transfer::Transfer;
 const STOPS_NS: [u64; 3] = [2, 4, 8];
 
 /// A stop so long after the start, and what the chain shows of it (Table 6.3).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Stop {
     /// From the laser edge to the stop [ns].
     pub t2_ns: u64,

@@ -260,10 +260,7 @@ fn decoders_that_sort_the_taps_tell_every_pattern_apart_and_the_leading_bit_does
     assert_eq!([ones.name, leading.name, reordered.name], ["ones", "leading", "reordered"]);
     // Every step of the hit from tap to tap shows another pattern, of which each has one ones count.
     assert_eq!(ones.density, reordered.density);
-    assert_eq!(
-        (ones.codes, ones.calibrated.precision_ps),
-        (states.codes, states.calibrated.precision_ps)
-    );
+    assert_eq!((ones.codes, ones.precision_ps), (states.codes, states.precision_ps));
     assert!(leading.codes < ones.codes && leading.equivalent_ps > ones.equivalent_ps);
     for one in &found.decoders {
         assert_eq!(one.density.bins.iter().map(|bin| bin.count).sum::<u64>(), 20_000);

@@ -26,8 +26,9 @@ const DESIGNS: [(&str, &[&str]); 7] = [
     ("ecp5", &["firmware.pulse_half_cycles=4"]),
 ];
 
-/// Parameters of the instrument below that are not the default: of stand-ins, and the estimator itself.
-const OTHERS: [&str; 3] = ["Codes", "HitsLog2", "Estimator"];
+/// Parameters of the instrument below that are not the default: of stand-ins, the estimator itself, and the end of the
+/// window of a chain that the likelihood estimator's netlists were measured with.
+const OTHERS: [&str; 4] = ["Codes", "HitsLog2", "Estimator", "WindowEnd"];
 
 /// Value of a literal in Verilog.
 fn number(literal: &str) -> Option<u64> {

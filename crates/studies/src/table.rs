@@ -58,6 +58,33 @@ impl Field {
     }
 }
 
+/// Makes cells from values of these types.
+macro_rules! cells {
+    ($($type:ty, $value:ident => $cell:expr;)+) => {$(
+        impl From<$type> for Cell {
+            fn from($value: $type) -> Self {
+                $cell
+            }
+        }
+    )+};
+}
+
+cells! {
+    f64, number => Cell::Number(number);
+    i32, number => Cell::Number(number.into());
+    u64, number => Cell::Whole(number);
+    u32, number => Cell::Whole(number.into());
+    usize, number => Cell::Whole(number as u64);
+    String, text => Cell::Text(text);
+    &str, text => Cell::Text(text.to_owned());
+}
+
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Cell::None, Into::into)
+    }
+}
+
 impl Cell {
     /// Creates a cell with a number, if there is one.
     pub fn number(value: Option<f64>) -> Cell {

@@ -9,6 +9,8 @@
 //! carrier stays in its trap, and time constant and q give the probability. With traps of two kinds the
 //! dead time has taken more of the short ones: what is seen is a mean, and tells the probability no more.
 
+use serde::Serialize;
+
 use crate::kernel::Time;
 
 use super::{BATCHES, FreeRunning, Measured};
@@ -29,7 +31,7 @@ const LONGEST: f64 = 10.0;
 const FEWEST: f64 = 30.0;
 
 /// What faint light shows.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Afterpulses {
     /// Incident rate, with the dark [1/s].
     pub incident_hz: f64,
@@ -40,12 +42,16 @@ pub struct Afterpulses {
     /// Length of the window [s].
     pub window_s: f64,
     /// Pairs of counts by their distance, in equal bins over the window.
+    #[serde(skip)]
     pub pairs: Vec<u64>,
     /// Pairs of a bin by chance.
+    #[serde(skip)]
     pub chance_pairs: f64,
     /// Ends of the intervals' bins [s].
+    #[serde(skip)]
     pub interval_ends_s: Vec<f64>,
     /// Intervals between neighbours.
+    #[serde(skip)]
     pub intervals: Vec<u64>,
     /// Rate of the exponential tail of the intervals [1/s].
     pub tail_hz: Measured,
@@ -57,10 +63,13 @@ pub struct Afterpulses {
     /// Chance that an avalanche traps a carrier, from both; not told by a mean over two kinds of traps [1].
     pub probability: Option<Measured>,
     /// What the scenario's keys come to, q [1].
+    #[serde(rename = "expected_after_dead_time")]
     pub expected: f64,
     /// What they come to for `time_constant_s` [s].
+    #[serde(rename = "expected_time_constant_s")]
     pub expected_time_s: f64,
     /// Pairs of each bin that are to be expected: those by chance, and avalanches with what follows from them.
+    #[serde(skip)]
     pub expected_pairs: Vec<f64>,
 }
 

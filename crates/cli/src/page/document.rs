@@ -4,20 +4,20 @@ use crate::record::Record;
 
 use super::html::escaped;
 
-/// How a page looks: on a screen by day and night, in a narrow window, and on paper.
+/// Style sheet: on a screen by day and night, in a narrow window, and on paper.
 const STYLE: &str = include_str!("style.css");
 
 /// A page.
 pub struct Document<'a> {
-    /// What a browser's tab says.
+    /// Title in the browser's tab.
     pub title: &'a str,
     /// The large words at the top.
     pub heading: &'a str,
-    /// What stands below them, in words.
+    /// Paragraph below the heading.
     pub lead: &'a str,
     /// The rest, as HTML.
     pub body: String,
-    /// What made it.
+    /// Version, scenario and command that made the page.
     pub record: &'a Record,
 }
 

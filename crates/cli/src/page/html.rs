@@ -42,9 +42,10 @@ pub fn table<const N: usize>(
             |(k, text): (usize, &String)| format!("<{kind}{}>{}</{kind}>", class[k], escaped(text));
         format!("<tr>{}</tr>\n", row.iter().enumerate().map(cell).collect::<String>())
     };
-    let head = match header.iter().all(|name| name.is_empty()) {
-        true => String::new(),
-        false => format!("<thead>\n{}</thead>\n", cells("th", &header.map(str::to_owned))),
+    let head = if header.iter().all(|name| name.is_empty()) {
+        String::new()
+    } else {
+        format!("<thead>\n{}</thead>\n", cells("th", &header.map(str::to_owned)))
     };
     let body: String = rows.iter().map(|row| cells("td", row)).collect();
     format!("<div class=\"scroll\"><table>\n{head}<tbody>\n{body}</tbody>\n</table></div>\n")
@@ -72,7 +73,7 @@ pub fn figure(svg: &str, words: &str) -> String {
     in_figure("", svg, words)
 }
 
-/// The same with a picture that is hard to read where it is small: a narrow page moves it within its box.
+/// Returns a figure whose picture is hard to read where it is small: a narrow page moves it within its box.
 pub fn wide_figure(svg: &str, words: &str) -> String {
     in_figure(" class=\"wide\"", svg, words)
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use plotters::prelude::*;
 
-use crate::text::svg::{Canvas, legend, picture_of};
+use crate::text::svg::{Canvas, Drawn, legend, picture_of};
 
 /// Width and height [px].
 const SIZE: (u32, u32) = (660, 400);
@@ -15,16 +15,14 @@ pub const BLUE: RGBColor = RGBColor(43, 108, 176);
 pub const ORANGE: RGBColor = RGBColor(221, 107, 32);
 pub const GREY: RGBColor = RGBColor(113, 128, 150);
 
-/// How points of a layer are drawn.
+/// Shapes of a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// From the axis up, each as wide as to the next one.
+    /// Bars from the axis up, each as wide as the distance to the next.
     Bars,
     Line,
     Dashes,
     Dots,
-    /// Lines, each from a point to the one after it.
-    Whiskers,
 }
 
 /// Points of one kind.
@@ -57,7 +55,7 @@ impl Layer {
 #[derive(Clone, Debug)]
 pub struct Plot<'a> {
     pub title: &'a str,
-    /// What is along the axes, with units.
+    /// Labels of the axes, with units.
     pub axes: [&'a str; 2],
     pub layers: Vec<Layer>,
 }
@@ -78,12 +76,7 @@ impl Plot<'_> {
         picture_of(SIZE, |canvas| self.draw(canvas, x, y))
     }
 
-    fn draw(
-        &self,
-        canvas: &Canvas,
-        x: Range<f64>,
-        y: Range<f64>,
-    ) -> Result<(), DrawingAreaErrorKind<std::io::Error>> {
+    fn draw(&self, canvas: &Canvas, x: Range<f64>, y: Range<f64>) -> Drawn {
         let mut chart = ChartBuilder::on(canvas);
         chart.margin(8).caption(self.title, ("sans-serif", 18));
         chart.x_label_area_size(44).y_label_area_size(66);
@@ -107,10 +100,6 @@ impl Plot<'_> {
                 }
                 Shape::Line => chart.draw_series(LineSeries::new(points, thick))?,
                 Shape::Dashes => chart.draw_series(DashedLineSeries::new(points, 7, 4, thick))?,
-                Shape::Whiskers => {
-                    let ends = layer.points.chunks_exact(2);
-                    chart.draw_series(ends.map(|ends| PathElement::new(ends.to_vec(), colour)))?
-                }
                 Shape::Dots => {
                     chart.draw_series(points.map(|point| Circle::new(point, 3, colour.filled())))?
                 }
@@ -121,14 +110,15 @@ impl Plot<'_> {
                 });
             }
         }
-        match self.layers.iter().any(|layer| !layer.name.is_empty()) {
-            true => legend(&mut chart, SeriesLabelPosition::UpperRight),
-            false => Ok(()),
+        if self.layers.iter().any(|layer| !layer.name.is_empty()) {
+            legend(&mut chart, SeriesLabelPosition::UpperRight)
+        } else {
+            Ok(())
         }
     }
 }
 
-/// From the least to the largest, and a part of that above.
+/// Returns the range from the least to the largest value, and a part of that above.
 fn range(values: impl Iterator<Item = f64> + Clone, above: f64) -> Range<f64> {
     let least = values.clone().fold(f64::INFINITY, f64::min);
     let most = values.fold(f64::NEG_INFINITY, f64::max);
@@ -152,18 +142,6 @@ mod tests {
         }
         assert_eq!(plot.svg().unwrap(), svg);
         assert_eq!(Plot { layers: Vec::new(), ..plot }.svg().unwrap(), "");
-    }
-
-    #[test]
-    fn each_two_points_of_whiskers_are_a_line_of_their_own() {
-        let ends = [(0.0, 1.0), (0.0, 2.0), (1.0, 1.5), (1.0, 3.0)];
-        let layers = vec![Layer::new("", GREY, Shape::Whiskers, ends)];
-        let svg = |layers| Plot { title: "", axes: ["", ""], layers }.svg().unwrap();
-        let lines = |svg: &str| svg.matches("<polyline").count();
-        assert_eq!(
-            lines(&svg(layers)) - lines(&svg(vec![Layer::new("", GREY, Shape::Dots, ends)])),
-            2
-        );
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a logic analyser sees of a run, for a timing diagram.
+//! Samples of a run, as a logic analyser takes them, for a timing diagram.
 
 use std::sync::atomic::AtomicBool;
 

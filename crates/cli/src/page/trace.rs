@@ -9,7 +9,7 @@ use tofsim_captures::ila::{Capture, Radix};
 /// Signals over time, sampled at even steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
-    /// From one sample to the next [ns].
+    /// Interval between samples [ns].
     pub step_ns: f64,
     /// Instant of the first sample [ns].
     pub begin_ns: f64,
@@ -26,7 +26,7 @@ pub struct Wave {
     pub name: String,
     /// A word, whose values are shown, and no level.
     pub is_word: bool,
-    /// What each sample shows; a level is `0` or `1`.
+    /// Value of each sample; a level is `0` or `1`.
     pub samples: Vec<String>,
 }
 
@@ -68,7 +68,7 @@ impl Trace {
         self.waves.iter().map(|wave| wave.samples.len()).max().unwrap_or(0)
     }
 
-    /// Where the first sample after all is taken [ns].
+    /// Time of the end of the trace [ns].
     pub fn end_ns(&self) -> f64 {
         self.begin_ns + self.samples() as f64 * self.step_ns
     }

@@ -15,12 +15,11 @@ fn signal(wave: &Wave) -> Value {
     let mut shape = String::with_capacity(wave.samples.len());
     let mut data = Vec::new();
     for (range, value) in wave.stretches() {
-        match wave.is_word {
-            true => {
-                shape.push('=');
-                data.push(value.to_owned());
-            }
-            false => shape += value,
+        if wave.is_word {
+            shape.push('=');
+            data.push(value.to_owned());
+        } else {
+            shape += value
         }
         shape.extend(range.skip(1).map(|_| '.'));
     }

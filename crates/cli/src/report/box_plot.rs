@@ -25,23 +25,23 @@ pub struct Series<'a> {
     pub groups: &'a [Group],
 }
 
-/// What errors are to stay within, drawn on both sides of zero.
+/// Limit of the errors, drawn on both sides of zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
-    /// What it is.
+    /// Name in the legend.
     pub name: &'static str,
     /// Its half width at a value [mm].
     pub mm: fn(f64) -> f64,
-    /// How it is drawn.
+    /// Colour of its lines.
     pub colour: RGBColor,
 }
 
-/// What is to be drawn.
+/// Errors to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxPlot<'a> {
-    /// What stands above it.
+    /// Title above the plot.
     pub title: &'a str,
-    /// What errors are grouped by, with its unit.
+    /// Quantity that groups the errors, with its unit.
     pub quantity: &'a str,
     /// Estimators, side by side.
     pub series: &'a [Series<'a>],
@@ -58,13 +58,14 @@ impl BoxPlot<'_> {
     /// far apart. Below the boxes are the parts of the histograms without an estimate or with one that is
     /// far off, if there are any.
     pub fn svg(&self) -> std::result::Result<String, String> {
-        picture(|canvas| match self.has_missing() {
-            true => {
+        picture(|canvas| {
+            if self.has_missing() {
                 let (boxes, missing) = canvas.split_vertically(390);
                 self.boxes(&boxes)?;
                 self.missing(&missing)
+            } else {
+                self.boxes(canvas)
             }
-            false => self.boxes(canvas),
         })
     }
 

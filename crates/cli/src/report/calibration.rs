@@ -1,15 +1,19 @@
-//! What a calibration of the pulse found: a table, keys to set, a file and a picture.
+//! The calibration of the pulse: a table, keys to set, a file and a picture.
 
 use plotters::prelude::*;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
+use tofsim::error::{Input, Result};
 use tofsim::kernel::pulse::Pulse;
 use tofsim_learn::calibration::candidates::{Calibration, Candidate, Kind};
 
 use crate::text::svg::{chart, legend, picture};
 use crate::text::table;
 
-/// From one row of a file to the next, of a pulse with a formula [ps].
+use super::sheet::{Digits, NamedText, Sheet};
+use super::writer::Findings;
+
+/// Interval between rows of the file, of a pulse with a formula [ps].
 const FILE_STEP_PS: f64 = 5.0;
 /// Points of a line in the picture.
 const POINTS: usize = 600;
@@ -37,34 +41,112 @@ fn keys(candidate: &Candidate) -> Vec<String> {
     }
 }
 
-/// The table, and what to set.
-pub fn text(calibration: &Calibration, shots: u64) -> String {
-    let best = calibration.candidates.iter().map(|candidate| candidate.log_likelihood);
-    let best = best.fold(f64::NEG_INFINITY, f64::max);
-    let rows = calibration.candidates.iter().map(|candidate| {
-        let [sigma, tail] = parts(candidate);
-        let goodness = candidate.goodness;
-        [
-            name(candidate.kind).to_owned(),
-            sigma,
-            tail,
-            format!("{:.1}", candidate.log_likelihood - best),
-            format!("{:.3}", goodness.chi_square / goodness.degrees_of_freedom),
-            chance(goodness.chance),
-        ]
-    });
-    let header = ["pulse", "sigma [ps]", "tail [ps]", "log L", "chi2 / dof", "chance"];
-    let table = table::table(header, rows, 1..);
-    let taken = calibration.taken();
-    let whole_ps = taken.pulse.sigma_ps();
-    let (used, left_out) = (calibration.used, calibration.left_out);
-    format!(
-        "{} of {shots} shots{}\n\n{table}\n\nTo take: {}, standard deviation of the whole {whole_ps:.1} ps\n  {}\n",
-        table::counted(used as u64, "histograms"),
-        if left_out > 0 { format!(", {left_out} more have no echo") } else { String::new() },
-        name(taken.kind),
-        keys(taken).join("\n  ")
-    )
+/// A calibration, and the shots of each histogram that it is from.
+pub struct PulseFindings {
+    /// The pulses that were fitted.
+    pub calibration: Calibration,
+    /// Shots of each histogram.
+    pub shots: u64,
+}
+
+impl Findings for PulseFindings {
+    const SCHEMA: &'static str = "tofsim.calibration/1";
+    const FILE: Option<&'static str> = Some("calibration.json");
+
+    fn json(&self) -> Value {
+        let calibration = &self.calibration;
+        let candidate = |candidate: &Candidate| {
+            let (width, goodness) = (candidate.width, candidate.goodness);
+            json!({
+                "shape": name(candidate.kind),
+                "deviation_ps": candidate.pulse.sigma_ps(),
+                "sigma_ps": width.map(|width| width.sigma_ps),
+                "sigma_se_ps": width.map(|width| width.sigma_se_ps),
+                "tail_ps": width.map(|width| width.tail_ps),
+                "tail_se_ps": width.map(|width| width.tail_se_ps),
+                "is_tail_seen": width.map(|width| width.is_tail_seen),
+                "most_tail_ps": width.map(|width| width.most_tail_ps),
+                "log_likelihood": candidate.log_likelihood,
+                "chi_square": goodness.chi_square,
+                "degrees_of_freedom": goodness.degrees_of_freedom,
+                "chance": goodness.chance,
+            })
+        };
+        let taken = calibration.taken();
+        let samples = taken.sampled.as_ref().map(|sampled| {
+            let rows = sampled.times_ps.iter().zip(&sampled.density).zip(&sampled.density_se);
+            let row = |((time_ps, density), se): ((&f64, &f64), &f64)| {
+                json!({ "time_ps": time_ps, "density_per_ps": density, "density_se_per_ps": se })
+            };
+            rows.map(row).collect::<Vec<_>>()
+        });
+        json!({
+            "shots": self.shots,
+            "histograms": calibration.used,
+            "without_echo": calibration.left_out,
+            "pulses": calibration.candidates.iter().map(candidate).collect::<Vec<_>>(),
+            "taken": name(taken.kind),
+            "keys": keys(taken),
+            "samples": samples,
+        })
+    }
+
+    /// The table, and the keys to set.
+    fn text(&self) -> String {
+        let PulseFindings { calibration, shots } = self;
+        let best = calibration.candidates.iter().map(|candidate| candidate.log_likelihood);
+        let best = best.fold(f64::NEG_INFINITY, f64::max);
+        let table = Sheet::of(&calibration.candidates)
+            .words("pulse", |one| name(one.kind))
+            .words("sigma [ps]", |one| parts(one)[0].clone())
+            .words("tail [ps]", |one| parts(one)[1].clone())
+            .words("log L", |one| format!("{:.1}", one.log_likelihood - best))
+            .words("chi2 / dof", |Candidate { goodness, .. }| {
+                format!("{:.3}", goodness.chi_square / goodness.degrees_of_freedom)
+            })
+            .words("probability", |one| match one.goodness.chance {
+                chance if chance < 1e-4 => "< 0.0001".to_owned(),
+                chance => format!("{chance:.4}"),
+            })
+            .table();
+        let taken = calibration.taken();
+        let whole_ps = taken.pulse.sigma_ps();
+        let left_out = match calibration.left_out {
+            0 => String::new(),
+            more => format!(", {more} more have no echo"),
+        };
+        format!(
+            "{} of {shots} shots{left_out}\n\n{table}\n\nTo take: {}, standard deviation of the whole \
+             {whole_ps:.1} ps\n  {}\n",
+            table::counted(calibration.used as u64, "histograms"),
+            name(taken.kind),
+            keys(taken).join("\n  ")
+        )
+    }
+
+    /// The pulse to take, as `laser.pulse_file` reads it.
+    fn sheets(&self) -> Vec<NamedText> {
+        let taken = self.calibration.taken();
+        let rows: Vec<_> = match &taken.sampled {
+            Some(sampled) => {
+                sampled.times_ps.iter().copied().zip(sampled.density.clone()).collect()
+            }
+            None => {
+                let ends_ps = taken.pulse.ends_ps().map(|ps| (ps / FILE_STEP_PS).round() as i64);
+                let times = (ends_ps[0] - 1..=ends_ps[1] + 1).map(|k| k as f64 * FILE_STEP_PS);
+                times.map(|t_ps| (t_ps, taken.pulse.density(t_ps))).collect()
+            }
+        };
+        let pulse = Sheet::of(&rows)
+            .column("time_ps", Digits::Fixed(4), |(time_ps, _)| *time_ps)
+            .column("density", Digits::Scientific(6), |(_, density)| *density);
+        vec![pulse.file("pulse.csv")]
+    }
+
+    fn plots(&self) -> Result<Vec<NamedText>> {
+        let svg = svg(&self.calibration).map_err(|fault| Input::new("pulse.svg", fault))?;
+        Ok(vec![("pulse.svg".to_owned(), svg)])
+    }
 }
 
 /// Sigma and tail, with standard errors where they are fitted.
@@ -89,65 +171,8 @@ fn parts(candidate: &Candidate) -> [String; 2] {
     [sigma, tail]
 }
 
-fn chance(chance: f64) -> String {
-    if chance < 1e-4 { "< 0.0001".to_owned() } else { format!("{chance:.4}") }
-}
-
-/// The same for scripts.
-pub fn json(calibration: &Calibration) -> Map<String, Value> {
-    let candidate = |candidate: &Candidate| {
-        let (width, goodness) = (candidate.width, candidate.goodness);
-        json!({
-            "shape": name(candidate.kind),
-            "deviation_ps": candidate.pulse.sigma_ps(),
-            "sigma_ps": width.map(|width| width.sigma_ps),
-            "sigma_se_ps": width.map(|width| width.sigma_se_ps),
-            "tail_ps": width.map(|width| width.tail_ps),
-            "tail_se_ps": width.map(|width| width.tail_se_ps),
-            "is_tail_seen": width.map(|width| width.is_tail_seen),
-            "most_tail_ps": width.map(|width| width.most_tail_ps),
-            "log_likelihood": candidate.log_likelihood,
-            "chi_square": goodness.chi_square,
-            "degrees_of_freedom": goodness.degrees_of_freedom,
-            "chance": goodness.chance,
-        })
-    };
-    let taken = calibration.taken();
-    let samples = taken.sampled.as_ref().map(|sampled| {
-        let rows = sampled.times_ps.iter().zip(&sampled.density).zip(&sampled.density_se);
-        let row = |((time_ps, density), se): ((&f64, &f64), &f64)| {
-            json!({ "time_ps": time_ps, "density_per_ps": density, "density_se_per_ps": se })
-        };
-        rows.map(row).collect::<Vec<_>>()
-    });
-    let object = json!({
-        "histograms": calibration.used,
-        "without_echo": calibration.left_out,
-        "pulses": calibration.candidates.iter().map(candidate).collect::<Vec<_>>(),
-        "taken": name(taken.kind),
-        "keys": keys(taken),
-        "samples": samples,
-    });
-    object.as_object().cloned().unwrap_or_default()
-}
-
-/// The pulse to take, as `laser.pulse_file` reads it.
-pub fn csv(calibration: &Calibration) -> String {
-    let taken = calibration.taken();
-    let rows: Vec<_> = match &taken.sampled {
-        Some(sampled) => sampled.times_ps.iter().copied().zip(sampled.density.clone()).collect(),
-        None => {
-            let [from_ps, until_ps] = taken.pulse.ends_ps().map(|ps| (ps / FILE_STEP_PS).round());
-            let times = (from_ps as i64 - 1..=until_ps as i64 + 1).map(|k| k as f64 * FILE_STEP_PS);
-            times.map(|t_ps| (t_ps, taken.pulse.density(t_ps))).collect()
-        }
-    };
-    let rows = rows.iter().map(|(t_ps, density)| format!("{t_ps:.4},{density:.6e}\n"));
-    "time_ps,density\n".to_owned() + &rows.collect::<String>()
-}
-
-/// What the bins show, the pulse to take and the scenario's; an error only if the plotting library fails.
-pub fn svg(calibration: &Calibration) -> Result<String, String> {
+/// Draws the pulse in the bins, the pulse to take and the scenario's.
+fn svg(calibration: &Calibration) -> std::result::Result<String, String> {
     let (taken, told) = (calibration.taken(), &calibration.candidates[0].pulse);
     let [from_ps, until_ps] = taken.pulse.ends_ps().map(|ps| 1.15 * ps);
     let line = |pulse: &Pulse| -> Vec<(f64, f64)> {

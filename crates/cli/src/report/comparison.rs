@@ -87,7 +87,7 @@ fn differing(result: &Comparison) -> String {
     format!("\n{}\n{more}", table(header, rows, ..0))
 }
 
-/// What came together and what did not.
+/// Returns the matched and unmatched signals.
 fn matched(result: &Comparison, verbose: bool) -> String {
     let count = |how: MatchedBy| result.pairs.iter().filter(|pair| pair.how == how).count();
     let aliases: usize = result.pairs.iter().map(|pair| pair.aliases).sum();

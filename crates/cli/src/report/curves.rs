@@ -5,7 +5,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-use crate::text::svg::{COLOURS, chart, legend, picture};
+use crate::text::svg::{COLOURS, Drawn, chart, legend, picture};
 
 /// A curve of the plot.
 pub struct Curve<'a> {
@@ -16,7 +16,7 @@ pub struct Curve<'a> {
 }
 
 impl<'a> Curve<'a> {
-    /// Of distance [m], and what is there [mm].
+    /// Creates a curve of a quantity [mm] over distance [m].
     pub fn new(name: &'a str, points: &'a [(f64, f64)]) -> Self {
         Curve { name, points, is_bound: false }
     }
@@ -73,7 +73,6 @@ fn round_numbers(low: f64, high: f64) -> Vec<f64> {
 }
 
 type Axes<Y> = Cartesian2d<RangedCoordf64, Y>;
-type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
 /// Draws axes, curves and what they stand for.
 fn fill<'a, 'b: 'a, Y>(

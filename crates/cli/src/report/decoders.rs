@@ -1,158 +1,132 @@
-//! Decoders of a TDC side by side: a table, CSV, a picture, and the same for scripts.
-
-use std::fmt::Write;
+//! Decoders of a TDC side by side: tables, CSV files, a picture and JSON.
 
 use plotters::prelude::*;
 use serde_json::{Value, json};
 
 use tofsim::error::{Input, Result};
-use tofsim::scenario::Decoder;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::characterisation::decoders::{Comparison, DecoderFigures};
+use tofsim_learn::characterisation::decoders::{Comparison, DecoderFigures, Read};
 
 use crate::text::svg::{COLOURS, legend, picture};
-use crate::text::table::{self, grouped};
+use crate::text::table::grouped;
+
+use super::sheet::{Digits, NamedText, Sheet};
+use super::tdc::named;
+use super::writer::Findings;
 
 /// Patterns that are shown.
 const SHOWN: usize = 8;
 /// Codes of the picture.
 const DRAWN: usize = 96;
 
-/// The tables, in 80 columns.
-pub fn text(found: &Comparison, setup: &Setup) -> String {
-    let decoders = &found.decoders;
-    let hits = decoders.first().map_or(0, |one| one.density.hits);
-    let row = |one: &DecoderFigures| {
-        vec![
-            one.name.to_owned(),
-            one.codes.to_string(),
-            one.empty.to_string(),
-            format!("{:.3}", one.density.lsb_ps()),
-            format!("{:.3}", one.dnl.rms),
-            format!("{:.2} .. {:.2}", one.dnl.least, one.dnl.largest),
-            format!("{:.1}", one.widest_ps),
-            format!("{:.2}", one.equivalent_ps),
-        ]
-    };
-    let header = [
-        "decoder",
-        "codes",
-        "empty",
-        "LSB [ps]",
-        "DNL rms",
-        "range [LSB]",
-        "widest",
-        "equiv. [ps]",
-    ];
-    let widths = table::table(header, decoders.iter().map(row), 1..);
-    let row = |one: &DecoderFigures| {
-        let [raw, own] = one.off.map(|part| format!("{:.2}", 100.0 * part));
-        let cost = |value: Option<u64>| value.map_or("-".to_owned(), |value| value.to_string());
-        vec![
-            one.name.to_owned(),
-            format!("{:.2}", one.raw.precision_ps),
-            format!("{:.2}", one.calibrated.precision_ps),
-            raw,
-            own,
-            cost(one.cost.map(|cost| cost.luts)),
-            cost(one.cost.map(|cost| cost.ffs)),
-        ]
-    };
-    let header =
-        ["decoder", "equal taps [ps]", "calibrated", "off [%]", "calibrated", "LUTs", "FFs"];
-    let times = table::table(header, decoders.iter().map(row), 1..);
-    let rows = found.patterns.iter().take(SHOWN).map(|read| {
-        let levels = if read.levels.is_empty() { "none" } else { &read.levels };
-        let [ones, leading, reordered] = read.numbers.map(|number| format!("+{number}"));
-        [levels.to_owned(), format!("{:.2}", 100.0 * read.share), ones, leading, reordered]
-    });
-    let header = ["bubble", "phases [%]", "ones", "leading", "reordered"];
-    let patterns = table::table(header, rows, 1..);
-    format!(
-        "Decoders of the chain {}, {} hits\n\n{widths}\n\nSingle-shot precision; hits that are off by more \
-         than {} ps, a bin\n{times}\nLUTs and FFs: of 800 taps on a Kintex-7, \
-         by Yosys\n\nn, less the ones below the first zero\n{patterns}\n",
-        setup.scenario.tdc.profile,
-        grouped(hits),
-        found.bin_ps,
-    )
+/// Decoders on one chain, and the setup that has the chain.
+pub struct DecoderFindings<'a> {
+    /// Figures of each decoder for the same hits.
+    pub found: &'a Comparison,
+    /// The chain.
+    pub setup: &'a Setup,
 }
 
-/// Name and text of each CSV file, but for the record.
-pub fn tables(found: &Comparison) -> [(&'static str, String); 2] {
-    let mut rows =
-        "decoder,codes,empty,lsb_ps,dnl_rms_lsb,dnl_least_lsb,dnl_largest_lsb,widest_ps,\
-        equivalent_ps,raw_precision_ps,precision_ps,raw_off,off,luts,ffs\n"
-            .to_owned();
-    for one in &found.decoders {
-        let cost = one.cost.map_or(",".to_owned(), |cost| format!("{},{}", cost.luts, cost.ffs));
-        let _ = writeln!(
-            rows,
-            "{},{},{},{:.4},{:.5},{:.5},{:.5},{:.3},{:.4},{:.4},{:.4},{:.6},{:.6},{cost}",
-            one.name,
-            one.codes,
-            one.empty,
-            one.density.lsb_ps(),
-            one.dnl.rms,
-            one.dnl.least,
-            one.dnl.largest,
-            one.widest_ps,
-            one.equivalent_ps,
-            one.raw.precision_ps,
-            one.calibrated.precision_ps,
-            one.off[0],
-            one.off[1],
-        );
+impl Findings for DecoderFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.tdc-decoders/1";
+    const FILE: Option<&'static str> = Some("decoders.json");
+
+    fn json(&self) -> Value {
+        let mut object = json!(self.found);
+        object["profile"] = json!(self.setup.scenario.tdc.profile);
+        object["hits"] = json!(self.hits());
+        object
     }
-    let mut patterns = "bubble,share,ones,leading,reordered\n".to_owned();
-    for read in &found.patterns {
-        let [ones, leading, reordered] = read.numbers;
-        let _ =
-            writeln!(patterns, "{},{:.6},{ones},{leading},{reordered}", read.levels, read.share);
+
+    /// The tables, in 80 columns.
+    fn text(&self) -> String {
+        let patterns = &self.found.patterns;
+        format!(
+            "Decoders of the chain {}, {} hits\n\n{}\n\nSingle-shot precision; hits that are off by more \
+             than {} ps, a bin\n{}\nLUTs and FFs: of 800 taps on a Kintex-7, \
+             by Yosys\n\nn, less the ones below the first zero\n{}\n",
+            self.setup.scenario.tdc.profile,
+            grouped(self.hits().unwrap_or(0)),
+            widths(&self.found.decoders).table(),
+            self.found.bin_ps,
+            times(&self.found.decoders).table(),
+            read(patterns).table_of(0..patterns.len().min(SHOWN)),
+        )
     }
-    [("decoders.csv", rows), ("patterns.csv", patterns)]
+
+    fn sheets(&self) -> Vec<NamedText> {
+        let decoders = widths(&self.found.decoders).and(times(&self.found.decoders));
+        vec![decoders.file("decoders.csv"), read(&self.found.patterns).file("patterns.csv")]
+    }
+
+    fn plots(&self) -> Result<Vec<NamedText>> {
+        Ok(vec![("decoders.svg".to_owned(), svg(self.found, self.setup)?)])
+    }
 }
 
-/// The same for scripts.
-pub fn json(found: &Comparison, setup: &Setup) -> Value {
-    let decoders = found.decoders.iter().map(|one| {
-        json!({
-            "decoder": one.name,
-            "codes": one.codes,
-            "empty": one.empty,
-            "lsb_ps": one.density.lsb_ps(),
-            "dnl_lsb": { "rms": one.dnl.rms, "least": one.dnl.least, "largest": one.dnl.largest },
-            "widest_ps": one.widest_ps,
-            "equivalent_ps": one.equivalent_ps,
-            "raw_precision_ps": one.raw.precision_ps,
-            "precision_ps": one.calibrated.precision_ps,
-            "raw_off_by_a_bin": one.off[0],
-            "off_by_a_bin": one.off[1],
-            "luts": one.cost.map(|cost| cost.luts),
-            "ffs": one.cost.map(|cost| cost.ffs),
-        })
-    });
-    let patterns = found.patterns.iter().map(|read| {
-        let numbers = Decoder::ALL.into_iter().zip(read.numbers);
-        let numbers: serde_json::Map<_, _> =
-            numbers.map(|(decoder, n)| (decoder.name().to_owned(), n.into())).collect();
-        json!({ "levels": read.levels, "share": read.share, "n_above_first_zero": numbers })
-    });
-    json!({
-        "schema": "tofsim.tdc-decoders/1",
-        "profile": setup.scenario.tdc.profile,
-        "hits": found.decoders.first().map(|one| one.density.hits),
-        "bin_ps": found.bin_ps,
-        "decoders": decoders.collect::<Vec<_>>(),
-        "patterns": patterns.collect::<Vec<_>>(),
+impl DecoderFindings<'_> {
+    fn hits(&self) -> Option<u64> {
+        self.found.decoders.first().map(|one| one.density.hits)
+    }
+}
+
+/// The widths of the codes.
+fn widths(decoders: &[DecoderFigures]) -> Sheet<'_, DecoderFigures> {
+    Sheet::of(decoders)
+        .column("decoder", Digits::Shortest, |one| one.name)
+        .shown("decoder", Digits::Shortest)
+        .column("codes", Digits::Shortest, |one| one.codes)
+        .shown("codes", Digits::Shortest)
+        .column("empty", Digits::Shortest, |one| one.empty)
+        .shown("empty", Digits::Shortest)
+        .column("lsb_ps", Digits::Fixed(4), |one| one.lsb_ps)
+        .shown("LSB [ps]", Digits::Fixed(3))
+        .column("dnl_rms_lsb", Digits::Fixed(5), |one| one.dnl.rms)
+        .shown("DNL rms", Digits::Fixed(3))
+        .column("dnl_least_lsb", Digits::Fixed(5), |one| one.dnl.least)
+        .column("dnl_largest_lsb", Digits::Fixed(5), |one| one.dnl.largest)
+        .words("range [LSB]", |one| format!("{:.2} .. {:.2}", one.dnl.least, one.dnl.largest))
+        .column("widest_ps", Digits::Fixed(3), |one| one.widest_ps)
+        .shown("widest", Digits::Fixed(1))
+        .column("equivalent_ps", Digits::Fixed(4), |one| one.equivalent_ps)
+        .shown("equiv. [ps]", Digits::Fixed(2))
+}
+
+/// The times that they give, and the logic that they cost.
+fn times(decoders: &[DecoderFigures]) -> Sheet<'_, DecoderFigures> {
+    Sheet::of(decoders)
+        .words("decoder", |one| one.name)
+        .column("raw_precision_ps", Digits::Fixed(4), |one| one.raw_precision_ps)
+        .shown("uncalibrated [ps]", Digits::Fixed(2))
+        .column("precision_ps", Digits::Fixed(4), |one| one.precision_ps)
+        .shown("calibrated", Digits::Fixed(2))
+        .column("raw_off", Digits::Fixed(6), |one| one.raw_off_by_a_bin)
+        .words("off [%]", |one| format!("{:.2}", 100.0 * one.raw_off_by_a_bin))
+        .column("off", Digits::Fixed(6), |one| one.off_by_a_bin)
+        .words("calibrated", |one| format!("{:.2}", 100.0 * one.off_by_a_bin))
+        .column("luts", Digits::Shortest, |one| one.luts)
+        .shown("LUTs", Digits::Shortest)
+        .column("ffs", Digits::Shortest, |one| one.ffs)
+        .shown("FFs", Digits::Shortest)
+}
+
+/// The number that each decoder reads from a pattern.
+fn read(patterns: &[Read]) -> Sheet<'_, Read> {
+    let sheet = Sheet::of(patterns)
+        .column("bubble", Digits::Shortest, |read| read.levels.as_str())
+        .words("bubble", |read| named(&read.levels))
+        .column("share", Digits::Fixed(6), |read| read.share)
+        .words("phases [%]", |read| format!("{:.2}", 100.0 * read.share));
+    let decoders = ["ones", "leading", "reordered"].into_iter().enumerate();
+    decoders.fold(sheet, |sheet, (k, name)| {
+        sheet
+            .column(name, Digits::Shortest, move |read| read.numbers[k])
+            .words(name, move |read| format!("+{}", read.numbers[k]))
     })
 }
 
-/// Widths of the codes of each decoder over a stretch of time.
-///
-/// # Errors
-/// When the plotting library fails.
-pub fn svg(found: &Comparison, setup: &Setup) -> Result<String> {
+/// Draws the widths of each decoder's codes over a stretch of time.
+fn svg(found: &Comparison, setup: &Setup) -> Result<String> {
     let profile = &setup.scenario.tdc.profile;
     let title = format!("What decoders make of the chain {profile}: widths of the first codes");
     let first: Vec<_> = found.decoders.iter().map(steps).collect();

@@ -1,11 +1,17 @@
 //! An error budget: tables, JSON, CSV and a picture.
 
-pub mod csv;
-pub mod json;
-pub mod picture;
-pub mod text;
+mod csv;
+mod json;
+mod picture;
+mod text;
 
+use serde_json::Value;
+
+use tofsim::error::{Input, Result};
 use tofsim_learn::error_budget::DepthBudget;
+
+use super::sheet::NamedText;
+use super::writer::Findings;
 
 /// The budgets of a scenario at the values of one of its keys, or of the scenario alone.
 pub struct DepthBudgets<'a> {
@@ -13,4 +19,26 @@ pub struct DepthBudgets<'a> {
     pub key: Option<&'a str>,
     /// The value of the key, or else the distance, and the budget there.
     pub points: &'a [(f64, DepthBudget)],
+}
+
+impl Findings for DepthBudgets<'_> {
+    const SCHEMA: &'static str = "tofsim.errors/1";
+    const FILE: Option<&'static str> = Some("errors.json");
+
+    fn json(&self) -> Value {
+        json::json(self)
+    }
+
+    fn text(&self) -> String {
+        text::text(self)
+    }
+
+    fn sheets(&self) -> Vec<NamedText> {
+        vec![("errors.csv".to_owned(), csv::csv(self))]
+    }
+
+    fn plots(&self) -> Result<Vec<NamedText>> {
+        let svg = picture::svg(self).map_err(|fault| Input::new("errors.svg", fault))?;
+        Ok(vec![("errors.svg".to_owned(), svg)])
+    }
 }

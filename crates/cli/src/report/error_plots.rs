@@ -11,20 +11,20 @@ use super::curves::{Curve, curves};
 /// Values of a picture of several estimators.
 const SHOWN: usize = 11;
 
-/// What the specification allows.
+/// Errors that the specification allows.
 const ALLOWED: Limit =
     Limit { name: "specification (Table 5.2)", mm: thesis::allowed_error_mm, colour: BLACK };
 
 /// The spread that the thesis's network has.
 const LINE: Limit = Limit {
-    name: "2 sd of the thesis's float network (Table 5.5)",
+    name: "2σ of the thesis's float network (Table 5.5)",
     mm: thesis::line_two_sd_mm,
     colour: RED,
 };
 
 /// A picture.
 pub struct ErrorPlot {
-    /// Of its file.
+    /// Name of its file.
     pub name: String,
     /// Its text, or why there is none.
     pub svg: Result<String, String>,
@@ -62,7 +62,7 @@ pub fn spread(figures: &[Figures], bound: &[(f64, f64)]) -> Option<ErrorPlot> {
     let is_line = each.iter().any(|(_, points)| points.len() > 1);
     is_line.then(|| ErrorPlot {
         name: "spread_by_distance_m.svg".to_owned(),
-        svg: curves("twice the standard deviation of the depth", "2 sd [mm]", true, &all),
+        svg: curves("twice the standard deviation of the depth", "2σ [mm]", true, &all),
     })
 }
 

@@ -1,22 +1,20 @@
 //! An evaluation as tables, beside the thesis's, and as files: JSON, figures as CSV, and box plots.
 
-use std::path::{Path, PathBuf};
-
 use serde_json::Value;
 
 use tofsim::error::{Input, Result};
-use tofsim::files::output::{create_directory, write_bytes};
 use tofsim_learn::dataset::Grid;
 use tofsim_learn::evaluation::thesis::{self, Published};
 use tofsim_learn::evaluation::{Figures, Group, KeyGroups, Spread};
 
 use crate::text::table::{fitted, number_or_dash, width};
 
-use crate::record::Record;
+use super::error_plots::{self, ErrorPlot};
+use super::evaluation_csv;
+use super::sheet::NamedText;
+use super::writer::Findings;
 
-use super::{error_plots, evaluation_csv};
-
-/// What figures lie beside.
+/// References that figures are compared with.
 pub struct Beside<'a> {
     /// Distances to show; the thesis's own where its rows are shown too [m].
     pub distances_m: &'a [f64],
@@ -26,7 +24,7 @@ pub struct Beside<'a> {
     pub thesis: bool,
 }
 
-/// What each estimator comes to over all scenes: a row each.
+/// Returns the figures of each estimator over all scenes, a row each.
 pub fn overview(figures: &[Figures]) -> String {
     let row = |one: &Figures| {
         let Spread { mean_mm, two_sd_mm, quartiles_mm, .. } = one.all;
@@ -37,7 +35,7 @@ pub fn overview(figures: &[Figures]) -> String {
         let counts = [one.all.outliers, one.all.failures, all].map(|count| count.to_string());
         named(one.name, [two_sd, mean, largest].into_iter().chain(counts))
     };
-    let header = ["2 sd [mm]", "mean error", "largest error", "outliers", "failures", "of"];
+    let header = ["2σ [mm]", "mean error", "largest error", "outliers", "failures", "of"];
     let rows: Vec<_> = figures.iter().map(row).collect();
     fitted(&named("all scenes", header.map(str::to_owned)), &rows, width()) + "\n"
 }
@@ -65,7 +63,7 @@ pub fn tables(figures: &[Figures], beside: &Beside) -> String {
     let peak = thesis::PEAK_FAILURES.map(|failures| format!("{failures} of {trials}"));
     let peak = thesis.then(|| named("thesis, peak detection (Table 4.3)", peak));
     let tables = [
-        ("2 sd [mm]", [published(|row| row.two_sd_mm), two_sd, bound]),
+        ("2σ [mm]", [published(|row| row.two_sd_mm), two_sd, bound]),
         ("mean error [mm]", [published(|row| row.mean_mm), mean, Vec::new()]),
         ("outliers", [far, Vec::new(), Vec::new()]),
         ("failures", [failed, peak.into_iter().collect(), Vec::new()]),
@@ -77,7 +75,7 @@ pub fn tables(figures: &[Figures], beside: &Beside) -> String {
     tables.map(text).join("\n")
 }
 
-/// How far each estimator's spread is from the line between those of the thesis's float network, over
+/// Returns the ratio of each estimator's spread to the line between those of the thesis's float network, over
 /// all distances; nothing where scenes are not the thesis's.
 pub fn beside_the_line(figures: &[Figures]) -> String {
     let row = |one: &Figures| {
@@ -87,7 +85,7 @@ pub fn beside_the_line(figures: &[Figures]) -> String {
     };
     let rows: Vec<_> = figures.iter().filter_map(row).collect();
     let header = ["largest", "at", "above it at"].map(str::to_owned);
-    let text = || fitted(&named("2 sd over the thesis's line", header), &rows, width());
+    let text = || fitted(&named("2σ over the thesis's line", header), &rows, width());
     if rows.is_empty() { String::new() } else { format!("\n{}\n", text()) }
 }
 
@@ -101,16 +99,13 @@ fn with_error(value_mm: Option<f64>, error_mm: Option<f64>) -> String {
     number_or_dash(value_mm, 2) + &error.map_or(String::new(), |error| format!(" +-{error:.2}"))
 }
 
-/// The file that is always written.
-pub const JSON: &str = "evaluation.json";
-
-/// What is known of an evaluation, as files have it.
-pub struct Evaluated<'a> {
-    /// What made it.
-    pub record: &'a Record,
-    /// The object that `--json` prints.
-    pub json: &'a Value,
-    /// Of each estimator.
+/// An evaluation, as it is printed and written.
+pub struct EvaluationFindings<'a> {
+    /// Contents of the JSON object.
+    pub json: Value,
+    /// The tables.
+    pub text: String,
+    /// Figures of each estimator.
     pub figures: &'a [Figures],
     /// The Cramer-Rao bound by distance, if the light is known [m, mm].
     pub bound: &'a [(f64, f64)],
@@ -118,29 +113,33 @@ pub struct Evaluated<'a> {
     pub grid: Option<&'a Grid>,
 }
 
-impl Evaluated<'_> {
-    /// Puts it in a folder, which is made: JSON, figures as CSV, and pictures. Their paths.
-    ///
-    /// # Errors
-    /// When a file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>> {
-        create_directory(folder)?;
-        let csv = |text: String| self.record.comment_line() + &text;
-        let mut paths = vec![folder.join(JSON), folder.join("evaluation.csv")];
-        write_bytes(&paths[0], format!("{}\n", self.json))?;
-        write_bytes(&paths[1], csv(evaluation_csv::groups(self.figures)))?;
+impl Findings for EvaluationFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.evaluate/1";
+    const FILE: Option<&'static str> = Some("evaluation.json");
+
+    fn json(&self) -> Value {
+        self.json.clone()
+    }
+
+    fn text(&self) -> String {
+        self.text.clone()
+    }
+
+    fn sheets(&self) -> Vec<NamedText> {
+        let mut files = vec![("evaluation.csv".to_owned(), evaluation_csv::groups(self.figures))];
         if self.figures.iter().any(|one| !one.by_scene.is_empty()) {
-            paths.push(folder.join("scenes.csv"));
-            write_bytes(&paths[2], csv(evaluation_csv::scenes(self.figures, self.grid)))?;
+            let scenes = evaluation_csv::scenes(self.figures, self.grid);
+            files.push(("scenes.csv".to_owned(), scenes));
         }
+        files
+    }
+
+    fn plots(&self) -> Result<Vec<NamedText>> {
         let boxes = error_plots::all(self.figures, self.grid.is_some_and(Grid::is_thesis));
-        for picture in boxes.into_iter().chain(error_plots::spread(self.figures, self.bound)) {
-            let path = folder.join(picture.name);
-            let svg = picture.svg.map_err(|why| Input::new(path.display(), why))?;
-            write_bytes(&path, self.record.in_svg(&svg))?;
-            paths.push(path);
-        }
-        Ok(paths)
+        let all = boxes.into_iter().chain(error_plots::spread(self.figures, self.bound));
+        let named =
+            |ErrorPlot { name, svg }| Ok((name.clone(), svg.map_err(|why| Input::new(name, why))?));
+        all.map(named).collect()
     }
 }
 
@@ -159,7 +158,7 @@ pub fn setting_tables(figures: &[Figures]) -> String {
                 ]
             })
         });
-        let header = ["estimator", key, "2 sd [mm]", "mean error [mm]", "failures"];
+        let header = ["estimator", key, "2σ [mm]", "mean error [mm]", "failures"];
         let rows: Vec<_> = rows.collect();
         format!("\n{}\n", fitted(&header.map(str::to_owned), &rows, width()))
     };

@@ -1,48 +1,57 @@
 //! The figures of an evaluation as CSV.
 
 use tofsim_learn::dataset::Grid;
-use tofsim_learn::evaluation::{Figures, SceneErrors, Spread};
+use tofsim_learn::evaluation::{Figures, Spread};
 
-/// What is said of errors.
-const FIGURES: &str = "estimates,failures,outliers,mean_mm,mean_se_mm,two_sd_mm,two_sd_se_mm,\
-    least_mm,lower_quartile_mm,median_mm,upper_quartile_mm,largest_mm";
+use super::sheet::{Digits, Sheet};
 
-/// A row for each estimator and value of a quantity.
+/// Returns a row for each estimator and value of a quantity.
 pub fn groups(figures: &[Figures]) -> String {
-    let mut text = format!("estimator,by,value,{FIGURES}\n");
+    let mut rows = Vec::new();
     for one in figures {
-        for grouping in one.groupings() {
-            for group in grouping.groups {
-                let (key, numbers) = (grouping.key, numbers(&group.spread));
-                text += &format!("{},{key},{},{numbers}\n", one.name, group.value);
-            }
+        for by in one.groupings() {
+            rows.extend(by.groups.iter().map(|group| (one.name, by.key, group)));
         }
     }
-    text
+    let sheet = Sheet::of(&rows)
+        .column("estimator", Digits::Shortest, |(name, ..)| *name)
+        .column("by", Digits::Shortest, |(_, key, _)| *key)
+        .column("value", Digits::Shortest, |(.., group)| group.value);
+    with_figures(sheet, |(.., group)| &group.spread).csv()
 }
 
-/// A row for each estimator and scene.
+/// Returns a row for each estimator and scene.
 pub fn scenes(figures: &[Figures], grid: Option<&Grid>) -> String {
-    let keys = |setting| grid.map_or(Vec::new(), |grid| grid.setting(setting));
-    let names: String = keys(0).iter().map(|(key, _)| format!("{key},")).collect();
-    let mut text =
-        format!("estimator,distance_m,reflectance,irradiance_w_m2_nm,{names}{FIGURES}\n");
+    let mut rows = Vec::new();
     for one in figures {
-        for SceneErrors { scene, spread } in &one.by_scene {
-            let light = [scene.distance_m, scene.reflectance, scene.irradiance_w_m2_nm];
-            let values = light.into_iter().chain(keys(scene.setting).into_iter().map(|key| key.1));
-            let values: String = values.map(|value| format!("{value},")).collect();
-            text += &format!("{},{values}{}\n", one.name, numbers(spread));
-        }
+        rows.extend(one.by_scene.iter().map(|of| (one.name, of)));
     }
-    text
+    let mut sheet = Sheet::of(&rows)
+        .column("estimator", Digits::Shortest, |(name, _)| *name)
+        .column("distance_m", Digits::Shortest, |(_, of)| of.scene.distance_m)
+        .column("reflectance", Digits::Shortest, |(_, of)| of.scene.reflectance)
+        .column("irradiance_w_m2_nm", Digits::Shortest, |(_, of)| of.scene.irradiance_w_m2_nm);
+    let setting = |setting| grid.map_or(Vec::new(), |grid| grid.setting(setting));
+    for (k, (key, _)) in setting(0).into_iter().enumerate() {
+        sheet = sheet.column(key, Digits::Shortest, |(_, of)| setting(of.scene.setting)[k].1);
+    }
+    with_figures(sheet, |(_, of)| &of.spread).csv()
 }
 
-fn numbers(spread: &Spread) -> String {
-    let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-    let counts =
-        [spread.estimates, spread.failures, spread.outliers].map(|count| count.to_string());
-    let moments = [spread.mean_mm, spread.mean_se_mm, spread.two_sd_mm, spread.two_sd_se_mm];
-    let quartiles = [0, 1, 2, 3, 4].map(|k| number(spread.quartiles_mm.map(|five| five[k])));
-    [&counts[..], &moments.map(number), &quartiles].concat().join(",")
+/// Adds the figures of errors.
+fn with_figures<'a, R>(sheet: Sheet<'a, R>, of: fn(&R) -> &Spread) -> Sheet<'a, R> {
+    let quartile = |k: usize| move |row: &'a R| of(row).quartiles_mm.map(|five| five[k]);
+    sheet
+        .column("estimates", Digits::Shortest, |row| of(row).estimates)
+        .column("failures", Digits::Shortest, |row| of(row).failures)
+        .column("outliers", Digits::Shortest, |row| of(row).outliers)
+        .column("mean_mm", Digits::Shortest, |row| of(row).mean_mm)
+        .column("mean_se_mm", Digits::Shortest, |row| of(row).mean_se_mm)
+        .column("two_sd_mm", Digits::Shortest, |row| of(row).two_sd_mm)
+        .column("two_sd_se_mm", Digits::Shortest, |row| of(row).two_sd_se_mm)
+        .column("least_mm", Digits::Shortest, quartile(0))
+        .column("lower_quartile_mm", Digits::Shortest, quartile(1))
+        .column("median_mm", Digits::Shortest, quartile(2))
+        .column("upper_quartile_mm", Digits::Shortest, quartile(3))
+        .column("largest_mm", Digits::Shortest, quartile(4))
 }

@@ -104,10 +104,7 @@ fn columns(group: &mut RowGroup, shots: &[Shot], pairs: bool) -> parquet::errors
     group.optional::<Int32Type>(shots().map(|shot| shot.coarse.map(whole)))?;
     group.optional::<Int32Type>(shots().map(|shot| shot.code.map(whole)))?;
     group.optional::<Int32Type>(shots().map(|shot| shot.code.map(whole)))?;
-    match pairs {
-        true => group.required::<BoolType>(shots().map(|shot| shot.laser_en)),
-        false => Ok(()),
-    }
+    if pairs { group.required::<BoolType>(shots().map(|shot| shot.laser_en)) } else { Ok(()) }
 }
 
 fn fields(shot: &Shot) -> [String; 8] {

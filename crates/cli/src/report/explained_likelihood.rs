@@ -34,9 +34,8 @@ pub fn in_words(status: StatusSet) -> String {
 fn row(stage: &str, value: &StageValue) -> [String; 7] {
     let StageValue { value, unit, word, fixed, float, difference, .. } = value;
     let decimals = decimals(unit);
-    let number = |number: f64| match number.abs() < MOST {
-        true => format!("{number:.decimals$}"),
-        false => format!("{number:.3e}"),
+    let number = |number: f64| {
+        if number.abs() < MOST { format!("{number:.decimals$}") } else { format!("{number:.3e}") }
     };
     [
         stage.to_owned(),

@@ -7,7 +7,7 @@ use crate::text::table::{fitted, number_or_dash};
 /// A spread is as good as another if it is at most so many times as large at every distance.
 const AS_GOOD: f64 = 1.02;
 
-/// What the sweep found at some distances, and a row for each datapath, in lines of `width` characters.
+/// Returns a summary and a table with a row for each datapath, in lines of `width` characters.
 pub fn text(points: &[ExploredDatapath], distances_m: &[f64], width: usize) -> String {
     let distances: Vec<_> =
         distances_m.iter().map(|distance_m| format!("{distance_m} m")).collect();

@@ -8,15 +8,20 @@ use tofsim_learn::training::state::CurvePoint;
 
 use crate::text::svg::{chart, picture};
 
-/// The curve as CSV, a row for each network at each checkpoint.
+use super::sheet::{Digits, Sheet};
+
+/// Returns the curve as CSV, a row for each network at each checkpoint.
 pub fn csv(points: &[CurvePoint]) -> String {
-    let mut text = String::from("stage,block,start,epochs,cost,mu,validation,ratio\n");
-    for CurvePoint { stage, block, start, epochs, cost, mu, validation, ratio } in points {
-        let [validation, ratio] =
-            [validation, ratio].map(|of| of.map_or(String::new(), |of| format!("{of:?}")));
-        text += &format!("{stage},{block},{start},{epochs},{cost:?},{mu:?},{validation},{ratio}\n");
-    }
-    text
+    Sheet::of(points)
+        .column("stage", Digits::Shortest, |point| point.stage)
+        .column("block", Digits::Shortest, |point| point.block)
+        .column("start", Digits::Shortest, |point| point.start)
+        .column("epochs", Digits::Shortest, |point| point.epochs)
+        .column("cost", Digits::Literal, |point| point.cost)
+        .column("mu", Digits::Literal, |point| point.mu)
+        .column("validation", Digits::Literal, |point| point.validation)
+        .column("ratio", Digits::Literal, |point| point.ratio)
+        .csv()
 }
 
 /// The curve as SVG text, a line for each start; an error only if the plotting library fails.
@@ -42,9 +47,10 @@ pub fn svg(points: &[CurvePoint]) -> Result<String, String> {
             .bold_line_style(BLACK.mix(0.08))
             .draw()?;
         for line in lines.into_values() {
-            let style = match line.len() == longest {
-                true => RGBColor(43, 108, 176).stroke_width(2),
-                false => BLACK.mix(0.3).stroke_width(1),
+            let style = if line.len() == longest {
+                RGBColor(43, 108, 176).stroke_width(2)
+            } else {
+                BLACK.mix(0.3).stroke_width(1)
             };
             chart.draw_series(LineSeries::new(line, style))?;
         }

@@ -16,10 +16,10 @@ use crate::page::document::{Document, commands, section, tiles};
 use crate::page::html::{table, wide_figure};
 use crate::record::Record;
 
-/// What stands below the picture of the frame.
-const FRAME: &str = "Its histogram, by what caused each count. Its waveform, and set-ups for GTKWave and Surfer, are in frame/.";
+/// Caption of the frame's picture.
+const FRAME: &str = "Its histogram, by what caused each count. Its waveform, and save files for GTKWave and Surfer, are in frame/.";
 
-/// What the page shows; results are null where a step was not done.
+/// Contents of the page; results are null where a step was not done.
 pub struct Page<'a> {
     /// The instrument.
     pub setup: &'a Setup,
@@ -27,11 +27,11 @@ pub struct Page<'a> {
     pub record: Record,
     /// Whether the build was a quick one.
     pub quick: bool,
-    /// What its results lie outside of.
+    /// Notes on the validity of the results.
     pub notes: Vec<String>,
-    /// What was done.
+    /// Steps of the build.
     pub steps: Vec<StepRow>,
-    /// Where the network comes from.
+    /// Origin of the network.
     pub network: Value,
     /// `tofsim.evaluate/1`.
     pub evaluation: Value,
@@ -60,12 +60,11 @@ pub struct StepRow {
 impl Page<'_> {
     /// The whole page; an error only if the plotting library fails.
     pub fn html(&self) -> Result<String, String> {
-        let quick = match self.quick {
-            true => {
-                "<p class=\"bad\">This was a quick build: its network is poor, and its figures rest on few \
+        let quick = if self.quick {
+            "<p class=\"bad\">This was a quick build: its network is poor, and its figures rest on few \
                  histograms and short vectors.</p>\n"
-            }
-            false => "",
+        } else {
+            ""
         };
         let body = [
             quick.to_owned(),
@@ -105,7 +104,7 @@ impl Page<'_> {
         });
         tiles([
             ("range", facts::range_m(self.setup)),
-            ("2 sd over the grid", mm("two_sd_mm")),
+            ("2σ over the grid", mm("two_sd_mm")),
             ("mean error", mm("mean_mm")),
             ("frames", facts::frame_rate(self.setup)),
             (luts_of, luts.map_or("-".to_owned(), |luts| luts.to_string())),

@@ -10,6 +10,7 @@ use crate::text::table::{facts, grouped};
 
 use super::frame_log::FrameLog;
 use super::pairs::{PairStatistics, mean, right_of_echo};
+use super::sheet::{Digits, Sheet};
 use super::{opinions, readings};
 
 /// The table of a run in pairs.
@@ -78,13 +79,13 @@ fn many_pairs(log: &FrameLog) -> String {
     readings::many(&header, log, rows, left, readings::below_pairs(log, header.len()))
 }
 
-/// What many pairs came to, a line each.
+/// Returns the statistics of many pairs, a line each.
 pub fn lines(statistics: &PairStatistics) -> String {
     let mut text = String::new();
     if let Some(failures) = statistics.failures {
         text += &format!("{NAME}: {failures} failures in {} pairs", statistics.count);
         if let (Some(mean_m), Some(two_sd_m)) = (statistics.mean_m, statistics.two_sd_m) {
-            text += &format!(", mean {mean_m:.6} m, 2 sd {two_sd_m:.6} m");
+            text += &format!(", mean {mean_m:.6} m, 2σ {two_sd_m:.6} m");
         }
         text += "\n";
     }
@@ -102,11 +103,13 @@ fn range(difference: &[i32]) -> (i32, i32) {
     difference.iter().fold((0, 0), |(least, most), &hits| (least.min(hits), most.max(hits)))
 }
 
-/// A pair as CSV: `bin,dark,lit,difference`, a row for each bin.
+/// Returns a pair as CSV, a row for each bin.
 pub fn csv(dark: &Frame, lit: &Frame) -> String {
-    let mut text = "bin,dark,lit,difference\n".to_owned();
-    for (bin, hits) in difference(dark, lit).into_iter().enumerate() {
-        text += &format!("{bin},{},{},{hits}\n", dark.histogram[bin], lit.histogram[bin]);
-    }
-    text
+    let bins: Vec<_> = difference(dark, lit).into_iter().enumerate().collect();
+    Sheet::of(&bins)
+        .column("bin", Digits::Shortest, |(bin, _)| *bin)
+        .column("dark", Digits::Shortest, |(bin, _)| dark.histogram[*bin])
+        .column("lit", Digits::Shortest, |(bin, _)| lit.histogram[*bin])
+        .column("difference", Digits::Shortest, |(_, hits)| *hits)
+        .csv()
 }

@@ -10,7 +10,7 @@ use tofsim_learn::estimation::{Estimate, HistogramPair, Panel};
 
 use super::statistics::Moments;
 
-/// How far behind its mean the echo is over [sigma].
+/// End of the echo behind its mean [sigma].
 const REACH: f64 = 4.0;
 
 /// A frame's place in a pair.
@@ -20,7 +20,7 @@ pub struct PlaceInPair {
     pub pair: u64,
     /// Whether the laser was on.
     pub laser_en: bool,
-    /// With the laser on: what the pair comes to.
+    /// Difference of the pair, in frames with the laser on.
     #[serde(flatten)]
     pub difference: Option<Difference>,
 }
@@ -35,12 +35,12 @@ pub struct Difference {
     pub right_of_echo: Option<f64>,
 }
 
-/// What subtraction made of the pairs.
+/// Statistics of the pairs under subtraction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PairStatistics {
-    /// PairLog.
+    /// Number of pairs.
     pub count: u64,
-    /// Those in which subtraction found no distance; none if it was not asked.
+    /// Pairs without a distance; none if subtraction is not among the estimators.
     pub failures: Option<u64>,
     /// Mean of the distances that it found [m].
     pub mean_m: Option<f64>,
@@ -92,7 +92,7 @@ impl PairLog {
         (Some(paired), readings)
     }
 
-    /// What the pairs have come to so far.
+    /// Returns the statistics of the pairs so far.
     pub fn statistics(&self) -> PairStatistics {
         PairStatistics {
             count: self.count,

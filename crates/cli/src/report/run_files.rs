@@ -17,9 +17,10 @@ use super::events::Events;
 use super::frame_log::FrameLog;
 use super::histogram_svg;
 use super::pair_table;
+use super::sheet::{Digits, Sheet};
 use super::summary::Summary;
 
-/// What is written into the folder; the last one only where frames come in pairs.
+/// Files of the folder; the last one only where frames come in pairs.
 const NAMES: [&str; 4] = ["summary.json", "histogram.csv", "histogram.svg", "difference.csv"];
 
 /// Whether two paths lead to one place in one folder.
@@ -149,9 +150,9 @@ impl<'a> RunFiles<'a> {
 
 /// The files of a run.
 pub struct Written {
-    /// Those that it wrote.
+    /// Files that the run wrote.
     pub files: Vec<PathBuf>,
-    /// Those of an older run beside them.
+    /// Files of an older run beside them.
     pub older: Vec<PathBuf>,
 }
 
@@ -165,8 +166,11 @@ fn older_files(folder: &Path, names: &[String]) -> Vec<PathBuf> {
     older.map(|name| folder.join(name)).filter(|path| path.exists()).collect()
 }
 
-/// A histogram as CSV: `bin,count`, a row for each bin.
+/// Returns a histogram as CSV, a row for each bin.
 fn histogram_csv(histogram: &[u32]) -> String {
-    let rows = histogram.iter().enumerate().map(|(bin, count)| format!("{bin},{count}\n"));
-    "bin,count\n".to_owned() + &rows.collect::<String>()
+    let bins: Vec<_> = histogram.iter().enumerate().collect();
+    Sheet::of(&bins)
+        .column("bin", Digits::Shortest, |(bin, _)| *bin)
+        .column("count", Digits::Shortest, |(_, count)| **count)
+        .csv()
 }

@@ -13,28 +13,28 @@ use crate::record::Record;
 use super::page::{accuracy, facts, frame, notes, verified};
 
 /// A part of the page, or why it is not there.
-pub type Part<T> = Result<T, String>;
+pub type ReportPart<T> = Result<T, String>;
 
-/// What the page shows.
+/// Contents of the page.
 pub struct ScenarioPage<'a> {
     pub setup: &'a Setup,
     pub record: &'a Record,
     pub notes: Vec<String>,
-    /// Of the link budget: what, how much, and what that means.
+    /// Rows of the link budget: quantity, value and meaning.
     pub budget: Vec<[String; 3]>,
     /// The first shots.
-    pub waveform: Part<Trace>,
+    pub waveform: ReportPart<Trace>,
     /// `tofsim.run/1`, and its histogram as SVG.
-    pub run: Part<(Value, String)>,
+    pub run: ReportPart<(Value, String)>,
     /// `tofsim.tdc/1`, and its pictures.
-    pub tdc: Part<(Value, Vec<String>)>,
+    pub tdc: ReportPart<(Value, Vec<String>)>,
     /// `tofsim.error_budget/1`, its picture, and its tables.
-    pub errors: Part<(String, String)>,
+    pub errors: ReportPart<(String, String)>,
     /// `tofsim.evaluate/1`.
-    pub evaluation: Part<Value>,
+    pub evaluation: ReportPart<Value>,
     /// `tofsim.verify/1` and `tofsim.cycle_counts/1`, null where they were not asked for.
-    pub verified: Part<(Value, Value)>,
-    /// What each part is made by.
+    pub verified: ReportPart<(Value, Value)>,
+    /// Commands that make the parts by themselves.
     pub commands: Vec<String>,
 }
 
@@ -53,7 +53,7 @@ impl ScenarioPage<'_> {
             section("A frame", &self.frame()),
             section("Clock cycles", &self.cycles()),
             section("TDC", &self.tdc()),
-            section("What makes the depth wrong", &self.errors()),
+            section("Depth error budget", &self.errors()),
             section("Accuracy over the range", &evaluation),
             section("What was verified", &self.verified()),
             section("Notes", &notes::section(&self.notes)),
@@ -79,7 +79,7 @@ impl ScenarioPage<'_> {
             ("true distance", m("true_depth_m")),
             ("depth of one frame", m("depth_m")),
             ("range", facts::range_m(self.setup)),
-            ("2 sd over the range", two_sd.map_or("-".to_owned(), |mm| format!("{mm:.2} mm"))),
+            ("2σ over the range", two_sd.map_or("-".to_owned(), |mm| format!("{mm:.2} mm"))),
             ("frames", facts::frame_rate(self.setup)),
         ])
     }
@@ -104,7 +104,7 @@ impl ScenarioPage<'_> {
         }
     }
 
-    /// What a frame should take, and what it took.
+    /// Returns the expected and the simulated duration of a frame.
     fn cycles(&self) -> String {
         let (setup, run) = (self.setup, self.run.as_ref().ok());
         let counted = |key: &str| {

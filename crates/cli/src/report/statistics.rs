@@ -1,16 +1,16 @@
-//! What the depths of a run come to: mean and spread, and how many are far off or missing.
+//! Statistics of the depths of a run: mean and spread, outliers and failures.
 
 use serde::Serialize;
 
 use tofsim_learn::estimation::Estimate;
 use tofsim_learn::evaluation::spread::is_outlier;
 
-/// What depths are judged by.
+/// Criteria for outliers.
 #[derive(Clone, Copy, Debug)]
 pub struct Judge {
     /// True distance; none where no light was simulated [m].
     pub truth_m: Option<f64>,
-    /// What is further from it is an outlier [m].
+    /// Distance from the truth beyond which a depth is an outlier [m].
     pub limit_m: f64,
 }
 
@@ -20,13 +20,13 @@ impl Judge {
         is_outlier(depth_m, self.truth_m.unwrap_or(depth_m), self.limit_m)
     }
 
-    /// How far a mean is off [m].
+    /// Returns the error of a mean [m].
     pub fn error_m(&self, mean_m: f64) -> Option<f64> {
         Some(mean_m - self.truth_m?)
     }
 }
 
-/// What an estimator said of the frames or pairs of a run.
+/// Statistics of an estimator over the frames or pairs of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EstimatorStatistics {
     /// Its name on the command line.
@@ -76,7 +76,7 @@ impl Tally {
         }
     }
 
-    /// What two frames or pairs or more have come to, an estimator each.
+    /// Returns the statistics of each estimator over two or more frames or pairs.
     pub fn statistics(&self, judge: &Judge) -> Vec<EstimatorStatistics> {
         let several = self.0.iter().filter(|depths| depths.moments.count + depths.failures > 1);
         let statistics = |depths: &Depths| EstimatorStatistics {
@@ -94,7 +94,7 @@ impl Tally {
 /// Mean and squares of deviations of numbers as they come (Welford).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Moments {
-    /// How many.
+    /// Number of values.
     pub count: u64,
     mean: f64,
     squares: f64,

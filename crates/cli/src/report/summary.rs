@@ -13,10 +13,10 @@ use crate::record::Record;
 
 use super::frame_log::FrameLog;
 
-/// What `run --json` prints and `summary.json` holds, but for the frames.
+/// The object of `run --json` and `summary.json`, but for the frames.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// What stands before the frames.
+    /// The keys before the frames.
     head: Value,
     /// Results of the TDC, where the scenario asks for them.
     pub tdc: Option<Vec<TdcSummary>>,
@@ -25,18 +25,18 @@ pub struct Summary {
 /// One result of the TDC, in the words of thesis Table 6.3.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TdcSummary {
-    /// From start to stop [ps].
+    /// Time from start to stop [ps].
     pub t2_ps: Option<f64>,
     /// Carry cells passed.
     pub n: Option<u64>,
-    /// From start to the clock edge after stop [ns].
+    /// Time from start to the clock edge after stop [ns].
     pub t1_ns: Option<u64>,
     /// Whether the result has a code.
     pub valid: bool,
 }
 
 impl Summary {
-    /// Of a run of `setup`, simulated in that way, with a waveform in the file `waves`; its record, and
+    /// Summarises a run of `setup` at that fidelity, with a waveform in the file `waves`; its record, and
     /// what it lies outside of.
     pub fn new(
         setup: &Setup,

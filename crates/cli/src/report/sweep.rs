@@ -4,12 +4,12 @@ use tofsim_studies::Plan;
 use tofsim_studies::header::header;
 use tofsim_studies::table::{Cell, Field, Row};
 
-use crate::text::table::{fitted, grouped, width};
+use crate::text::table::{fitted, grouped, significant, width};
 
 /// Rows that are printed; the files have all.
 const SHOWN: usize = 36;
 /// Digits of a number.
-const DIGITS: usize = 5;
+const DIGITS: i32 = 5;
 
 /// The table, with each standard error beside its value; of `points` in all.
 pub fn text(plan: &Plan, rows: &[Row], points: u64) -> String {
@@ -84,18 +84,8 @@ fn place_of(fields: &[Field], name: &str) -> Option<usize> {
 /// A cell in five digits.
 fn shown(cell: &Cell) -> String {
     let Cell::Number(number) = cell else { return cell.text() };
-    let size = number.abs();
-    match size {
-        0.0 => "0".to_owned(),
-        1e-4..1e6 => {
-            let whole = size.log10().floor() as i32 + 1;
-            let decimals = (DIGITS as i32 - whole).clamp(0, 8) as usize;
-            let text = format!("{number:.decimals$}");
-            match text.contains('.') {
-                true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-                false => text,
-            }
-        }
+    match number.abs() {
+        0.0 | 1e-4..1e6 => significant(*number, DIGITS, 8),
         _ => format!("{number:.3e}"),
     }
 }

@@ -12,7 +12,7 @@ use super::frame_log::{DepthSpread, FrameLog};
 use super::summary::TdcSummary;
 use super::{opinions, pair_table, readings};
 
-/// What came of a run, in a dozen lines.
+/// Returns the results of a run in a dozen lines.
 ///
 /// `cycles` is what was simulated in the time `wall`; none for frames that were drawn at once.
 pub fn run(setup: &Setup, log: &FrameLog, cycles: Option<u64>, wall: Duration) -> String {
@@ -87,14 +87,14 @@ fn many_frames(log: &FrameLog) -> String {
     readings::many(&header, log, rows, log.count - log.rows.len() as u64, below)
 }
 
-/// What the frames come to: rows of so many cells, and what the other estimators come to.
+/// Returns the rows with the statistics of all frames, of `cells` cells and one for each other estimator.
 fn below(own: &DepthSpread, cells: usize, log: &FrameLog) -> Vec<Vec<String>> {
     let metres = |m: f64| format!("{m:.6}");
     let mm = |m: Option<f64>| m.map_or("-".to_owned(), |m| format!("{:+.3}", 1e3 * m));
     let others = readings::below(log);
     let mut rows = vec![
         ("mean", metres(own.mean_m)),
-        ("2 sd", metres(own.two_sd_m)),
+        ("2σ", metres(own.two_sd_m)),
         ("error [mm]", mm(own.mean_error_m)),
         ("outliers", own.outliers.to_string()),
         ("failures", "-".to_owned()),

@@ -1,9 +1,10 @@
-//! What a TDC is like: a table, CSV files, and the same for scripts.
+//! The characterisation of a TDC: tables, CSV files and JSON.
 
 use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use tofsim::error::Result;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::characterisation::Characterisation;
 use tofsim_learn::characterisation::density::{CodeDensity, NARROW, Spread};
@@ -11,26 +12,116 @@ use tofsim_learn::characterisation::timing::TimeError;
 
 use crate::text::table::{self, grouped};
 
+use super::sheet::{Digits, NamedText, Sheet};
+use super::tdc_plots;
+use super::writer::Findings;
+
 /// Patterns of bubbles that are shown.
 const SHOWN: usize = 6;
 
-/// The tables, in 80 columns.
-pub fn text(found: &Characterisation, setup: &Setup) -> String {
-    let tdc = &setup.scenario.tdc;
-    let sections = [
-        format!(
-            "TDC with chain {}, decoder {}, calibration {}",
-            tdc.profile,
-            tdc.decoder.name(),
-            tdc.calibration
-        ),
-        taps(found, setup),
-        linearity(found),
-        bubbles(found),
-        edges(found, tdc.setup_window_ps),
-        stops(found),
-    ];
-    sections.join("\n\n") + "\n"
+/// A characterisation and the setup whose converter it is of.
+pub struct TdcFindings<'a> {
+    /// The characterisation.
+    pub found: &'a Characterisation,
+    /// Chain, decoder and calibration.
+    pub setup: &'a Setup,
+}
+
+impl Findings for TdcFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.tdc/1";
+    const FILE: Option<&'static str> = Some("tdc.json");
+
+    fn json(&self) -> Value {
+        let TdcFindings { found, setup } = self;
+        let (density, tdc) = (&found.density, &setup.scenario.tdc);
+        let of_widths = |widths: &[f64]| {
+            let dnl = density.dnl(widths);
+            let equivalent_ps = CodeDensity::equivalent_ps(widths);
+            json!({
+                "widest_ps": Spread::of(widths).largest,
+                "dnl_lsb": Spread::of(&dnl),
+                "inl_lsb": Spread::of(&density.inl(&dnl)),
+                "equivalent_ps": equivalent_ps,
+                "sigma_ps": equivalent_ps / 12f64.sqrt(),
+            })
+        };
+        let [drift_ps_per_c, drift_ps_per_mv] = drift_ps(setup);
+        json!({
+            "profile": tdc.profile,
+            "decoder": tdc.decoder.name(),
+            "calibration": tdc.calibration.to_string(),
+            "hits": density.hits,
+            "period_ps": density.period_ps,
+            "taps": found.taps,
+            "taps_used": density.bins.len(),
+            "lsb_ps": density.lsb_ps(),
+            "empty": density.empty(),
+            "narrow": density.narrow(),
+            "narrow_below_lsb": NARROW,
+            "drift_ps_per_c": drift_ps_per_c,
+            "drift_ps_per_mv": drift_ps_per_mv,
+            "bins_by_hits": of_widths(&density.measured_ps()),
+            "bins": of_widths(&density.true_ps()),
+            "times_equal_taps": found.raw,
+            "times": found.calibrated,
+            "code_precision_ps": found.transfer.code_precision_ps,
+            "bubbles": found.bubbles,
+            "edges": found.edges,
+            "phases": found.phases,
+            "table_6_3": found.stops,
+        })
+    }
+
+    /// The tables, in 80 columns.
+    fn text(&self) -> String {
+        let TdcFindings { found, setup } = self;
+        let tdc = &setup.scenario.tdc;
+        let (profile, decoder) = (&tdc.profile, tdc.decoder.name());
+        let sections = [
+            format!("TDC with chain {profile}, decoder {decoder}, calibration {}", tdc.calibration),
+            taps(found, setup),
+            linearity(found),
+            bubbles(found),
+            edges(found, tdc.setup_window_ps),
+            stops(found),
+        ];
+        sections.join("\n\n") + "\n"
+    }
+
+    fn sheets(&self) -> Vec<NamedText> {
+        let (found, density) = (self.found, &self.found.density);
+        let dnl = density.dnl(&density.measured_ps());
+        let inl = density.inl(&dnl);
+        let bins: Vec<_> = density.bins.iter().zip(dnl).zip(inl).collect();
+        let bins = Sheet::of(&bins)
+            .column("n", Digits::Shortest, |((bin, _), _)| bin.n)
+            .column("count", Digits::Shortest, |((bin, _), _)| bin.count)
+            .column("width_ps", Digits::Fixed(4), |((bin, _), _)| density.width_ps(bin).0)
+            .column("width_se_ps", Digits::Fixed(4), |((bin, _), _)| density.width_ps(bin).1)
+            .column("true_width_ps", Digits::Fixed(3), |((bin, _), _)| bin.true_width_ps)
+            .column("dnl", Digits::Fixed(5), |((_, dnl), _)| *dnl)
+            .column("inl", Digits::Fixed(5), |(_, inl)| *inl);
+        let count =
+            |n: usize| density.bins.iter().find(|bin| bin.n == n).map_or(0, |bin| bin.count);
+        let counts: Vec<_> = (0..=found.taps).map(|n| (n, count(n))).collect();
+        let counts = Sheet::of(&counts).column("n", Digits::Shortest, |(n, _)| *n).column(
+            "count",
+            Digits::Shortest,
+            |(_, count)| *count,
+        );
+        let transfer = Sheet::of(&found.transfer.points)
+            .column("delay_ps", Digits::Fixed(3), |at| at.delay_ps)
+            .column("coarse", Digits::Shortest, |at| at.hit.coarse)
+            .column("n", Digits::Shortest, |at| at.hit.n)
+            .column("time_ps", Digits::Fixed(3), |at| at.time_ps)
+            .column("equal_taps_time_ps", Digits::Fixed(3), |at| at.raw_time_ps)
+            .column("code", Digits::Shortest, |at| at.code);
+        vec![bins.file("bins.csv"), counts.file("counts.csv"), transfer.file("transfer.csv")]
+    }
+
+    fn plots(&self) -> Result<Vec<NamedText>> {
+        tdc_plots::all(self.found, &self.setup.scenario.tdc)
+    }
 }
 
 fn part(count: usize, all: usize) -> String {
@@ -64,7 +155,7 @@ fn taps(found: &Characterisation, setup: &Setup) -> String {
     ])
 }
 
-/// By how much the age of the oldest hit drifts, with a degree and with a millivolt [ps, ps].
+/// Returns the drift of the oldest hit's age for a degree and for a millivolt [ps, ps].
 fn drift_ps(setup: &Setup) -> [f64; 2] {
     let tdc = &setup.scenario.tdc;
     let oldest = setup.params.tdc.delays.tap_0() + setup.cycle();
@@ -78,50 +169,43 @@ fn drift(setup: &Setup) -> String {
 
 fn linearity(found: &Characterisation) -> String {
     let density = &found.density;
-    let row = |name: &str, spread: Spread, factor: f64| {
-        let Spread { rms, least, largest } = spread;
-        vec![
-            name.to_owned(),
-            format!("{:.3}", rms * factor),
-            format!("{:.2} .. {:.2}", least * factor, largest * factor),
-            format!("{:.2}", rms * factor * density.lsb_ps()),
-            format!(
-                "{:.1} .. {:.1}",
-                least * factor * density.lsb_ps(),
-                largest * factor * density.lsb_ps()
-            ),
-        ]
-    };
+    let lsb_ps = density.lsb_ps();
     let dnl = density.dnl(&density.measured_ps());
-    let inl = Spread::of(&density.inl(&dnl));
-    let of_lsb = 1.0 / density.lsb_ps();
-    let calibrated = &found.calibrated;
-    let rows = [
-        row("DNL of the bins, by hits", Spread::of(&dnl), 1.0),
-        row("INL of the bins, by hits", inl, 1.0),
-        row("DNL of times, equal taps", found.raw.dnl, of_lsb),
-        row("INL of times, equal taps", found.raw.inl, of_lsb),
-        row("DNL of times, calibrated", calibrated.dnl, of_lsb),
-        row("INL of times, calibrated", calibrated.inl, of_lsb),
+    let (raw, calibrated) = (&found.raw, &found.calibrated);
+    // Each in LSB.
+    let spreads = [
+        ("DNL of the bins, by hits", Spread::of(&dnl), 1.0),
+        ("INL of the bins, by hits", Spread::of(&density.inl(&dnl)), 1.0),
+        ("DNL of times, uncalibrated", raw.dnl, 1.0 / lsb_ps),
+        ("INL of times, uncalibrated", raw.inl, 1.0 / lsb_ps),
+        ("DNL of times, calibrated", calibrated.dnl, 1.0 / lsb_ps),
+        ("INL of times, calibrated", calibrated.inl, 1.0 / lsb_ps),
     ];
-    let header = ["", "rms [LSB]", "range", "rms [ps]", "range"].map(str::to_owned);
-    let linearity = table::table(header, rows, 1..);
-    let precision = |error: &TimeError| format!("{:.2}", error.precision_ps);
+    let range = |of: &Spread, factor: f64, decimals: usize| {
+        format!("{:.decimals$} .. {:.decimals$}", of.least * factor, of.largest * factor)
+    };
+    let linearity = Sheet::of(&spreads)
+        .words("", |(name, ..)| *name)
+        .words("rms [LSB]", |(_, of, unit)| format!("{:.3}", of.rms * unit))
+        .words("range", |(_, of, unit)| range(of, *unit, 2))
+        .words("rms [ps]", |(_, of, unit)| format!("{:.2}", of.rms * unit * lsb_ps))
+        .words("range", |(_, of, unit)| range(of, unit * lsb_ps, 1));
+    let of = |error: &TimeError| (error.precision_ps, Some(error.mean_ps));
     let precisions = [
-        [
-            "times, equal taps".to_owned(),
-            precision(&found.raw),
-            format!("{:.2}", found.raw.mean_ps),
-        ],
-        [
-            "times, calibrated".to_owned(),
-            precision(calibrated),
-            format!("{:.2}", calibrated.mean_ps),
-        ],
-        ["codes".to_owned(), format!("{:.2}", found.transfer.code_precision_ps), "-".to_owned()],
+        ("times, uncalibrated", of(raw)),
+        ("times, calibrated", of(calibrated)),
+        ("codes", (found.transfer.code_precision_ps, None)),
     ];
-    let header = ["single shot", "precision [ps]", "mean error [ps]"];
-    format!("{linearity}\n\n{}", table::table(header, precisions, 1..))
+    let precisions = Sheet::of(&precisions)
+        .words("single shot", |(name, _)| *name)
+        .words("precision [ps]", |(_, (precision_ps, _))| format!("{precision_ps:.2}"))
+        .words("mean error [ps]", |(_, (_, mean_ps))| mean_ps.map(|ps| format!("{ps:.2}")));
+    format!("{}\n\n{}", linearity.table(), precisions.table())
+}
+
+/// Returns the levels of a pattern, or a word for a pattern without a bubble.
+pub(super) fn named(levels: &str) -> &str {
+    if levels.is_empty() { "none" } else { levels }
 }
 
 fn bubbles(found: &Characterisation) -> String {
@@ -129,11 +213,11 @@ fn bubbles(found: &Characterisation) -> String {
     let transitions = bubbles.transitions.iter();
     let transitions: Vec<_> =
         transitions.map(|(changes, share)| format!("{changes}: {:.1} %", 100.0 * share)).collect();
-    let rows = bubbles.patterns.iter().take(SHOWN).map(|pattern| {
-        let levels = if pattern.levels.is_empty() { "none" } else { &pattern.levels };
-        [levels.to_owned(), format!("{:.2}", 100.0 * pattern.share), pattern.counts.to_string()]
-    });
-    let patterns = table::table(["bubble", "phases [%]", "taps reached"], rows, 1..);
+    let patterns = Sheet::of(&bubbles.patterns[..bubbles.patterns.len().min(SHOWN)])
+        .words("bubble", |pattern| named(&pattern.levels))
+        .words("phases [%]", |pattern| format!("{:.2}", 100.0 * pattern.share))
+        .words("taps reached", |pattern| pattern.counts)
+        .table();
     format!(
         "Bubbles at {:.1} % of the phases, {} taps long at most; changes from tap to tap:\n{}\n\n{patterns}",
         100.0 * bubbles.share,
@@ -179,122 +263,9 @@ fn edges(found: &Characterisation, window_ps: f64) -> String {
 }
 
 fn stops(found: &Characterisation) -> String {
-    let rows = found
-        .stops
-        .iter()
-        .map(|stop| [stop.t2_ns.to_string(), stop.n.to_string(), format!("{}", stop.t1_ns)]);
-    format!("Table 6.3\n{}", table::table(["stop [ns]", "n", "edge [ns]"], rows, 0..))
-}
-
-/// Name and text of each CSV file, but for the record.
-pub fn tables(found: &Characterisation) -> [(&'static str, String); 3] {
-    let density = &found.density;
-    let dnl = density.dnl(&density.measured_ps());
-    let inl = density.inl(&dnl);
-    let mut bins = "n,count,width_ps,width_se_ps,true_width_ps,dnl,inl\n".to_owned();
-    for ((bin, dnl), inl) in density.bins.iter().zip(&dnl).zip(&inl) {
-        let (ps, se_ps) = density.width_ps(bin);
-        let true_ps = bin.true_width_ps;
-        let _ = writeln!(
-            bins,
-            "{},{},{ps:.4},{se_ps:.4},{true_ps:.3},{dnl:.5},{inl:.5}",
-            bin.n, bin.count
-        );
-    }
-    let mut counts = "n,count\n".to_owned();
-    for n in 0..=found.taps {
-        let bin = density.bins.iter().find(|bin| bin.n == n);
-        let _ = writeln!(counts, "{n},{}", bin.map_or(0, |bin| bin.count));
-    }
-    let mut transfer = "delay_ps,coarse,n,time_ps,equal_taps_time_ps,code\n".to_owned();
-    for at in &found.transfer.points {
-        let code = at.code.map_or(String::new(), |code| code.to_string());
-        let _ = writeln!(
-            transfer,
-            "{:.3},{},{},{:.3},{:.3},{code}",
-            at.delay_ps, at.hit.coarse, at.hit.n, at.time_ps, at.raw_time_ps
-        );
-    }
-    [("bins.csv", bins), ("counts.csv", counts), ("transfer.csv", transfer)]
-}
-
-fn spread(spread: Spread) -> Value {
-    json!({ "rms": spread.rms, "least": spread.least, "largest": spread.largest })
-}
-
-/// The same for scripts.
-pub fn json(found: &Characterisation, setup: &Setup) -> Value {
-    let density = &found.density;
-    let of_widths = |widths: &[f64]| {
-        let dnl = density.dnl(widths);
-        let equivalent_ps = CodeDensity::equivalent_ps(widths);
-        json!({
-            "widest_ps": Spread::of(widths).largest,
-            "dnl_lsb": spread(Spread::of(&dnl)),
-            "inl_lsb": spread(Spread::of(&density.inl(&dnl))),
-            "equivalent_ps": equivalent_ps,
-            "sigma_ps": equivalent_ps / 12f64.sqrt(),
-        })
-    };
-    let of_times = |error: &TimeError| {
-        json!({
-            "mean_error_ps": error.mean_ps,
-            "precision_ps": error.precision_ps,
-            "dnl_ps": spread(error.dnl),
-            "inl_ps": spread(error.inl),
-        })
-    };
-    let patterns = found.bubbles.patterns.iter().map(|pattern| {
-        json!({ "levels": pattern.levels, "share": pattern.share, "counts": pattern.counts })
-    });
-    let transitions = found.bubbles.transitions.iter();
-    let transitions =
-        transitions.map(|(changes, share)| json!({ "changes": changes, "share": share }));
-    let edges = found.edges.iter().map(|edge| {
-        json!({
-            "coarse": edge.coarse,
-            "delay_ps": edge.delay_ps,
-            "jump_ps": edge.jump_ps,
-            "largest_jump_ps": edge.largest_jump_ps,
-        })
-    });
-    let stops = found.stops.iter();
-    let stops = stops.map(|stop| json!({ "t2_ns": stop.t2_ns, "n": stop.n, "t1_ns": stop.t1_ns }));
-    let tdc = &setup.scenario.tdc;
-    let [drift_ps_per_c, drift_ps_per_mv] = drift_ps(setup);
-    json!({
-        "schema": "tofsim.tdc/1",
-        "profile": tdc.profile,
-        "decoder": tdc.decoder.name(),
-        "calibration": tdc.calibration.to_string(),
-        "hits": density.hits,
-        "period_ps": density.period_ps,
-        "taps": found.taps,
-        "taps_used": density.bins.len(),
-        "lsb_ps": density.lsb_ps(),
-        "empty": density.empty(),
-        "narrow": density.narrow(),
-        "narrow_below_lsb": NARROW,
-        "drift_ps_per_c": drift_ps_per_c,
-        "drift_ps_per_mv": drift_ps_per_mv,
-        "bins_by_hits": of_widths(&density.measured_ps()),
-        "bins": of_widths(&density.true_ps()),
-        "times_equal_taps": of_times(&found.raw),
-        "times": of_times(&found.calibrated),
-        "code_precision_ps": found.transfer.code_precision_ps,
-        "bubbles": {
-            "share": found.bubbles.share,
-            "longest": found.bubbles.longest,
-            "transitions": transitions.collect::<Vec<_>>(),
-            "patterns": patterns.collect::<Vec<_>>(),
-        },
-        "edges": edges.collect::<Vec<_>>(),
-        "phases": {
-            "count": found.phases.count,
-            "off_by_a_period": found.phases.off,
-            "largest_error_ps": found.phases.largest_error_ps,
-            "rms_error_ps": found.phases.rms_error_ps,
-        },
-        "table_6_3": stops.collect::<Vec<_>>(),
-    })
+    let stops = Sheet::of(&found.stops)
+        .words("stop [ns]", |stop| stop.t2_ns)
+        .words("n", |stop| stop.n)
+        .words("edge [ns]", |stop| stop.t1_ns);
+    format!("Table 6.3\n{}", stops.table())
 }

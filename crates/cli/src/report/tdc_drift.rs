@@ -1,7 +1,6 @@
 //! The depth's error over time, with a TDC calibrated once and again and again.
 
-use std::fmt::Write;
-
+use plotters::prelude::RED;
 use serde_json::{Value, json};
 
 use tofsim::error::Result;
@@ -9,108 +8,111 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::drift::{Drift, Point};
 use tofsim_learn::evaluation::Spread;
 
-use plotters::prelude::RED;
+use crate::text::table::number_or_dash;
 
-use super::tdc_plots::{BLUE, Line, lines};
-use crate::text::table::{number_or_dash, table};
+use super::sheet::{Digits, NamedText, Sheet, evenly};
+use super::tdc_plots::{BLUE, PlotLine, lines};
+use super::writer::Findings;
 
 /// Rows of the table; the files have all.
 const SHOWN: usize = 25;
 
-/// A mean error with its standard error.
-fn mean(spread: &Spread) -> String {
-    let mean = number_or_dash(spread.mean_mm, 2);
-    spread.mean_se_mm.map_or(mean.clone(), |se| format!("{mean} +-{se:.2}"))
+/// Depths over time, and the setup that they are of.
+pub struct DriftFindings<'a> {
+    /// Depths at each moment.
+    pub found: &'a Drift,
+    /// Target and chain.
+    pub setup: &'a Setup,
 }
 
-fn cells(point: &Point) -> Vec<String> {
-    let moment = &point.moment;
-    let cells = |spread: &Spread| {
-        [mean(spread), number_or_dash(spread.two_sd_mm, 2), spread.failures.to_string()]
-    };
-    // To the microsecond, without the zeros at its end.
-    let seconds = (moment.time_s * 1e6).round() / 1e6;
-    let conditions = [seconds.to_string(), format!("{:.2}", moment.temperature_c)];
-    conditions.into_iter().chain(cells(&point.once)).chain(cells(&point.repeated)).collect()
-}
+impl Findings for DriftFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.drift/1";
+    const FILE: Option<&'static str> = Some("drift.json");
 
-/// The table, in 80 columns.
-pub fn text(found: &Drift, setup: &Setup) -> String {
-    let tdc = &setup.scenario.tdc;
-    let header = ["t [s]", "degC", "once [mm]", "2 sd", "none", "again [mm]", "2 sd", "none"]
-        .map(str::to_owned);
-    // Evenly chosen, with the first and the last.
-    let last = found.points.len() - 1;
-    let rows = last.min(SHOWN - 1);
-    let places = (0..=rows).map(|k| (k * last).checked_div(rows).unwrap_or(0));
-    let rows: Vec<_> = places.map(|place| cells(&found.points[place])).collect();
-    format!(
-        "Depth by {} over time, target at {} m\n\
-         Chain {}, {} histograms each\n\
-         Delays of the chain: {:+.3} % for a degree, {:+.3} % for a millivolt\n\n{}\n\n\
-         once: calibrated at the first moment. again: every {} s. none: without a depth.\n",
-        found.estimator,
-        setup.scenario.target.distance_m,
-        tdc.profile,
-        found.repeats,
-        100.0 * tdc.delay_per_c,
-        100.0 * tdc.delay_per_mv,
-        table(header, rows, 0..),
-        found.every_s,
-    )
-}
-
-/// All of it for scripts.
-pub fn json(found: &Drift) -> Value {
-    let mut object = json!({ "schema": "tofsim.drift/1" });
-    if let (Some(object), Ok(Value::Object(own))) =
-        (object.as_object_mut(), serde_json::to_value(found))
-    {
-        object.extend(own);
+    fn json(&self) -> Value {
+        json!(self.found)
     }
-    object
-}
 
-/// A row for each moment.
-pub fn csv(found: &Drift) -> String {
-    let mut text = String::from(
-        "time_s,temperature_c,supply_mv,calibrated_s,once_mean_mm,once_mean_se_mm,once_two_sd_mm,once_failures,\
-         repeated_mean_mm,repeated_mean_se_mm,repeated_two_sd_mm,repeated_failures\n",
-    );
-    for point in &found.points {
-        let moment = &point.moment;
-        let _ = write!(text, "{},{},{}", moment.time_s, moment.temperature_c, moment.supply_mv);
-        let _ = write!(text, ",{}", point.calibrated_s);
-        for spread in [&point.once, &point.repeated] {
-            for value in [spread.mean_mm, spread.mean_se_mm, spread.two_sd_mm] {
-                let _ = write!(text, ",{}", value.map_or(String::new(), |value| value.to_string()));
-            }
-            let _ = write!(text, ",{}", spread.failures);
-        }
-        text.push('\n');
+    /// The table, in 80 columns.
+    fn text(&self) -> String {
+        let DriftFindings { found, setup } = self;
+        let tdc = &setup.scenario.tdc;
+        format!(
+            "Depth by {} over time, target at {} m\n\
+             Chain {}, {} histograms each\n\
+             Delays of the chain: {:+.3} % for a degree, {:+.3} % for a millivolt\n\n{}\n\n\
+             once: calibrated at the first moment. again: every {} s. none: without a depth.\n",
+            found.estimator,
+            setup.scenario.target.distance_m,
+            tdc.profile,
+            found.repeats,
+            100.0 * tdc.delay_per_c,
+            100.0 * tdc.delay_per_mv,
+            self.sheet().table_of(evenly(found.points.len(), SHOWN)),
+            found.every_s,
+        )
     }
-    text
+
+    fn sheets(&self) -> Vec<NamedText> {
+        vec![self.sheet().file("drift.csv")]
+    }
+
+    /// Draws mean errors over time.
+    fn plots(&self) -> Result<Vec<NamedText>> {
+        let DriftFindings { found, setup } = self;
+        let line = |name: &str, colour, of: fn(&Point) -> &Spread| -> PlotLine {
+            let points = found.points.iter();
+            let points = points.filter_map(|point| Some((point.moment.time_s, of(point).mean_mm?)));
+            (name.to_owned(), colour, points.collect())
+        };
+        let [first, last] =
+            [0, found.points.len() - 1].map(|k| found.points[k].moment.temperature_c);
+        let title = format!(
+            "{} at {} m, {first} to {last} degC, chain {}",
+            found.estimator, setup.scenario.target.distance_m, setup.scenario.tdc.profile
+        );
+        let again = format!("calibrated every {} s", found.every_s);
+        let drawn = [
+            line("calibrated once", RED, |point| &point.once),
+            line(&again, BLUE, |point| &point.repeated),
+        ];
+        let svg = lines(&title, ["time [s]", "mean error [mm]"], &drawn)?;
+        Ok(vec![("drift.svg".to_owned(), svg)])
+    }
 }
 
-/// Mean errors over time.
-///
-/// # Errors
-/// When the plotting library fails.
-pub fn svg(found: &Drift, setup: &Setup) -> Result<String> {
-    let line = |name: &str, colour, of: fn(&Point) -> &Spread| -> Line {
-        let points = found.points.iter();
-        let points = points.filter_map(|point| Some((point.moment.time_s, of(point).mean_mm?)));
-        (name.to_owned(), colour, points.collect())
+impl DriftFindings<'_> {
+    /// A row for each moment.
+    fn sheet(&self) -> Sheet<'_, Point> {
+        let sheet = Sheet::of(&self.found.points)
+            .column("time_s", Digits::Shortest, |at| at.moment.time_s)
+            // To the microsecond, without the zeros at its end.
+            .words("t [s]", |at| (at.moment.time_s * 1e6).round() / 1e6)
+            .column("temperature_c", Digits::Shortest, |at| at.moment.temperature_c)
+            .shown("degC", Digits::Fixed(2))
+            .column("supply_mv", Digits::Shortest, |at| at.moment.supply_mv)
+            .column("calibrated_s", Digits::Shortest, |at| at.calibrated_s);
+        let sheet = spread(sheet, ["once", "once"], |at| &at.once);
+        spread(sheet, ["repeated", "again"], |at| &at.repeated)
+    }
+}
+
+/// Adds the columns of a spread, whose names begin with the first word in the file and with the other in the table.
+fn spread<'a>(
+    sheet: Sheet<'a, Point>,
+    [name, heading]: [&str; 2],
+    of: fn(&Point) -> &Spread,
+) -> Sheet<'a, Point> {
+    let mean = |at: &Point| {
+        let mean = number_or_dash(of(at).mean_mm, 2);
+        of(at).mean_se_mm.map_or(mean.clone(), |se| format!("{mean} +-{se:.2}"))
     };
-    let [first, last] = [0, found.points.len() - 1].map(|k| found.points[k].moment.temperature_c);
-    let title = format!(
-        "{} at {} m, {first} to {last} degC, chain {}",
-        found.estimator, setup.scenario.target.distance_m, setup.scenario.tdc.profile
-    );
-    let again = format!("calibrated every {} s", found.every_s);
-    let drawn = [
-        line("calibrated once", RED, |point| &point.once),
-        line(&again, BLUE, |point| &point.repeated),
-    ];
-    lines(&title, ["time [s]", "mean error [mm]"], &drawn)
+    sheet
+        .words(format!("{heading} [mm]"), mean)
+        .column(format!("{name}_mean_mm"), Digits::Shortest, move |at| of(at).mean_mm)
+        .column(format!("{name}_mean_se_mm"), Digits::Shortest, move |at| of(at).mean_se_mm)
+        .column(format!("{name}_two_sd_mm"), Digits::Shortest, move |at| of(at).two_sd_mm)
+        .shown("2 sigma", Digits::Fixed(2))
+        .column(format!("{name}_failures"), Digits::Shortest, move |at| of(at).failures)
+        .shown("none", Digits::Shortest)
 }

@@ -11,16 +11,18 @@ use tofsim_learn::characterisation::density::CodeDensity;
 
 use crate::text::svg::{chart, legend, picture};
 
+use super::sheet::NamedText;
+
 pub(super) const BLUE: RGBColor = RGBColor(43, 108, 176);
 
 /// A line of a picture: its name, its colour, its points.
-pub(super) type Line = (String, RGBColor, Vec<(f64, f64)>);
+pub(super) type PlotLine = (String, RGBColor, Vec<(f64, f64)>);
 
 /// Name and SVG text of each picture.
 ///
 /// # Errors
 /// When the plotting library fails.
-pub fn all(found: &Characterisation, tdc: &Tdc) -> Result<[(&'static str, String); 5]> {
+pub fn all(found: &Characterisation, tdc: &Tdc) -> Result<Vec<NamedText>> {
     let density = &found.density;
     let title =
         |what: &str| format!("{what}, chain {}, calibration {}", tdc.profile, tdc.calibration);
@@ -30,7 +32,7 @@ pub fn all(found: &Characterisation, tdc: &Tdc) -> Result<[(&'static str, String
     let [by_hits, exact] = [density.measured_ps(), density.true_ps()];
     let [dnl, true_dnl] = [&by_hits, &exact].map(|widths| density.dnl(widths));
     let [inl, true_inl] = [&dnl, &true_dnl].map(|dnl| density.inl(dnl));
-    let both = |values: &[f64], exact: &[f64]| -> [Line; 2] {
+    let both = |values: &[f64], exact: &[f64]| -> [PlotLine; 2] {
         let hits = format!("by {} hits", density.hits);
         [(hits, BLUE, by_n(values)), ("by the delays".to_owned(), RED, by_n(exact))]
     };
@@ -41,14 +43,14 @@ pub fn all(found: &Characterisation, tdc: &Tdc) -> Result<[(&'static str, String
         let own = points.iter().map(|at| (at.delay_ps * 1e-3, value(at.delay_ps, at.time_ps)));
         let raw = points.iter().map(|at| (at.delay_ps * 1e-3, value(at.delay_ps, at.raw_time_ps)));
         [
-            ("equal taps".to_owned(), RED, raw.collect()),
+            ("uncalibrated".to_owned(), RED, raw.collect()),
             ("the converter's own ROM".to_owned(), BLUE, own.collect()),
         ]
     };
     let stretches = &found.transfer.stretches;
-    let precision: [Line; 2] = [
+    let precision: [PlotLine; 2] = [
         (
-            "equal taps".to_owned(),
+            "uncalibrated".to_owned(),
             RED,
             stretches.iter().map(|at| (at.delay_ps * 1e-3, at.raw_rms_ps)).collect(),
         ),
@@ -60,23 +62,25 @@ pub fn all(found: &Characterisation, tdc: &Tdc) -> Result<[(&'static str, String
     ];
     let ones = "number by the decoder, n";
     let delay = "delay [ns]";
-    Ok([
-        ("widths.svg", lines(&title(&widths), [ones, "width [ps]"], &both(&by_hits, &exact))?),
-        ("dnl.svg", lines(&title("DNL"), [ones, "DNL [LSB]"], &both(&dnl, &true_dnl))?),
-        ("inl.svg", lines(&title("INL"), [ones, "INL [LSB]"], &both(&inl, &true_inl))?),
+    let pictures = [
+        ("widths.svg", widths.as_str(), [ones, "width [ps]"], both(&by_hits, &exact)),
+        ("dnl.svg", "DNL", [ones, "DNL [LSB]"], both(&dnl, &true_dnl)),
+        ("inl.svg", "INL", [ones, "INL [LSB]"], both(&inl, &true_inl)),
         (
             "transfer.svg",
-            lines(
-                &title("Error of the time"),
-                [delay, "time less delay [ps]"],
-                &of_points(|d, t| t - d),
-            )?,
+            "Error of the time",
+            [delay, "time less delay [ps]"],
+            of_points(|delay, time| time - delay),
         ),
-        ("precision.svg", lines(&title("Precision"), [delay, "rms error [ps]"], &precision)?),
-    ])
+        ("precision.svg", "Precision", [delay, "rms error [ps]"], precision),
+    ];
+    let drawn = |(name, what, axes, points): (&str, &str, [&str; 2], [PlotLine; 2])| {
+        Ok((name.to_owned(), lines(&title(what), axes, &points)?))
+    };
+    pictures.into_iter().map(drawn).collect()
 }
 
-/// From the least to the largest, and a little beyond.
+/// Returns the range from the least to the largest value, and a little beyond.
 fn range(values: impl Iterator<Item = f64> + Clone, beyond: f64) -> Range<f64> {
     let least = values.clone().fold(f64::INFINITY, f64::min);
     let largest = values.fold(f64::NEG_INFINITY, f64::max);
@@ -84,7 +88,7 @@ fn range(values: impl Iterator<Item = f64> + Clone, beyond: f64) -> Range<f64> {
     least - more..largest + more
 }
 
-pub(super) fn lines(title: &str, axes: [&str; 2], lines: &[Line]) -> Result<String> {
+pub(super) fn lines(title: &str, axes: [&str; 2], lines: &[PlotLine]) -> Result<String> {
     let points = lines.iter().flat_map(|(_, _, points)| points);
     let x = range(points.clone().map(|point| point.0), 0.0);
     let y = range(points.map(|point| point.1), 0.12);

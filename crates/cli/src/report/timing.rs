@@ -1,15 +1,18 @@
-//! What a design's clocks came to, as tables and as JSON.
+//! The clocks of a design, as tables and as JSON.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde_json::{Value, json};
 
 use tofsim_rtl::timing::block::required_mhz;
 use tofsim_rtl::timing::nextpnr::ClockSpeed;
-use tofsim_rtl::timing::record::Record;
+use tofsim_rtl::timing::record::{BlockTiming, Record};
 use tofsim_rtl::timing::{Estimate, Measurement, TimedPath};
 
 use crate::text::table::table;
+
+use super::writer::Findings;
 
 /// Columns of primitives of an ECP5.
 const ECP5: [&str; 5] = ["TRELLIS_COMB", "TRELLIS_FF", "DP16KD", "MULT18X18D", "CCU2C"];
@@ -24,8 +27,32 @@ const KINTEX7: [(&str, &[&str]); 7] = [
     ("FF", &["FD"]),
 ];
 
-/// Two tables, and the critical path of each block.
-pub fn text(record: &Record) -> String {
+/// The clocks of a design.
+pub struct DesignTiming<'a> {
+    /// Source of the design.
+    pub rtl: &'a str,
+    /// Measurements and estimates of each block.
+    pub record: &'a Record,
+}
+
+impl Findings for DesignTiming<'_> {
+    const SCHEMA: &'static str = "tofsim.timing/1";
+
+    fn json(&self) -> Value {
+        let Record { tools, blocks } = self.record;
+        let closes = |block: &BlockTiming| block.ecp5.as_ref().map(Measurement::closes);
+        let closes: BTreeMap<_, _> =
+            blocks.iter().map(|(name, block)| (name, closes(block))).collect();
+        json!({ "rtl": self.rtl, "tools": tools, "closes": closes, "blocks": blocks })
+    }
+
+    fn text(&self) -> String {
+        text(self.record)
+    }
+}
+
+/// Returns two tables, and the critical path of each block.
+fn text(record: &Record) -> String {
     let mut text = String::new();
     let measured: Vec<_> = measured(record).collect();
     if !measured.is_empty() {
@@ -99,18 +126,4 @@ fn path(text: &mut String, what: &str, path: &TimedPath) {
         [format!("  {}", hop.cell), ns(hop.cell_ns), hop.net.clone(), ns(hop.net_ns)]
     });
     let _ = writeln!(text, "{}", table(["  cell", "ns", "net", "ns"], rows, ..0));
-}
-
-/// One object, `tofsim.timing/1`.
-pub fn json(rtl: &str, record: &Record) -> Value {
-    let closes = |name: &String| record.blocks[name].ecp5.as_ref().map(Measurement::closes);
-    let closed: serde_json::Map<_, _> =
-        record.blocks.keys().map(|name| (name.clone(), json!(closes(name)))).collect();
-    json!({
-        "schema": "tofsim.timing/1",
-        "rtl": rtl,
-        "tools": record.tools,
-        "closes": closed,
-        "blocks": record.blocks,
-    })
 }

@@ -1,6 +1,5 @@
-//! What a training found, as text: a table, JSON and CSV.
+//! The accuracy of a trained network: a table, JSON and CSV.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -8,9 +7,9 @@ use serde_json::{Value, json};
 use tofsim_learn::training::accuracy::{DistanceErrors, worst_ratio};
 use tofsim_learn::training::weighting::Weighting;
 
-use crate::text::table::table as text_table;
+use super::sheet::{Digits, Sheet};
 
-/// What `--json` prints, of all distances; `network` is the file that was written.
+/// Returns the JSON object, with all distances; `network` is the file that was written.
 pub fn json(rows: &[DistanceErrors], line: &Weighting, network: &Path) -> Value {
     let each = |of: &dyn Fn(&DistanceErrors) -> f64| rows.iter().map(of).collect::<Vec<_>>();
     json!({
@@ -31,25 +30,27 @@ pub fn hundredths(value: f64) -> f64 {
     (value * 100.0).round() / 100.0
 }
 
-/// A row for each distance, as CSV.
+/// Returns a row for each distance, as CSV.
 pub fn csv(rows: &[DistanceErrors]) -> String {
-    let mut text = String::from("distance_m,histograms,mean_mm,two_sd_mm,rms_mm\n");
-    for DistanceErrors { distance_m, count, mean_mm, two_sd_mm, rms_mm } in rows {
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "{distance_m},{count},{mean_mm:?},{two_sd_mm:?},{rms_mm:?}");
-    }
-    text
+    Sheet::of(rows)
+        .column("distance_m", Digits::Shortest, |row| row.distance_m)
+        .column("histograms", Digits::Shortest, |row| row.count)
+        .column("mean_mm", Digits::Literal, |row| row.mean_mm)
+        .column("two_sd_mm", Digits::Literal, |row| row.two_sd_mm)
+        .column("rms_mm", Digits::Literal, |row| row.rms_mm)
+        .csv()
 }
 
 /// The line's distances, and the worst of all, for people.
 pub fn table(rows: &[DistanceErrors], line: &Weighting) -> String {
-    let shown = rows.iter().filter(|row| line.distances_m.contains(&row.distance_m));
-    let shown = shown.map(|row| {
-        let below = format!("{:.2}", line.line_mm(row.distance_m));
-        let [mean, spread] = [row.mean_mm, row.two_sd_mm].map(|value| format!("{value:.2}"));
-        [row.distance_m.to_string(), mean, spread, below]
-    });
-    let table = text_table(["distance_m", "mean_mm", "two_sd_mm", "to stay below"], shown, ..);
+    let is_shown = |row: &&DistanceErrors| line.distances_m.contains(&row.distance_m);
+    let shown: Vec<_> = rows.iter().filter(is_shown).collect();
+    let table = Sheet::of(&shown)
+        .words("distance [m]", |row| row.distance_m)
+        .words("mean [mm]", |row| format!("{:.2}", row.mean_mm))
+        .words("2 sigma [mm]", |row| format!("{:.2}", row.two_sd_mm))
+        .words("to stay below", |row| format!("{:.2}", line.line_mm(row.distance_m)))
+        .table();
     let ratio = |row: &DistanceErrors| row.two_sd_mm / line.line_mm(row.distance_m);
     let worst = rows.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
     let worst = worst.map_or(String::new(), |row| {

@@ -1,4 +1,4 @@
-//! The reports as a table, as JSON and as JUnit XML.
+//! Verified blocks and cycle counts as tables, as JSON and as JUnit XML.
 
 use std::io::stdout;
 use std::path::Path;
@@ -13,20 +13,39 @@ use crate::text::colour::coloured_ends;
 use crate::text::junit::{self, JunitCase};
 use crate::text::table::{grouped, table};
 
-/// A line for each block, and the cycles around each first mismatch.
-pub fn text(reports: &[BlockReport]) -> String {
-    let rows = reports.iter().map(|report| {
-        let (met, goals) = report.coverage;
-        [
-            report.name.clone(),
-            grouped(report.cycles as u64),
-            grouped(report.mismatches() as u64),
-            if goals == 0 { "-".to_owned() } else { format!("{met} of {goals}") },
-            verdict(report),
-        ]
-    });
-    let header = ["block", "cycles", "mismatches", "stimulus goals", "verdict"];
-    let table_of_all = table(header, rows, ..0);
+use super::sheet::Sheet;
+use super::writer::Findings;
+
+/// Blocks that were held to the golden vectors.
+pub struct Verified<'a> {
+    /// Source of the design.
+    pub rtl: &'a str,
+    /// Name of the simulator.
+    pub simulator: &'static str,
+    /// Report of each block.
+    pub blocks: &'a [BlockReport],
+}
+
+/// Cycles that were counted in the model and in the design.
+pub struct CycleCounts<'a> {
+    /// Source of the design.
+    pub rtl: &'a str,
+    /// Each count.
+    pub counts: &'a [Count],
+}
+
+/// Returns a line for each block, and the cycles around each first mismatch.
+fn text(reports: &[BlockReport]) -> String {
+    let table_of_all = Sheet::of(reports)
+        .words("block", |report| report.name.as_str())
+        .words("cycles", |report| grouped(report.cycles as u64))
+        .words("mismatches", |report| grouped(report.mismatches() as u64))
+        .words("stimulus goals", |report| match report.coverage {
+            (_, 0) => "-".to_owned(),
+            (met, goals) => format!("{met} of {goals}"),
+        })
+        .words("verdict", verdict)
+        .table();
     let words: Vec<_> = reports.iter().map(verdict).collect();
     let good = reports.iter().map(|report| !report.failed());
     let verdicts: Vec<_> = words.iter().map(String::as_str).zip(good).collect();
@@ -45,13 +64,13 @@ pub fn text(reports: &[BlockReport]) -> String {
     match missed.as_slice() {
         [] => text,
         missed => format!(
-            "{text}\n{}\nWhat was missed may be wrong unseen: more --cycles reach more.\n",
+            "{text}\n{}\nFaults in the uncovered cases would go unnoticed; increase --cycles.\n",
             missed.join("\n"),
         ),
     }
 }
 
-/// What was not run, a line for each reason.
+/// Returns the blocks that were not run, a line for each reason.
 fn not_run(reports: &[BlockReport]) -> String {
     let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
     for report in reports {
@@ -67,13 +86,13 @@ fn not_run(reports: &[BlockReport]) -> String {
     reasons.iter().map(line).collect()
 }
 
-/// How it came out, and whether the stimulus was too short to tell.
+/// Returns the verdict, and whether the stimulus was too short.
 fn verdict(report: &BlockReport) -> String {
     let short = report.verdict == Verdict::Pass && !report.missed.is_empty();
     if short { "pass, goals missed".to_owned() } else { report.word().to_owned() }
 }
 
-/// What the stimulus has not reached, a line for each block.
+/// Returns the goals that the stimulus of a block has missed.
 fn missed(report: &BlockReport) -> Option<String> {
     let goal =
         |(what, missing, cases): &(&str, usize, usize)| format!("{what} ({missing} of {cases})");
@@ -88,31 +107,38 @@ fn around(report: &BlockReport) -> String {
     table(head, rows, ..0)
 }
 
-/// One object, `tofsim.verify/1`.
-pub fn json(rtl: &str, simulator: &str, reports: &[BlockReport]) -> Value {
-    let block = |report: &BlockReport| {
-        let first = match &report.verdict {
-            Verdict::Differs { first, .. } => json!(first),
-            _ => Value::Null,
+impl Findings for Verified<'_> {
+    const SCHEMA: &'static str = "tofsim.verify/1";
+
+    fn json(&self) -> Value {
+        let block = |report: &BlockReport| {
+            let first = match &report.verdict {
+                Verdict::Differs { first, .. } => json!(first),
+                _ => Value::Null,
+            };
+            let (met, of) = report.coverage;
+            json!({
+                "block": report.name,
+                "verdict": report.word(),
+                "cycles": report.cycles,
+                "mismatches": report.mismatches(),
+                "first": first,
+                "fault": (report.verdict != Verdict::Pass).then(|| report.fault()),
+                "waves": report.wave.as_ref().map(|path| path.display().to_string()),
+                "goals": { "met": met, "of": of, "missed": missed(report) },
+            })
         };
         json!({
-            "block": report.name,
-            "verdict": report.word(),
-            "cycles": report.cycles,
-            "mismatches": report.mismatches(),
-            "first": first,
-            "fault": (report.verdict != Verdict::Pass).then(|| report.fault()),
-            "waves": report.wave.as_ref().map(|path| path.display().to_string()),
-            "goals": {"met": report.coverage.0, "of": report.coverage.1, "missed": missed(report)},
+            "rtl": self.rtl,
+            "simulator": self.simulator,
+            "passed": !self.blocks.iter().any(BlockReport::failed),
+            "blocks": self.blocks.iter().map(block).collect::<Vec<_>>(),
         })
-    };
-    json!({
-        "schema": "tofsim.verify/1",
-        "rtl": rtl,
-        "simulator": simulator,
-        "passed": !reports.iter().any(BlockReport::failed),
-        "blocks": reports.iter().map(block).collect::<Vec<_>>(),
-    })
+    }
+
+    fn text(&self) -> String {
+        text(self.blocks)
+    }
 }
 
 /// Writes a test suite with a case for each block.
@@ -129,30 +155,28 @@ pub fn write_junit(path: &Path, simulator: &str, reports: &[BlockReport]) -> Res
     junit::write(path, "tofsim verify", suite, reports.iter().map(case))
 }
 
-/// What, expected, counted twice, proven.
-pub fn counts_text(counts: &[Count]) -> String {
-    let number = |count: Option<u64>| count.map_or("never".to_owned(), |n| n.to_string());
-    let rows = counts.iter().map(|count| {
-        [
-            count.what.clone(),
-            count.expected.to_string(),
-            count.unit.to_owned(),
-            number(count.model),
-            number(count.rtl),
-            count.reason.as_ref().map_or("yes".to_owned(), |reason| format!("no: {reason}")),
-        ]
-    });
-    let header = ["what", "expected", "unit", "Rust model", "RTL simulation", "proven"];
-    let proofs: Vec<_> = counts.iter().map(|count| ("yes", count.proven)).collect();
-    coloured_ends(&table(header, rows, ..0), &proofs, &stdout()) + "\n"
-}
+impl Findings for CycleCounts<'_> {
+    const SCHEMA: &'static str = "tofsim.cycle_counts/1";
 
-/// One object, `tofsim.cycle_counts/1`.
-pub fn counts_json(rtl: &str, counts: &[Count]) -> Value {
-    json!({
-        "schema": "tofsim.cycle_counts/1",
-        "rtl": rtl,
-        "passed": counts.iter().all(Count::holds),
-        "counts": counts,
-    })
+    fn json(&self) -> Value {
+        let passed = self.counts.iter().all(Count::holds);
+        json!({ "rtl": self.rtl, "passed": passed, "counts": self.counts })
+    }
+
+    fn text(&self) -> String {
+        let number = |count: Option<u64>| count.map_or("never".to_owned(), |n| n.to_string());
+        let table = Sheet::of(self.counts)
+            .words("what", |count| count.what.as_str())
+            .words("expected", |count| count.expected)
+            .words("unit", |count| count.unit)
+            .words("Rust model", |count| number(count.model))
+            .words("RTL simulation", |count| number(count.rtl))
+            .words("proven", |count| match &count.reason {
+                None => "yes".to_owned(),
+                Some(reason) => format!("no: {reason}"),
+            })
+            .table();
+        let proofs: Vec<_> = self.counts.iter().map(|count| ("yes", count.proven)).collect();
+        coloured_ends(&table, &proofs, &stdout()) + "\n"
+    }
 }

@@ -9,7 +9,7 @@ use tofsim::files::output::write_bytes;
 
 /// A case of a suite.
 pub struct JunitCase {
-    /// What was tested.
+    /// Name of the case.
     pub name: String,
     /// If it failed: why in a line, and at length.
     pub failure: Option<(String, String)>,

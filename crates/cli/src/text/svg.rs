@@ -21,7 +21,10 @@ pub const COLOURS: [RGBColor; 6] = [
 /// Longest title that is drawn at full size [characters].
 const TITLE: usize = 72;
 
-/// Where a picture is drawn.
+/// Outcome of drawing; an error only if the plotting library fails.
+pub type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
+
+/// Drawing area of a picture.
 pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// A chart with words above it and room for its axes.
@@ -37,29 +40,24 @@ pub fn chart<'a, 'b, 'c>(
     chart
 }
 
-/// What the labels of a chart's series stand for, in one of its corners; an error only if the plotting
+/// Draws the legend of a chart in one of its corners; an error only if the plotting
 /// library fails.
 pub fn legend<'a, 'b: 'a, C: CoordTranslate>(
     chart: &mut ChartContext<'a, SVGBackend<'b>, C>,
     corner: SeriesLabelPosition,
-) -> Result<(), DrawingAreaErrorKind<io::Error>> {
+) -> Drawn {
     let mut labels = chart.configure_series_labels();
     labels.position(corner).label_font(("sans-serif", 14));
     labels.background_style(WHITE.mix(0.85)).border_style(BLACK.mix(0.2)).draw()
 }
 
 /// The text of what `draw` draws on white; an error only if the plotting library fails.
-pub fn picture(
-    draw: impl FnOnce(&Canvas) -> Result<(), DrawingAreaErrorKind<io::Error>>,
-) -> Result<String, String> {
+pub fn picture(draw: impl FnOnce(&Canvas) -> Drawn) -> Result<String, String> {
     picture_of(SIZE, draw)
 }
 
-/// The same of that width and height [px].
-pub fn picture_of(
-    size: (u32, u32),
-    draw: impl FnOnce(&Canvas) -> Result<(), DrawingAreaErrorKind<io::Error>>,
-) -> Result<String, String> {
+/// Returns the picture as SVG text, with that width and height [px].
+pub fn picture_of(size: (u32, u32), draw: impl FnOnce(&Canvas) -> Drawn) -> Result<String, String> {
     let mut text = String::new();
     let canvas = SVGBackend::with_string(&mut text, size).into_drawing_area();
     let drawn = canvas.fill(&WHITE).and_then(|()| draw(&canvas)).and_then(|()| canvas.present());

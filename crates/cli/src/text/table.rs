@@ -11,9 +11,18 @@ pub fn table<R: Into<Row>>(
     rows: impl IntoIterator<Item = R>,
     right: impl RangeBounds<usize>,
 ) -> String {
+    aligned(header, rows, |column| right.contains(&column))
+}
+
+/// A table without borders; columns of which `is_right` says so are flush right.
+pub fn aligned<R: Into<Row>>(
+    header: impl Into<Row>,
+    rows: impl IntoIterator<Item = R>,
+    is_right: impl Fn(usize) -> bool,
+) -> String {
     let mut table = Table::new();
     table.load_style(NOTHING).set_header(header).add_rows(rows);
-    for (_, column) in table.column_iter_mut().enumerate().filter(|(k, _)| right.contains(k)) {
+    for (_, column) in table.column_iter_mut().enumerate().filter(|(k, _)| is_right(*k)) {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table.trim_fmt()
@@ -60,6 +69,21 @@ pub fn facts<N: Into<String>>(rows: impl IntoIterator<Item = (N, String)>) -> St
 /// A number with so many decimals, or a dash.
 pub fn number_or_dash(value: Option<f64>, decimals: usize) -> String {
     value.map_or("-".to_owned(), |value| format!("{value:.decimals$}"))
+}
+
+/// A number with so many significant digits and at most so many decimals, without zeros at its end.
+pub fn significant(number: f64, digits: i32, most: i32) -> String {
+    if number == 0.0 {
+        return "0".to_owned();
+    }
+    let whole = number.abs().log10().floor() as i32 + 1;
+    let decimals = (digits - whole).clamp(0, most) as usize;
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 /// A number with its thousands apart.

@@ -7,10 +7,10 @@ pub mod table;
 
 use tofsim::Setup;
 use tofsim::error::Result;
-use tofsim::scenario;
 
 use crate::record::Record;
 
+use super::options::ScenarioArgs;
 use super::terminal::{Talk, print_json};
 use errors::ErrorArgs;
 use findings::Findings;
@@ -25,12 +25,8 @@ use findings::Findings;
     tofsim budget --errors -s tdc.profile=kintex7\n  \
     tofsim budget --errors --estimator likelihood --grid target.distance_m=0.1..0.6:0.1 -o out")]
 pub struct Args {
-    /// Built-in scenario, or the path of a scenario file (see `scenario list`)
-    #[arg(default_value = scenario::DEFAULT)]
-    scenario: String,
-    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    scenario: ScenarioArgs,
     /// Print one JSON object instead of a table
     #[arg(long)]
     json: bool,
@@ -41,18 +37,17 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if args.errors.errors {
-        return args.errors.run(&args.scenario, &args.set, args.json, talk);
+        return args.errors.run(&args.scenario, args.json, talk);
     }
-    let setup = Setup::of_counts(scenario::load(&args.scenario, &args.set)?)?;
+    let setup = Setup::of_counts(args.scenario.load(None)?)?;
     let findings = Findings::of(setup);
     let notes = findings.notes()?;
-    match args.json {
-        true => {
-            let mut object = findings.json();
-            Record::new(&findings.setup, &talk.command).put_into(&mut object, &notes);
-            print_json(&object)?;
-        }
-        false => talk.report(&format!("{}\n", table::table(&findings)))?,
+    if args.json {
+        let mut object = findings.json();
+        Record::new(&findings.setup, &talk.command).put_into(&mut object, &notes);
+        print_json(&object)?;
+    } else {
+        talk.report(&format!("{}\n", table::table(&findings)))?
     }
     talk.heed(&notes)
 }

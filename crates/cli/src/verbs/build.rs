@@ -106,9 +106,10 @@ fn summary(folder: &Path, journal: &Journal, asked: &[Step]) -> String {
         format!(" {:<12} {how}\n", step.name())
     };
     let lines: String = asked.iter().map(line).collect();
-    match asked.contains(&Step::Report) && journal.has_passed(Step::Report) {
-        true => format!("{lines}\n{} is the report\n", folder.join(page::FILE).display()),
-        false => lines,
+    if asked.contains(&Step::Report) && journal.has_passed(Step::Report) {
+        format!("{lines}\n{} is the report\n", folder.join(page::FILE).display())
+    } else {
+        lines
     }
 }
 

@@ -3,9 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Subcommand;
-use serde_json::json;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::network::Histogram;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
@@ -15,10 +14,11 @@ use tofsim_learn::dataset::labelled::histograms;
 use tofsim_learn::estimation::Acquisition;
 
 use crate::choice::{CALIBRATED, words};
-use crate::record::Record;
-use crate::report::calibration as report;
+use crate::report::calibration::PulseFindings;
+use crate::report::writer::Report;
 
-use super::terminal::{Talk, print_json};
+use super::options::ResultArgs;
+use super::terminal::Talk;
 
 /// Find what an instrument is from its own histograms
 #[derive(Debug, clap::Args)]
@@ -36,7 +36,8 @@ enum Verb {
 ///
 /// Arrival, signal and background of each histogram need not be known: they are fitted together with the pulse
 /// that all have in common. A few histograms of echoes in the middle of the window, neither faint nor so strong
-/// that they use up their shots, tell the width to a part in a hundred or better.
+/// that they use up their shots, tell the width to a part in a hundred or better. -o writes pulse.csv for
+/// laser.pulse_file, pulse.svg and calibration.json.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim calibrate pulse mine.npy --scenario mine.toml -o pulse\n  \
@@ -50,21 +51,17 @@ struct PulseArgs {
     /// compare
     #[arg(long, default_value = scenario::DEFAULT)]
     scenario: String,
-    /// Set a key of that, such as firmware.shots_per_frame=10000; may be repeated
+    /// Set a scenario key, e.g. `firmware.shots_per_frame=10000`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// What to fit [default: the first that describes the histograms]
+    /// Shape to fit [default: the first that describes the histograms]
     #[arg(long, value_parser = words(CALIBRATED))]
     shape: Option<Kind>,
-    /// From one sample of a measured pulse to the next [default: a bin]
+    /// Interval between samples of a measured pulse [default: a bin]
     #[arg(long, value_name = "PS")]
     step_ps: Option<f64>,
-    /// Write the pulse into this folder: pulse.csv for laser.pulse_file, pulse.svg, calibration.json
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-    /// Print one JSON object
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    result: ResultArgs,
 }
 
 /// Runs the verb.
@@ -84,25 +81,8 @@ impl PulseArgs {
         let calibration = Calibration::new(&acquisition, self.all(&setup)?, self.shape, step_ps)?;
         let notes = notes(&setup, &calibration);
         talk.heed(&notes)?;
-        let record = Record::new(&setup, &talk.command);
-        let mut object = json!({ "schema": "tofsim.calibration/1", "shots": shots });
-        if let Some(object) = object.as_object_mut() {
-            object.extend(report::json(&calibration));
-        }
-        record.put_into(&mut object, &notes);
-        if let Some(folder) = &self.output {
-            let svg = report::svg(&calibration).map_err(|fault| Input::new("pulse.svg", fault))?;
-            let files = [
-                ("pulse.csv", record.comment_line() + &report::csv(&calibration)),
-                ("pulse.svg", record.in_svg(&svg)),
-                ("calibration.json", format!("{object:#}\n")),
-            ];
-            talk.write_into(folder, files)?;
-        }
-        if self.json {
-            return print_json(&object);
-        }
-        talk.report(&report::text(&calibration, shots))
+        let report = Report::new(PulseFindings { calibration, shots }, &setup, &notes, talk);
+        self.result.deliver(&report, talk)
     }
 
     /// The histograms of all files.
@@ -117,7 +97,7 @@ impl PulseArgs {
     }
 }
 
-/// That the light is not one echo, and that the pulse to take does not describe the histograms.
+/// Returns the notes on light that is not one echo, and on a pulse that does not describe the histograms.
 fn notes(setup: &Setup, calibration: &Calibration) -> Vec<Note> {
     let not_one_echo = setup.scenario.complex_scene().map(|found| {
         let text = format!("calibrate pulse: {}", found.effect.why());

@@ -30,7 +30,7 @@ use super::draws::load;
 use super::host::{Host, host};
 use super::terminal::{Talk, print};
 
-/// Compare two waveforms or captures: what A has is expected, what B has was got
+/// Compare two waveforms or captures: A is the reference, B the capture under test
 ///
 /// A and B are VCD, FST, GHW, or a logic analyser's CSV, VCD or .ila archive; the contents decide,
 /// not the name. With --scenario, A is a simulation and only B is given. Signals come together by
@@ -49,7 +49,7 @@ use super::terminal::{Talk, print};
     Exit status: 0 same, 1 different, 2 cannot be compared."
 )]
 pub struct Args {
-    /// What is expected, and what was got; one file with --scenario
+    /// The reference and the capture under test; one file with --scenario
     #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -82,7 +82,7 @@ struct Simulated {
     /// Simulate a scenario as the first side
     #[arg(long, value_name = "NAME|FILE")]
     scenario: Option<String>,
-    /// Set a key of the scenario; may be repeated
+    /// Set a scenario key, e.g. `target.distance_m=0.3`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE", requires = "scenario")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
@@ -99,7 +99,7 @@ struct Simulated {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Which signals")]
 struct Which {
-    /// What belongs together: a map file, or a set-up of `ila capture` by name or path
+    /// Match signals by a map file, or by a probe configuration of `ila capture` (name or path)
     #[arg(long, value_name = "FILE|NAME")]
     map: Option<String>,
     /// Compare only these, with * and ?; may be repeated
@@ -121,7 +121,7 @@ struct Which {
 #[command(next_help_heading = "When")]
 struct When {
     /// Take samples of waveforms just before the rising edges of a signal or, as 100MHz + 250ps, of
-    /// a clock of one's own [default: at each change]
+    /// a custom clock [default: at each change]
     #[arg(long, value_name = "CLOCK")]
     clock: Option<SampleClock>,
     /// start, trigger, edge SIGNAL, correlation [SIGNAL,...], windows [SIGNAL,...], offset N
@@ -129,7 +129,7 @@ struct When {
     /// waveform, windows if it has several; time of waveforms]
     #[arg(long, value_name = "HOW", allow_hyphen_values = true)]
     align: Option<Align>,
-    /// What a waveform triggers on, as `start rising && mode == 0`
+    /// Trigger of a waveform, as `start rising && mode == 0`
     #[arg(long, value_name = "CONDITION")]
     trigger: Option<String>,
     /// Do not look at waveforms before this time, as 10us
@@ -146,11 +146,11 @@ struct When {
     time_from: Option<String>,
 }
 
-/// How exactly.
+/// Tolerances of the comparison.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "How exactly")]
 struct How {
-    /// What an unknown bit is the same as
+    /// Treat an unknown bit as equal to
     #[arg(long, value_parser = words(choice::UNKNOWNS), default_value = "exact")]
     x: Unknowns,
     /// Largest difference of a number that is none, in its last place; may be repeated
@@ -203,25 +203,23 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         talk.wrote(path);
     }
     options.waves.iter().for_each(|path| talk.wrote_wave(path));
-    match args.json {
-        true => {
-            let remark = |text: &String| {
-                Note::new(NoteCode::Comparison, "compare", NoteValue::None, "", text)
-            };
-            notes.extend(result.notes.iter().map(remark));
-            let mut json = comparison::json(&result);
-            json["set"] = json!([]);
-            json["hash"] = Value::Null;
-            json["notes"] = json!(notes);
-            record.iter().for_each(|record| record.put_into(&mut json, &notes));
-            print(&format!("{json:#}\n"))?;
-        }
-        false => talk.report(&comparison::text(&result, talk.verbose))?,
+    if args.json {
+        let remark =
+            |text: &String| Note::new(NoteCode::Comparison, "compare", NoteValue::None, "", text);
+        notes.extend(result.notes.iter().map(remark));
+        let mut json = comparison::json(&result);
+        json["set"] = json!([]);
+        json["hash"] = Value::Null;
+        json["notes"] = json!(notes);
+        record.iter().for_each(|record| record.put_into(&mut json, &notes));
+        print(&format!("{json:#}\n"))?;
+    } else {
+        talk.report(&comparison::text(&result, talk.verbose))?
     }
     Ok(ExitCode::from(u8::from(!result.is_same())))
 }
 
-/// That no file which is compared is written over.
+/// Checks that no compared file is overwritten.
 fn no_input_is_written(args: &Args) -> Result<()> {
     let outputs = [("--waves", &args.waves), ("--junit", &args.junit)];
     for (option, path) in outputs.into_iter().filter_map(|(o, path)| Some((o, path.as_ref()?))) {
@@ -286,7 +284,7 @@ fn as_map(error: Error) -> Error {
     }
 }
 
-/// What the options say of single signals.
+/// Returns the rules for single signals.
 fn rules(how: &How) -> Vec<Rule> {
     let of = |name: &String| Rule { a: vec![name.clone()], ..Rule::default() };
     let tolerance = how.tolerance.iter().map(|(name, n)| Rule { tolerance: *n, ..of(name) });

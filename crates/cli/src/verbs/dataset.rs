@@ -23,8 +23,8 @@ use super::terminal::{Talk, print_json, stop_signal};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Scenes are those of the thesis: irradiance 0 to 0.4 W/m^2/nm in 9 steps, \
     reflectance 0.08 to 0.60\nin 53, distance 0.1 to 0.6 m in 201 (train) or 51 (test), each 5 \
-    times. All else is the scenario's.\nWith --grid KEY=... scenes are those of one's own, and what no \
-    --grid has is the scenario's.\n\nExamples:\n  \
+    times. All else is the scenario's.\nWith --grid KEY=... scenes are your own, and what no \
+    --grid sets is the scenario's.\n\nExamples:\n  \
     tofsim dataset -o train                          479,385 histograms as Parquet\n  \
     tofsim dataset --grid test --seed 2 -o test      121,635 of them\n  \
     tofsim dataset --rows 24000 --format npy -o few  random scenes, equally many a distance\n  \
@@ -44,7 +44,7 @@ pub struct Args {
     /// Histograms of each scene, where all are drawn
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..))]
     repeats: u64,
-    /// What to write, separated by commas
+    /// Formats to write, separated by commas
     #[arg(long, value_parser = words(choice::DATASET_FORMAT), value_delimiter = ',', default_value = "parquet")]
     format: Vec<DatasetFormat>,
     /// Write the files and dataset.json, their description, there

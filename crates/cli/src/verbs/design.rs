@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim_rtl::verify::Rtl;
 use tofsim_rtl::verify::rtl::Sources;
 
@@ -54,4 +54,28 @@ impl Design {
         }
         Ok(rtl)
     }
+}
+
+/// Returns what a design has of some blocks; a note names those that it lacks, which are not `done`.
+///
+/// # Errors
+/// When it has none of them.
+pub fn present<'a, T>(
+    all: impl Iterator<Item = &'a T>,
+    has: impl Fn(&T) -> bool,
+    name: fn(&T) -> &str,
+    (rtl, or, done): (&Rtl, &str, &str),
+    talk: &Talk,
+) -> Result<Vec<&'a T>> {
+    let (there, missing): (Vec<_>, Vec<_>) = all.partition(|block| has(block));
+    let missing: Vec<_> = missing.into_iter().map(name).collect();
+    let (source, missing) = (&rtl.source, missing.join(", "));
+    if there.is_empty() {
+        let expected = format!("expected one of the modules {missing}{or}");
+        return Err(Input::new(source, expected).into());
+    }
+    if !missing.is_empty() {
+        talk.note(format_args!("{source}: not {done}, because it has no such module: {missing}"));
+    }
+    Ok(there)
 }

@@ -9,10 +9,11 @@ use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
 use tofsim::scenario::builtin::{self, Source};
-use tofsim::scenario::{self, Loaded, bundle};
+use tofsim::scenario::{Loaded, bundle};
 use tofsim::sim::setup::Setup;
 use tofsim_rtl::checkers::{Checkers, blocks_of};
 
+use super::options::ScenarioArgs;
 use super::terminal::Talk;
 
 /// Write checkers and photons for a bench of yours in SystemVerilog
@@ -29,18 +30,14 @@ use super::terminal::Talk;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim dpi -o dpi                    all blocks of the KC705's design\n  \
-    tofsim dpi mine.toml -b tdc -o dpi   one block of one's own instrument\n  \
+    tofsim dpi mine.toml -b tdc -o dpi   one block of your own instrument\n  \
     tofsim dpi --without pll -o dpi      where the bench's PLL has jitter\n  \
     cargo build --release -p tofsim-dpi  makes the library, in a clone\n  \
     make -f dpi/Makefile verilator LIB=target/release TOP=tb DESIGN=\"FILES\"\n  \
     make -f dpi/Makefile icarus LIB=target/release TOP=tb DESIGN=\"FILES\"")]
 pub struct Args {
-    /// Built-in scenario or file: the instrument, and for photons its target and light
-    #[arg(default_value = scenario::DEFAULT)]
-    scenario: String,
-    /// Set a key of the scenario, such as firmware.shots_per_frame=300; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    scenario: ScenarioArgs,
     /// A block that is to have a checker; may be repeated [default: all that the scenario has]
     #[arg(short, long = "block", value_name = "BLOCK")]
     blocks: Vec<String>,
@@ -54,7 +51,7 @@ pub struct Args {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let loaded = scenario::load(&args.scenario, &args.set)?;
+    let loaded = args.scenario.load(None)?;
     let told = told(args, &loaded)?;
     let setup = Arc::new(Setup::new(loaded)?);
     let checkers = Checkers::new(Arc::clone(&setup), told, blocks(args, &setup)?)?;
@@ -104,16 +101,17 @@ fn told(args: &Args, loaded: &Loaded) -> Result<String> {
         let is_path = value.contains(['/', '.']) && named.contains(&value);
         loaded.files == Source::BuiltIn && is_path && Path::new(value).is_file()
     };
-    let mut lines = vec![match builtin::scenario(&args.scenario) {
-        Some(_) => args.scenario.clone(),
-        None => absolute(Path::new(&args.scenario))?,
+    let mut lines = vec![match builtin::scenario(&args.scenario.scenario) {
+        Some(_) => args.scenario.scenario.clone(),
+        None => absolute(Path::new(&args.scenario.scenario))?,
     }];
-    for set in &args.set {
+    for set in &args.scenario.set {
         let (key, value) = set.split_once('=').unwrap_or((set, ""));
         let value = value.trim().trim_matches('"');
-        lines.push(match is_file_from_here(value) {
-            true => format!("{key}={}", toml::Value::from(absolute(Path::new(value))?)),
-            false => set.clone(),
+        lines.push(if is_file_from_here(value) {
+            format!("{key}={}", toml::Value::from(absolute(Path::new(value))?))
+        } else {
+            set.clone()
         });
     }
     if let Some(line) = lines.iter().find(|line| line.contains('\n')) {

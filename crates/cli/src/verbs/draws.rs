@@ -18,7 +18,7 @@ pub const MOST_THREADS: i64 = 1024;
 /// Which histograms.
 #[derive(Debug, clap::Args)]
 pub struct Draws {
-    /// Set a key of the scenario, such as firmware.shots_per_frame=15000; may be repeated
+    /// Set a scenario key, e.g. `firmware.shots_per_frame=15000`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Carry chain: uniform, table6_3, ideal (bins of 25 ps), kintex7, or the path of a chain file, from here

@@ -42,7 +42,7 @@ pub struct Args {
     /// Built-in scenario, or the path of a scenario file: what estimators know of shots, pulse and chain
     #[arg(long, default_value = scenario::DEFAULT)]
     scenario: String,
-    /// Set a key of that, such as tdc.profile=chain.toml; may be repeated
+    /// Set a scenario key, e.g. `tdc.profile=chain.toml`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Show every value of the datapath beside its twin in double precision, where they part, and

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use tofsim::Note;
 use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::create_directory_for;
 use tofsim::network::Network;
+use tofsim::scenario::Loaded;
 use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::axis::thinned;
@@ -21,11 +22,11 @@ use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
 use tofsim_learn::evaluation::{Evaluation, Figures};
 
-use crate::record::Record;
-use crate::report::evaluation as report;
+use crate::report::evaluation::{self as report, EvaluationFindings};
+use crate::report::writer::Report;
 
 use super::scenes::Scenes;
-use super::terminal::{Talk, print_json, stop_signal};
+use super::terminal::{Talk, stop_signal};
 
 mod args;
 mod measured;
@@ -33,7 +34,7 @@ mod measured;
 pub use args::Args;
 use args::SHOWN;
 
-/// Those of one setting.
+/// Estimators of one setting.
 type Estimators = Vec<Box<dyn Estimator>>;
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
@@ -46,15 +47,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Test, load)?;
     let (grid, source) = (Grid { repeats: args.repeats, ..scenes.grid.clone() }, &scenes.source);
     let network = &scenes.setups[0].network;
-    let loaded = &scenes.loaded[0];
-    let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
+    let seed = scenes.loaded[0].scenario.seed;
     let mut notes = args.notes(&scenes, network)?;
     notes.extend(args.notes_of_estimators(&scenes)?);
     talk.heed(&notes)?;
     let estimators = args.estimators(&scenes, network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
-    let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
-    let look = |folder: &PathBuf| create_directory_for(folder, report::JSON);
+    let held = args.output.as_deref().map(FolderLock::take).transpose()?;
+    let look = |folder: &PathBuf| create_directory_for(folder, "evaluation.json");
     args.output.as_ref().map_or(Ok(()), look)?;
     let stop = stop_signal();
     let evaluation = args.draws.on_threads(rows.count(), talk, |done| {
@@ -65,83 +65,98 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let figures: Vec<_> = evaluation.columns.iter().map(of).collect();
     let drawn = figures.first().map_or(&[][..], |one| &one.by_distance_m);
     let drawn: Vec<f64> = drawn.iter().map(|group| group.value).collect();
-    let shown = match grid.is_thesis() {
-        true => DISTANCES_M.to_vec(),
-        false => thinned(&drawn, SHOWN),
-    };
+    let is_thesis = grid.is_thesis();
+    let shown = if is_thesis { DISTANCES_M.to_vec() } else { thinned(&drawn, SHOWN) };
     let cross_check = args.cross_check(&scenes, &shown, stop.as_deref())?;
-    let bound_at = if grid.is_thesis() { &shown } else { &drawn };
+    let bound_at = if is_thesis { &shown } else { &drawn };
     let bound_mm = bound::two_sd_mm(source, &grid, bound_at)?;
     // The picture has it at all distances.
-    let pictured_mm = match (&args.output, grid.is_thesis()) {
-        (Some(_), true) => bound::two_sd_mm(source, &grid, &drawn)?,
-        (Some(_), false) => bound_mm.clone(),
-        (None, _) => Vec::new(),
+    let pictured_mm = match &args.output {
+        Some(_) if is_thesis => bound::two_sd_mm(source, &grid, &drawn)?,
+        Some(_) => bound_mm.clone(),
+        None => Vec::new(),
     };
     let bound = drawn.iter().zip(pictured_mm);
     let bound: Vec<_> = bound.filter_map(|(&m, mm)| Some((m, mm?))).collect();
-    let mut json = json!({
-        "schema": "tofsim.evaluate/1",
-        "network": network.name,
-        "profile": profile,
-        "rows": rows.count(),
-        "shots_per_frame": source.shots_of_all(),
-        "outlier_limit_mm": args.outlier_limit_mm,
-        "estimators": figures,
-        // At the thesis's distances, or those of one's own grid; light unknown.
-        "cramer_rao_two_sd_mm": bound_mm,
-        "cross_check": cross_check,
-    });
-    match grid.is_thesis() {
-        true => {
+    let bound_mm = bound_at.iter().copied().zip(bound_mm).collect();
+    let drawn = Drawn { scenes: &scenes, grid: &grid, rows: rows.count(), bound_mm, shown };
+    let findings = EvaluationFindings {
+        json: drawn.json(args, &figures, &cross_check),
+        text: drawn.text(&figures, &cross_check),
+        figures: &figures,
+        bound: &bound,
+        grid: Some(&grid),
+    };
+    drop(held);
+    let report = Report::new(findings, &scenes.setups[0], &notes, talk);
+    report.deliver(args.output.as_deref(), args.json, talk)?;
+    let agrees = cross_check.iter().all(CrossCheck::agrees);
+    Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Histograms that were drawn over a grid.
+struct Drawn<'a> {
+    scenes: &'a Scenes,
+    grid: &'a Grid,
+    /// Number of histograms.
+    rows: u64,
+    /// The Cramer-Rao bound at some distances [m, mm].
+    bound_mm: Vec<(f64, Option<f64>)>,
+    /// Distances of the tables [m].
+    shown: Vec<f64>,
+}
+
+impl Drawn<'_> {
+    fn json(&self, args: &Args, figures: &[Figures], cross_check: &[CrossCheck]) -> Value {
+        let (grid, setup) = (self.grid, &self.scenes.setups[0]);
+        let mut json = json!({
+            "network": setup.network.name,
+            "profile": self.scenes.loaded[0].scenario.tdc.profile,
+            "rows": self.rows,
+            "shots_per_frame": self.scenes.source.shots_of_all(),
+            "outlier_limit_mm": args.outlier_limit_mm,
+            "estimators": figures,
+            // At the thesis's distances, or those of your own grid; light unknown.
+            "cramer_rao_two_sd_mm": self.bound_mm.iter().map(|(_, mm)| mm).collect::<Vec<_>>(),
+            "cross_check": cross_check,
+        });
+        if grid.is_thesis() {
             json["thesis"] = json!({
                 "distances_m": DISTANCES_M,
                 "float_two_sd_mm": thesis::FLOAT.two_sd_mm,
                 "fixed_two_sd_mm": thesis::FIXED.two_sd_mm,
             });
-        }
-        false => {
+        } else {
             json["grid"] =
                 json!({ "axes": grid.axes().collect::<Vec<_>>(), "repeats": grid.repeats });
-            json["distances_m"] = json!(drawn);
+            json["distances_m"] = self.bound_mm.iter().map(|(m, _)| *m).collect();
         }
+        json
     }
-    let record = Record::new(&scenes.setups[0], &talk.command);
-    record.put_into(&mut json, &notes);
-    let thesis = grid.is_thesis();
-    let figures = &figures[..];
-    if let Some(folder) = &args.output {
-        let (record, json, bound) = (&record, &json, &bound[..]);
-        let evaluated = report::Evaluated { record, json, figures, bound, grid: Some(&grid) };
-        evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
-    }
-    if args.json {
-        print_json(&json)?;
-    } else {
-        let shots = source.shots_of_all().map(|shots| format!(" of {shots} shots"));
-        let shots = shots.unwrap_or_default();
+
+    fn text(&self, figures: &[Figures], cross_check: &[CrossCheck]) -> String {
+        let Loaded { name, scenario, .. } = &self.scenes.loaded[0];
+        let shots = self.scenes.source.shots_of_all();
         let head = format!(
-            "network {}, chain {profile}, scenario {}, seed {seed}\n{} histograms{shots}\n\n",
-            network.name,
-            loaded.name,
-            rows.count(),
+            "network {}, chain {}, scenario {name}, seed {}\n{} histograms{}\n\n",
+            self.scenes.setups[0].network.name,
+            scenario.tdc.profile,
+            scenario.seed,
+            self.rows,
+            shots.map_or(String::new(), |shots| format!(" of {shots} shots")),
         );
-        let at = |m: &f64| {
-            let place = bound_at.iter().position(|known| known == m);
-            place.and_then(|place| bound_mm[place])
-        };
-        let bound_mm: Vec<_> = shown.iter().map(at).collect();
-        let beside = report::Beside { distances_m: &shown, bound_mm: &bound_mm, thesis };
+        let at = |m: &f64| self.bound_mm.iter().find(|(known, _)| known == m)?.1;
+        let bound_mm: Vec<_> = self.shown.iter().map(at).collect();
+        let thesis = self.grid.is_thesis();
+        let beside = report::Beside { distances_m: &self.shown, bound_mm: &bound_mm, thesis };
         let tables = report::overview(figures) + "\n" + &report::tables(figures, &beside);
         let tables = tables + &report::setting_tables(figures) + &report::biased_scenes(figures);
-        talk.report(&(head + &tables + &text(figures, source.shots_of_all(), &cross_check)))?;
+        head + &tables + &text(figures, shots, cross_check)
     }
-    let agrees = cross_check.iter().all(CrossCheck::agrees);
-    Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 impl Args {
-    /// What the depths of some scenes lie outside of: of what the network was trained for, if it is
+    /// Returns the notes on some scenes: outside of the network's training, if it is
     /// measured, and of what can be found.
     fn notes(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Note>> {
         let mut notes = scenes.notes()?;
@@ -157,7 +172,7 @@ impl Args {
         Ok(notes)
     }
 
-    /// What the estimators take for granted: of all scenes, and of the nearest and the farthest.
+    /// Returns the notes on the estimators' models: of all scenes, and of the nearest and the farthest.
     fn notes_of_estimators(&self, scenes: &Scenes) -> Result<Vec<Note>> {
         let middle = scenes.setups.len() / 2;
         let of = |setup: &Setup| self.estimator.iter().flat_map(|kind| kind.notes(setup)).collect();
@@ -194,7 +209,7 @@ impl Args {
         scenes.setups.iter().enumerate().map(of_setting).collect()
     }
 
-    /// In the light and the setting in the middle of the grid.
+    /// Compares both paths in the light and the setting in the middle of the grid.
     fn cross_check(
         &self,
         scenes: &Scenes,

@@ -1,4 +1,4 @@
-//! How many frames there can be.
+//! Limits of the number of frames.
 
 use tofsim::error::{Input, Result};
 use tofsim::sim::setup::Setup;
@@ -10,7 +10,7 @@ const AROUND: u64 = 1000;
 /// Bits of a frame's number in the random streams.
 const NUMBER: u32 = 56;
 
-/// That simulated time does not end before so many frames, or pairs of them, do.
+/// Checks that simulated time lasts for so many frames, or pairs of them.
 ///
 /// # Errors
 /// When it does; the error names `option`.
@@ -25,7 +25,7 @@ pub fn check(option: &str, frames: u64, setup: &Setup) -> Result<()> {
     within(option, frames, most, reason)
 }
 
-/// The same for frames that take no simulated time.
+/// Checks the number of frames that take no simulated time.
 ///
 /// # Errors
 /// When there are more than have random numbers of their own; the error names `option`.

@@ -41,7 +41,7 @@ pub fn host() -> Option<Host> {
     HOST.with_borrow(Clone::clone)
 }
 
-/// Where a verb of this thread prints.
+/// Returns the output of a verb of this thread.
 pub fn output() -> Box<dyn Write> {
     match host() {
         Some(host) => Box::new(host.printed),

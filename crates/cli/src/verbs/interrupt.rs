@@ -1,4 +1,4 @@
-//! How the program hears that the user interrupts, and ends.
+//! Interruption by the user.
 //!
 //! A verb that looks at [`stop_signal`] ends of itself. Any other is ended at once, and so is one that
 //! is interrupted again; what it has under construction goes in both cases.
@@ -13,7 +13,7 @@ use super::host::host;
 /// Exit status of an interrupted program, as shells have it.
 pub const INTERRUPTED: u8 = 130;
 
-/// What the verb that is going on looks at.
+/// Flag that the running verb polls.
 static LOOKS: Mutex<Option<Arc<AtomicBool>>> = Mutex::new(None);
 
 /// Begins to listen, if the system offers a way to.
@@ -45,7 +45,7 @@ pub fn stop_signal() -> Option<Arc<AtomicBool>> {
     Some(stop)
 }
 
-/// From now on the verb does not look any more.
+/// Stops polling the flag.
 pub fn look_no_more() {
     if host().is_some() {
         return;

@@ -1,4 +1,4 @@
-//! How far a long task is: a bar on a terminal, and a line every ten seconds elsewhere.
+//! Progress of a long task: a bar on a terminal, and a line every ten seconds elsewhere.
 
 use std::fmt::Write;
 use std::io::{IsTerminal, stderr};
@@ -19,7 +19,7 @@ const EVERY: Duration = Duration::from_secs(10);
 /// Time between two pictures of the bar.
 const TICK: Duration = Duration::from_millis(200);
 
-/// What shows how far a task is.
+/// Display of a task's progress.
 pub struct Progress {
     meter: Arc<Meter>,
     shown: Shown,
@@ -27,7 +27,7 @@ pub struct Progress {
 
 enum Shown {
     Nowhere,
-    /// To the program around the verb.
+    /// Callback of the program around the verb.
     Told(HearProgress),
     Bar(ProgressBar),
     Lines(Ticker),
@@ -48,13 +48,13 @@ impl Progress {
         Progress { meter, shown }
     }
 
-    /// So many more are done.
+    /// Adds finished items.
     pub fn inc(&self, more: u64) {
         self.meter.done.fetch_add(more, Ordering::Relaxed);
         self.draw();
     }
 
-    /// So many are done in all.
+    /// Sets the number of finished items.
     pub fn set_position(&self, done: u64) {
         self.meter.done.store(done, Ordering::Relaxed);
         self.draw();
@@ -107,7 +107,7 @@ fn bar(meter: &Arc<Meter>) -> ProgressBar {
     bar
 }
 
-/// How much is done, and since when.
+/// Finished items, and the time since they are counted.
 struct Meter {
     all: u64,
     things: &'static str,

@@ -58,7 +58,7 @@ pub struct Args {
     /// Chain whose bins it was trained on, for the file
     #[arg(long, value_name = "P", default_value = "unknown")]
     chain: String,
-    /// What the network is, for the file
+    /// Description of the network, for the file
     #[arg(long, value_name = "TEXT", default_value = "depth network, trained elsewhere")]
     description: String,
     #[command(flatten)]
@@ -163,9 +163,10 @@ impl Args {
         let (seed, profile) = (setup.scenario.seed, &setup.scenario.tdc.profile);
         let notes = domain::notes(network, &setup.scenario, &grid.ranges())?;
         talk.heed(&notes)?;
-        let distances_m = match grid.is_thesis() {
-            true => thesis::DISTANCES_M.to_vec(),
-            false => thinned(&grid.distances_m.values, thesis::DISTANCES_M.len()),
+        let distances_m = if grid.is_thesis() {
+            thesis::DISTANCES_M.to_vec()
+        } else {
+            thinned(&grid.distances_m.values, thesis::DISTANCES_M.len())
         };
         let rows = self.draws.rows(Some(EXPLORED), &grid, seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));

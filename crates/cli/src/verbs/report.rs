@@ -21,14 +21,17 @@ use crate::page::scope;
 use crate::page::trace::Trace;
 use crate::page::wavejson::wavejson;
 use crate::record::Record;
-use crate::report::error_budget::{DepthBudgets, picture, text};
-use crate::report::scenario_page::{Part, ScenarioPage};
-use crate::report::{tdc, tdc_plots, verification};
+use crate::report::error_budget::DepthBudgets;
+use crate::report::scenario_page::{ReportPart, ScenarioPage};
+use crate::report::tdc::TdcFindings;
+use crate::report::verification::{CycleCounts, Verified};
+use crate::report::writer::Findings as _;
 
 use super::budget::findings::Findings;
 use super::budget::table;
-use super::draws::{MOST_THREADS, load, use_threads};
+use super::draws::{MOST_THREADS, use_threads};
 use super::interrupt::look_no_more;
+use super::options::ScenarioArgs;
 use super::terminal::{RunCommand, Talk, print_json, stop_signal};
 use super::verify;
 
@@ -47,12 +50,8 @@ use words::Words;
     tofsim report -s tdc.profile=kintex7 -o k7 --quick\n\n\
     Exit status: 0 written, 1 the verification found a fault, 2 usage or input error.")]
 pub struct Args {
-    /// Built-in scenario, or the path of a scenario file (see `scenario list`)
-    #[arg(default_value = tofsim::scenario::DEFAULT)]
-    scenario: String,
-    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    scenario: ScenarioArgs,
     /// Folder for report.html, report.json and waveform.json
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -76,7 +75,7 @@ pub struct Args {
 /// Hits of the TDC's code density, frames of each variant of the error budget, histograms of the accuracy.
 const SIZES: [u64; 3] = [1_000_000, 1_000, 30_600];
 
-/// What the waveform shows, from 8 samples of clk_laser before the first laser edge on.
+/// Probe configuration of the waveform, from 8 samples of clk_laser before the first laser edge on.
 const SCOPE: &str = "scenario = \"kc705\"\nclock = \"clk_laser\"\ndepth = 1024\nposition = 8\ntrigger = \"start rising\"\n\
     [[probe]]\nname = \"pre_start\"\nsignal = \"pre_start\"\n\
     [[probe]]\nname = \"spad_rst\"\nsignal = \"spad_rst\"\n\
@@ -93,7 +92,7 @@ const SAMPLES: usize = 48;
 /// Runs the verb, with others' commands through `run_command`.
 pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode> {
     use_threads(args.threads)?;
-    let loaded = load(&args.scenario, &args.set, args.seed)?;
+    let loaded = args.scenario.load(args.seed)?;
     let setup = Setup::new(loaded.clone())?;
     let mut notes = setup.notes()?;
     notes.extend(notes_of_firmware(&setup));
@@ -102,8 +101,8 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     talk.heed(&notes)?;
     let _held = FolderLock::take(&args.output)?;
     let words = Words {
-        scenario: &args.scenario,
-        set: &args.set,
+        scenario: &args.scenario.scenario,
+        set: &args.scenario.set,
         seed: args.seed,
         grid: loaded.scenario.training.grid_options(),
     };
@@ -120,25 +119,14 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     progress.inc(1);
     let evaluation = made(parts.evaluation())?;
     progress.inc(1);
-    let (verified, passed) = match args.verify {
-        true => parts.verified()?,
-        false => (Err("it was not asked for; --verify runs it".to_owned()), true),
+    let (verified, passed) = if args.verify {
+        parts.verified()?
+    } else {
+        (Err("it was not asked for; --verify runs it".to_owned()), true)
     };
     progress.finish_and_clear();
     look_no_more();
     let record = Record::new(&setup, &talk.command);
-    let value = |part: &Part<Value>| part.as_ref().map_or(Value::Null, Value::clone);
-    let verify = verified.as_ref().map_or(Value::Null, |(verify, _)| verify.clone());
-    let mut object = json!({
-        "schema": "tofsim.report/1",
-        "quick": args.quick,
-        "budget": findings.json(),
-        "run": run.as_ref().map_or(Value::Null, |(run, _)| run.clone()),
-        "tdc": tdc.as_ref().map_or(Value::Null, |(tdc, _)| tdc.clone()),
-        "evaluation": value(&evaluation),
-        "verify": verify,
-    });
-    record.put_into(&mut object, &notes);
     let trace = waveform.as_ref().ok().map(|trace| wavejson(trace, &setup.name));
     let page = ScenarioPage {
         setup: &setup,
@@ -153,6 +141,8 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
         verified,
         commands: parts.words.by_hand(),
     };
+    let mut object = object(args.quick, &findings, &page);
+    record.put_into(&mut object, &notes);
     let html = page.html().map_err(|fault| Input::new("report.html", fault))?;
     let stage = StagedFolder::new(&args.output)?;
     write_bytes(&stage.path().join("report.html"), html)?;
@@ -167,8 +157,21 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     Ok(if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// What a scenario does not allow is a reason, and no end of the report.
-fn made<T>(part: Result<T>) -> Result<Part<T>> {
+/// Returns the JSON object; parts that are missing are null.
+fn object(quick: bool, findings: &Findings, page: &ScenarioPage) -> Value {
+    json!({
+        "schema": "tofsim.report/1",
+        "quick": quick,
+        "budget": findings.json(),
+        "run": page.run.as_ref().ok().map(|(run, _)| run),
+        "tdc": page.tdc.as_ref().ok().map(|(tdc, _)| tdc),
+        "evaluation": page.evaluation.as_ref().ok(),
+        "verify": page.verified.as_ref().ok().map(|(verify, _)| verify),
+    })
+}
+
+/// Keeps an input error as the reason why a part is missing, so that the report goes on.
+fn made<T>(part: Result<T>) -> Result<ReportPart<T>> {
     match part {
         Ok(part) => Ok(Ok(part)),
         Err(Error::Input(why)) => Ok(Err(why.to_string())),
@@ -228,9 +231,9 @@ impl Parts<'_> {
         }
         let converter = (&setup.params.tdc, setup.disturbance());
         let found = Characterisation::new(converter, self.size(0), setup.scenario.seed);
-        let pictures = tdc_plots::all(&found, &setup.scenario.tdc)?;
-        let pictures = pictures.into_iter().take(3).map(|(_, svg)| svg).collect();
-        Ok((tdc::json(&found, setup), pictures))
+        let found = TdcFindings { found: &found, setup };
+        let pictures = found.plots()?.into_iter().take(3).map(|(_, svg)| svg).collect();
+        Ok((found.object(), pictures))
     }
 
     fn errors(&self) -> Result<(String, String)> {
@@ -240,8 +243,8 @@ impl Parts<'_> {
         let budget = plan.measure(self.size(1), stop.as_deref(), &|_| {})?;
         let points = [(self.loaded.scenario.target.distance_m, budget)];
         let budgets = DepthBudgets { key: None, points: &points };
-        let svg = picture::svg(&budgets).map_err(|fault| Input::new("errors.svg", fault))?;
-        Ok((svg, text::text(&budgets)))
+        let svg = budgets.plots()?.into_iter().map(|(_, svg)| svg).collect();
+        Ok((svg, budgets.text()))
     }
 
     fn evaluation(&self) -> Result<Value> {
@@ -254,7 +257,7 @@ impl Parts<'_> {
     }
 
     /// Blocks and cycle counts of the Verilog in rtl_ref, and whether all is well.
-    fn verified(&self) -> Result<(Part<(Value, Value)>, bool)> {
+    fn verified(&self) -> Result<(ReportPart<(Value, Value)>, bool)> {
         let mut words = self.words.of(&["verify", "--scenario"]);
         words.remove(0);
         let words: Vec<_> = words.iter().map(String::as_str).collect();
@@ -265,8 +268,9 @@ impl Parts<'_> {
             let (counted, counts) = verify::cycle_counts(&args, &talk)?;
             let passed =
                 blocks.iter().all(|block| !block.failed()) && counts.iter().all(|one| one.holds());
-            let blocks = verification::json(&source, "icarus", &blocks);
-            Ok((blocks, verification::counts_json(&counted, &counts), passed))
+            let blocks = Verified { rtl: &source, simulator: "icarus", blocks: &blocks };
+            let counts = CycleCounts { rtl: &counted, counts: &counts };
+            Ok((blocks.object(), counts.object(), passed))
         };
         Ok(match made(checked())? {
             Ok((blocks, counts, passed)) => (Ok((blocks, counts)), passed),

@@ -1,4 +1,4 @@
-//! `tofsim rerun`: makes an output again from what it records.
+//! `tofsim rerun`: regenerates an output from its embedded record.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -39,13 +39,13 @@ const VERBS: [&str; 16] = [
 const TDC_CALIBRATE: &str = "tdc calibrate";
 /// Writes into a folder, as the rest of `budget` does not.
 const BUDGET_ERRORS: &str = "budget --errors";
-/// Those that print and write nothing.
+/// Verbs that print and write nothing.
 const PRINTING: &[&str] = VERBS.split_at(3).0;
 
 /// The program that makes an output again, where it is not that of this process.
 pub static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 
-/// Make an output again from what it records, and compare the two byte by byte
+/// Regenerate an output from its embedded record, and compare the two byte by byte
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Any output will do: waveforms, JSON, CSV, Parquet and SVG carry the command that made \
@@ -186,7 +186,7 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
     }
 }
 
-/// What was printed or a summary, without the folder of its files, which is where the user wants it.
+/// Removes the folder of the files from printed JSON or a summary, because the user chooses it.
 fn without_folder(bytes: Vec<u8>) -> Vec<u8> {
     let text = match String::from_utf8(bytes) {
         Ok(text) if text.starts_with('{') => text,
@@ -207,7 +207,7 @@ fn with_events_in(folder: &Path, word: &str) -> String {
     name.map_or(word.to_owned(), |name| format!("--events={}", folder.join(name).display()))
 }
 
-/// What differs, in words: the record first, then the first byte.
+/// Describes the differences: the record first, then the first byte.
 fn differences(given: &[u8], again: &[u8], record: &Record) -> Vec<String> {
     if given == again {
         return Vec::new();

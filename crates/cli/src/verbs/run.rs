@@ -44,7 +44,7 @@ pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
     #[arg(default_value = scenario::DEFAULT)]
     scenario: String,
-    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
+    /// Set a scenario key, e.g. `target.distance_m=0.3`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
@@ -194,7 +194,7 @@ impl Args {
         }
     }
 
-    /// What the options say of the scenario; --set goes last.
+    /// Returns the overrides of the scenario; --set goes last.
     fn overrides(&self) -> Vec<String> {
         let pairs = self.wants_pairs().then(|| "firmware.dark_frames=true".to_owned());
         pairs.into_iter().chain(self.set.iter().cloned()).collect()

@@ -9,6 +9,7 @@ use tofsim::sim::setup::Setup;
 
 use crate::text::table::facts;
 
+use super::options::ScenarioArgs;
 use super::terminal::{Talk, print, print_json};
 
 /// List, show and check scenarios
@@ -29,7 +30,7 @@ enum What {
     /// Print a scenario in full, every key with its meaning, unit, range and source
     Show {
         #[command(flatten)]
-        which: Which,
+        which: ScenarioArgs,
         /// Print JSON
         #[arg(long)]
         json: bool,
@@ -37,7 +38,7 @@ enum What {
     /// Check a scenario and the files that it names
     Check {
         #[command(flatten)]
-        which: Which,
+        which: ScenarioArgs,
         /// Print JSON
         #[arg(long)]
         json: bool,
@@ -46,35 +47,27 @@ enum What {
     Schema,
 }
 
-#[derive(Debug, clap::Args)]
-struct Which {
-    /// Built-in scenario, or the path of a scenario file
-    #[arg(default_value = scenario::DEFAULT)]
-    scenario: String,
-    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
-}
-
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match &args.what {
         What::List { json } => list(*json),
         What::Show { which, json } => {
-            let loaded = scenario::load(&which.scenario, &which.set)?;
-            match json {
-                true => print(&format!("{:#}\n", json!(loaded.scenario))),
-                false => print(&show::show(&loaded.scenario)),
+            let loaded = which.load(None)?;
+            if *json {
+                print(&format!("{:#}\n", json!(loaded.scenario)))
+            } else {
+                print(&show::show(&loaded.scenario))
             }
         }
         What::Check { which, json } => {
-            let setup = Setup::new(scenario::load(&which.scenario, &which.set)?)?;
+            let setup = Setup::new(which.load(None)?)?;
             setup.windows(&[], 1)?;
             let notes = setup.notes()?;
             talk.heed(&notes)?;
-            match json {
-                true => print_json(&json!({ "scenario": setup.name, "ok": true, "notes": notes })),
-                false => talk.report(&format!("{}: ok\n", setup.name)),
+            if *json {
+                print_json(&json!({ "scenario": setup.name, "ok": true, "notes": notes }))
+            } else {
+                talk.report(&format!("{}: ok\n", setup.name))
             }
         }
         What::Schema => print(&format!("{:#}\n", show::schema())),

@@ -8,20 +8,20 @@ use tofsim_learn::dataset::{Grid, GridOption, GridPurpose, HistogramSource};
 
 /// A grid, and what its histograms are drawn from.
 pub struct Scenes {
-    /// What the command line says of the grid.
+    /// Grid options of the command line.
     pub option: GridOption,
     /// The grid.
     pub grid: Grid,
     /// The scenario of each setting of the grid's other keys, with the overrides of the command line.
     pub loaded: Vec<Loaded>,
-    /// The same, ready to run.
+    /// Scenarios that are ready to run.
     pub setups: Vec<Setup>,
     /// Draws the histograms.
     pub source: HistogramSource,
 }
 
 impl Scenes {
-    /// From the options `--grid` and `-s`, or the scenario's own grid for its training; `load` makes the scenario
+    /// Reads the options `--grid` and `-s`, or the scenario's own grid for its training; `load` makes the scenario
     /// with keys set.
     ///
     /// # Errors
@@ -57,9 +57,10 @@ impl Scenes {
             let loaded = load(&set.iter().cloned().chain(keys).collect::<Vec<_>>());
             Ok(Loaded { set: set.to_vec(), ..loaded.map_err(of_the_grid)? })
         };
-        let loaded = match grid.others.is_empty() {
-            true => vec![base],
-            false => (0..grid.settings() as usize).map(of_setting).collect::<Result<_>>()?,
+        let loaded = if grid.others.is_empty() {
+            vec![base]
+        } else {
+            (0..grid.settings() as usize).map(of_setting).collect::<Result<_>>()?
         };
         let setups = loaded.iter().cloned().map(Setup::of_counts).collect::<Result<Vec<_>>>()?;
         let source = HistogramSource::of_settings(&setups)?;
@@ -74,7 +75,7 @@ impl Scenes {
         self.option.grid(&self.loaded[0].scenario, purpose)
     }
 
-    /// What makes depths of some scenes impossible: an echo past the last bin, or none, where the target
+    /// Returns the notes on scenes without a depth: an echo past the last bin, or none, where the target
     /// is farthest and darkest. Each cause once.
     ///
     /// # Errors
@@ -99,7 +100,7 @@ impl Scenes {
     }
 }
 
-/// What the grid in a scenario's own file is refused for.
+/// Names the scenario's own file in an error of its grid.
 pub fn of_the_own_grid(error: Error, scenario: &str) -> Error {
     match error {
         Error::Input(input) => match input.source.strip_prefix("--grid") {
@@ -113,7 +114,7 @@ pub fn of_the_own_grid(error: Error, scenario: &str) -> Error {
     }
 }
 
-/// What a key of the grid is refused for.
+/// Names the grid's key in an error.
 fn of_the_grid(error: Error) -> Error {
     match error {
         Error::Input(input) => match input.source.strip_prefix("-s ") {

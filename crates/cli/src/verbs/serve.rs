@@ -6,15 +6,14 @@ use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::scenario::DEFAULT;
 use tofsim::sim::setup::Setup;
 
-use super::draws::load;
 use super::host::host;
+use super::options::ScenarioArgs;
 use super::rerun;
 use super::terminal::Talk;
 
-/// What serves the page; it lies beside this program.
+/// Program that serves the page; it lies beside this one.
 const PROGRAM: &str = "tofsim-serve";
 
 /// Open the acquisition computer as a page in a browser on this computer
@@ -27,16 +26,12 @@ const PROGRAM: &str = "tofsim-serve";
     tofsim serve\n  \
     tofsim serve far -s target.reflectance=0.6 --fidelity shot --port 8080")]
 pub struct Args {
-    /// Built-in scenario or the path of a scenario file
-    #[arg(default_value = DEFAULT)]
-    scenario: String,
-    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    scenario: ScenarioArgs,
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// How to go through time; the frames are the same
+    /// Simulation fidelity; the frames are the same
     #[arg(long, value_enum, default_value_t = Way::Cycle)]
     fidelity: Way,
     /// Port on 127.0.0.1; 0 takes any that is free
@@ -53,7 +48,7 @@ pub struct Args {
     json: bool,
 }
 
-/// How the page goes through time.
+/// Simulation fidelities of the page.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum Way {
     /// Every cycle, with the cause of every avalanche
@@ -69,7 +64,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             `cargo install --path crates/cli` and `cargo install --path crates/serve`";
         return Err(Input::new("serve", expected).into());
     }
-    let setup = Setup::new(load(&args.scenario, &args.set, args.seed)?)?;
+    let setup = Setup::new(args.scenario.load(args.seed)?)?;
     talk.heed(&setup.notes()?)?;
     let program = program()?;
     if !program.is_file() {
@@ -84,7 +79,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 }
 
 impl Args {
-    /// The same for the program.
+    /// Returns the options of the program.
     fn words(&self, talk: &Talk) -> Vec<String> {
         let fidelity = match self.fidelity {
             Way::Cycle => "cycle",
@@ -95,7 +90,7 @@ impl Args {
             format!("--port={}", self.port),
             format!("--rate={}", self.rate),
         ];
-        words.extend(self.set.iter().map(|set| format!("--set={set}")));
+        words.extend(self.scenario.set.iter().map(|set| format!("--set={set}")));
         words.extend(self.seed.map(|seed| format!("--seed={seed}")));
         // Notes have been said.
         words.push("--without-notes".to_owned());
@@ -103,7 +98,7 @@ impl Args {
             [("--stopped", self.stopped), ("--json", self.json), ("--quiet", talk.is_quiet())];
         words
             .extend(flags.iter().filter(|(_, is_set)| *is_set).map(|(flag, _)| (*flag).to_owned()));
-        words.extend(["--".to_owned(), self.scenario.clone()]);
+        words.extend(["--".to_owned(), self.scenario.scenario.clone()]);
         words
     }
 }

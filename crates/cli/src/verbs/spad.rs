@@ -1,77 +1,50 @@
 //! `tofsim spad`: the modelled diode as a laboratory would measure it.
 
-use std::path::PathBuf;
-
-use serde_json::json;
-
 use tofsim::error::Result;
-use tofsim::scenario;
 use tofsim::sim::free_running::FreeRunning;
 use tofsim::sim::free_running::afterpulses::afterpulses;
 use tofsim::sim::free_running::dark;
 use tofsim::sim::free_running::rates::rates;
 use tofsim::sim::setup::Setup;
 
-use crate::record::Record;
-use crate::report::spad::{self as report, Characterisation};
+use crate::report::spad::Characterisation;
+use crate::report::writer::Report;
 
-use super::terminal::{Talk, print_json};
+use super::options::{ResultArgs, ScenarioArgs};
+use super::terminal::Talk;
 
 /// Characterise the modelled diode: count rate, dead time, afterpulses and dark counts
 ///
 /// One diode runs freely (MODE 1) in constant light, by the same code as in a run. Count rates over four
 /// decades of light stand beside the closed forms of both kinds of dead time; intervals and autocorrelation in
-/// faint light give the afterpulse probability back, and the dark gives its rate, each with its standard error.
+/// faint light give the afterpulse probability back, and the dark gives its rate, each with its standard error. -o
+/// writes spad.json, CSV files and pictures.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim spad\n  \
     tofsim spad -s spad.afterpulse_probability=0.05 -s spad.temperature_c=40 -o spad")]
 pub struct Args {
-    /// Built-in scenario, or the path of a scenario file (see `scenario list`)
-    #[arg(default_value = scenario::DEFAULT)]
-    scenario: String,
-    /// Set a key of the scenario, such as spad.dead_time_ns=50; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    scenario: ScenarioArgs,
     /// Counts of each measurement
     #[arg(long, default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(5_000..=10_000_000))]
     counts: u64,
-    /// Write spad.json, CSV files and pictures into this folder
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-    /// Print one JSON object instead of tables
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    result: ResultArgs,
 }
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let setup = Setup::of_counts(scenario::load(&args.scenario, &args.set)?)?;
+    let setup = Setup::of_counts(args.scenario.load(None)?)?;
     let diode = FreeRunning::new(&setup);
     let dark_hz = setup.dark.one_hz();
     let found = Characterisation {
+        counts: args.counts,
         spad: &setup.scenario.spad,
         dark_hz,
         points: rates(&diode, args.counts),
         afterpulses: afterpulses(&diode, dark_hz, args.counts),
         dark: dark::dark_rate_hz(&diode, dark_hz, args.counts / 10),
     };
-    let record = Record::new(&setup, &talk.command);
-    let mut object = json!({ "schema": "tofsim.spad/1", "counts": args.counts });
-    if let Some(object) = object.as_object_mut() {
-        object.extend(report::json(&found));
-    }
-    record.put_into(&mut object, &[]);
-    if let Some(folder) = &args.output {
-        let pictures = report::pictures::svg(&found)?;
-        let tables = report::csv(&found).into_iter();
-        let tables = tables.map(|(name, text)| (name, record.comment_line() + &text));
-        let pictures = pictures.into_iter().map(|(name, svg)| (name, record.in_svg(&svg)));
-        let whole = [("spad.json", format!("{object:#}\n"))];
-        talk.write_into(folder, tables.chain(pictures).chain(whole))?;
-    }
-    match args.json {
-        true => print_json(&object),
-        false => talk.report(&report::text(&found)),
-    }
+    args.result.deliver(&Report::new(found, &setup, &[], talk), talk)
 }

@@ -23,7 +23,7 @@ use super::terminal::{Talk, print_json, stop_signal};
 mod catalogue;
 mod merge;
 
-/// Work a scenario out at many points, or search for where limits are just met
+/// Evaluate a scenario over a parameter grid, or search for the value that just meets a limit
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(
@@ -198,7 +198,7 @@ fn read(sweep: &Sweep, folder: &Path) -> Result<Finished> {
     Ok(finished)
 }
 
-/// What a table says of itself, the same for all shards.
+/// Returns the description that a table carries, the same for all shards.
 pub fn about(plan: &Plan, record: &Record) -> Value {
     let column = |column: &tofsim_studies::columns::Column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning });
     let mut about = json!({
@@ -237,7 +237,7 @@ pub fn draw(
     }
 }
 
-/// What the values lie outside of, each cause once.
+/// Returns the notes on the values, each cause once.
 pub fn notes(finished: &Finished, points: u64) -> Vec<Note> {
     let counted = |(note, count): &(Note, u64)| {
         let text = match points {

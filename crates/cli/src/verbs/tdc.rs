@@ -3,26 +3,27 @@
 mod calibrate;
 mod drift;
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Subcommand;
 
 use tofsim::error::{Input, Result};
-use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::characterisation::Characterisation;
 use tofsim_learn::characterisation::decoders::Comparison;
 
-use crate::record::Record;
-use crate::report::{decoders, tdc as report, tdc_plots as plots};
+use crate::report::decoders::DecoderFindings;
+use crate::report::tdc::TdcFindings;
+use crate::report::writer::Report;
 
-use super::terminal::{Talk, print_json};
+use super::options::{ResultArgs, ScenarioArgs};
+use super::terminal::Talk;
 
 /// Characterise the TDC: bin widths, DNL, INL, bubbles, precision, clock edges
 ///
-/// The code-density test counts hits that know nothing of the clock; exact widths stand beside. Exit status 1 says
-/// that a hit is off by a period of the clock.
+/// The code-density test counts hits uncorrelated with the clock; exact bin widths are listed for comparison. Exit
+/// status 1 means that a hit is off by a period of the clock. -o writes bins.csv, counts.csv, transfer.csv, tdc.json and
+/// SVG.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Examples:\n  \
@@ -46,26 +47,18 @@ enum Verb {
 
 #[derive(Debug, clap::Args)]
 struct OwnArgs {
-    /// Built-in scenario, or the path of a scenario file
-    #[arg(value_name = "SCENARIO", default_value = scenario::DEFAULT)]
-    scenario: String,
-    /// Set a key of that, such as tdc.profile=kintex7; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    scenario: ScenarioArgs,
     /// Hits of the code-density test, and times at random
     #[arg(long, default_value_t = 1_000_000, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     hits: u64,
-    /// Write tables and pictures into this folder: bins.csv, counts.csv, transfer.csv, tdc.json, and SVG
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    result: ResultArgs,
     /// Compare what each decoder makes of the same hits: files are decoders.csv, patterns.csv, decoders.json and
     /// decoders.svg
     #[arg(long)]
     decoders: bool,
-    /// Print one JSON object
-    #[arg(long)]
-    json: bool,
 }
 
 /// Runs the verb; the status says whether no hit is off by a period of the clock.
@@ -79,7 +72,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 
 impl OwnArgs {
     fn run(&self, talk: &Talk) -> Result<ExitCode> {
-        let setup = Setup::of_counts(scenario::load(&self.scenario, &self.set)?)?;
+        let setup = Setup::of_counts(self.scenario.load(None)?)?;
         if let Some(file) = &setup.scenario.tdc.conditions {
             let expected = "expected none: a chain is characterised in conditions that stand still";
             return Err(Input::new("scenario", expected)
@@ -92,42 +85,18 @@ impl OwnArgs {
         }
         let converter = (&setup.params.tdc, setup.disturbance());
         let found = Characterisation::new(converter, self.hits, setup.scenario.seed);
-        let record = Record::new(&setup, &talk.command);
-        let mut object = report::json(&found, &setup);
-        record.put_into(&mut object, &[]);
-        if let Some(folder) = &self.output {
-            let pictures = plots::all(&found, &setup.scenario.tdc)?;
-            let tables = report::tables(&found).into_iter();
-            let tables = tables.map(|(name, text)| (name, record.comment_line() + &text));
-            let pictures = pictures.into_iter().map(|(name, svg)| (name, record.in_svg(&svg)));
-            let whole = [("tdc.json", format!("{object:#}\n"))];
-            talk.write_into(folder, tables.chain(pictures).chain(whole))?;
-        }
-        match self.json {
-            true => print_json(&object)?,
-            false => talk.report(&report::text(&found, &setup))?,
-        }
+        let findings = TdcFindings { found: &found, setup: &setup };
+        let report = Report::new(findings, &setup, &[], talk);
+        self.result.deliver(&report, talk)?;
         let is_right = found.is_coarse_right();
         Ok(if is_right { ExitCode::SUCCESS } else { ExitCode::FAILURE })
     }
 
-    /// Decoders side by side; they are what is compared, so the scenario's own and its calibration play no part.
+    /// Compares the decoders themselves, so that the scenario's own and its calibration play no part.
     fn compare(&self, setup: &Setup, talk: &Talk) -> Result<ExitCode> {
         let found = Comparison::new(&setup.params.tdc, self.hits, setup.scenario.seed);
-        let record = Record::new(setup, &talk.command);
-        let mut object = decoders::json(&found, setup);
-        record.put_into(&mut object, &[]);
-        if let Some(folder) = &self.output {
-            let tables = decoders::tables(&found).into_iter();
-            let tables = tables.map(|(name, text)| (name, record.comment_line() + &text));
-            let picture = [("decoders.svg", record.in_svg(&decoders::svg(&found, setup)?))];
-            let whole = [("decoders.json", format!("{object:#}\n"))];
-            talk.write_into(folder, tables.chain(picture).chain(whole))?;
-        }
-        match self.json {
-            true => print_json(&object)?,
-            false => talk.report(&decoders::text(&found, setup))?,
-        }
+        let report = Report::new(DecoderFindings { found: &found, setup }, setup, &[], talk);
+        self.result.deliver(&report, talk)?;
         Ok(ExitCode::SUCCESS)
     }
 }

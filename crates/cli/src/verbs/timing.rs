@@ -1,7 +1,7 @@
 //! `tofsim timing`: how fast a design's blocks can be clocked.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -15,13 +15,14 @@ use tofsim_rtl::timing::record::{BlockTiming, Record};
 use tofsim_rtl::timing::versions::version;
 use tofsim_rtl::timing::{self, BLOCKS, Measurement, TimedBlock, nextpnr};
 use tofsim_rtl::verify::process::{Limits, Tool, YOSYS};
-use tofsim_rtl::verify::{strays, yosys};
+use tofsim_rtl::verify::{Rtl, strays, yosys};
 
 use crate::choice::{self, words};
-use crate::report::timing as report;
+use crate::report::timing::DesignTiming;
+use crate::report::writer::Report;
 
-use super::design::Design;
-use super::terminal::{Talk, print, stop_signal};
+use super::design::{Design, present};
+use super::terminal::{Talk, stop_signal};
 
 /// Measure and estimate how fast Verilog can be clocked
 ///
@@ -62,36 +63,13 @@ pub struct Args {
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     strays::end();
     let work = ScratchFolder::new()?;
-    let folder = match args.design.is_ours() {
-        true => work.path().to_owned(),
-        false => std::env::current_dir().map_err(Error::io(".".as_ref(), "read"))?,
-    };
-    let rtl = match args.design.is_ours() {
-        true => timing::own(work.path(), &Setup::new(scenario::load(DEFAULT, &[])?)?)?,
-        false => args.design.read(talk)?,
-    };
-    if let Some(path) = yosys::unread(&rtl) {
-        let expected =
-            "expected Verilog sources only, without libraries: Yosys reads no others here";
-        return Err(Input::new("timing", expected).value(path.display().to_string()).into());
-    }
+    let (folder, rtl) = design(args, work.path(), talk)?;
     let blocks = wanted(args, &rtl, talk)?;
     let stop = stop_signal();
     let limits =
         Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };
     let design = timing::Design { rtl: &rtl, folder: &folder, work: work.path(), limits };
-    let is_wanted = |part| args.part.is_none_or(|only| only == part);
-    let place = nextpnr::installed().filter(|_| is_wanted(timing::Part::Ecp5));
-    if place.is_none() && args.part == Some(timing::Part::Ecp5) {
-        let expected = format!("not found on PATH; install it: {}", nextpnr::HOW_TO_INSTALL);
-        return Err(Input::new("nextpnr-ecp5", expected).into());
-    }
-    if place.is_none() && args.part.is_none() {
-        talk.note(format_args!(
-            "nextpnr-ecp5: not found on PATH, so nothing is measured for an ECP5; install it: {}",
-            nextpnr::HOW_TO_INSTALL
-        ));
-    }
+    let place = placer(args, talk)?;
     let known = args.record.as_deref().map(Record::read).transpose()?.flatten().unwrap_or_default();
     let mut tools = BTreeMap::from([("yosys".to_owned(), version(YOSYS, "-V", work.path())?)]);
     if let Some(tool) = place {
@@ -103,8 +81,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             Some(tool) => Some(measured(&design, block, tool, args.seeds, &known, talk)?),
             None => None,
         };
-        let is_kintex7 = is_wanted(timing::Part::Kintex7);
-        let kintex7 = is_kintex7.then(|| timing::estimate(&design, block)).transpose()?;
+        let kintex7 = args
+            .wants(timing::Part::Kintex7)
+            .then(|| timing::estimate(&design, block))
+            .transpose()?;
         talk.note(format_args!("{}: timed", block.name));
         Ok((block.name.to_owned(), BlockTiming { ecp5, kintex7 }))
     };
@@ -116,15 +96,52 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         all.write(path)?;
         talk.wrote(path);
     }
-    match args.json {
-        true => print(&format!("{:#}\n", report::json(&rtl.source, &record)))?,
-        false => talk.report(&report::text(&record))?,
-    }
+    let timing = DesignTiming { rtl: &rtl.source, record: &record };
+    Report::without_record(timing).deliver(None, args.json, talk)?;
     let measured = || record.blocks.values().filter_map(|block| block.ecp5.as_ref());
     Ok(ExitCode::from(u8::from(!measured().all(Measurement::closes))))
 }
 
-/// What place-and-route of a block comes to: from a record if that has the same netlist.
+impl Args {
+    fn wants(&self, part: timing::Part) -> bool {
+        self.part.is_none_or(|only| only == part)
+    }
+}
+
+/// Reads the design; its own Verilog goes into `work`. Returns the folder of its sources too.
+fn design(args: &Args, work: &Path, talk: &Talk) -> Result<(PathBuf, Rtl)> {
+    let (folder, rtl) = if args.design.is_ours() {
+        let setup = Setup::new(scenario::load(DEFAULT, &[])?)?;
+        (work.to_owned(), timing::own(work, &setup)?)
+    } else {
+        let here = std::env::current_dir().map_err(Error::io(".".as_ref(), "read"))?;
+        (here, args.design.read(talk)?)
+    };
+    if let Some(path) = yosys::unread(&rtl) {
+        let expected =
+            "expected Verilog sources only, without libraries: Yosys reads no others here";
+        return Err(Input::new("timing", expected).value(path.display().to_string()).into());
+    }
+    Ok((folder, rtl))
+}
+
+/// Finds the tool that places and routes, if it is wanted; a note says that it is missing.
+fn placer(args: &Args, talk: &Talk) -> Result<Option<Tool>> {
+    let place = nextpnr::installed().filter(|_| args.wants(timing::Part::Ecp5));
+    if place.is_none() && args.part == Some(timing::Part::Ecp5) {
+        let expected = format!("not found on PATH; install it: {}", nextpnr::HOW_TO_INSTALL);
+        return Err(Input::new("nextpnr-ecp5", expected).into());
+    }
+    if place.is_none() && args.part.is_none() {
+        talk.note(format_args!(
+            "nextpnr-ecp5: not found on PATH, so nothing is measured for an ECP5; install it: {}",
+            nextpnr::HOW_TO_INSTALL
+        ));
+    }
+    Ok(place)
+}
+
+/// Returns the place-and-route result of a block: from a record if that has the same netlist.
 fn measured(
     design: &timing::Design,
     block: &TimedBlock,
@@ -146,28 +163,11 @@ fn measured(
 }
 
 /// The blocks that are asked for, or all that the design has.
-fn wanted(
-    args: &Args,
-    rtl: &tofsim_rtl::verify::Rtl,
-    talk: &Talk,
-) -> Result<Vec<&'static TimedBlock>> {
+fn wanted(args: &Args, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static TimedBlock>> {
     if !args.block.is_empty() {
         return args.block.iter().map(|name| TimedBlock::find(name)).collect();
     }
-    let has = |block: &&TimedBlock| block.modules.iter().all(|module| rtl.has(module));
+    let has = |block: &TimedBlock| block.modules.iter().all(|module| rtl.has(module));
     let usual = BLOCKS.iter().filter(|block| block.usual);
-    let (there, missing): (Vec<_>, Vec<_>) = usual.partition(has);
-    let missing: Vec<_> = missing.iter().map(|block| block.name).collect();
-    let missing = missing.join(", ");
-    if there.is_empty() {
-        let expected = format!("expected one of the modules {missing}");
-        return Err(Input::new(&rtl.source, expected).into());
-    }
-    if !missing.is_empty() {
-        talk.note(format_args!(
-            "{}: not timed, because it has no such module: {missing}",
-            rtl.source
-        ));
-    }
-    Ok(there)
+    present(usual, has, |block| block.name, (rtl, "", "timed"), talk)
 }

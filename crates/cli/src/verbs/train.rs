@@ -74,17 +74,16 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
     let made = TrainingOrigin { chain, command, seed, domain, record: &record };
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
     let line = &recipe.weighting;
-    match args.json {
-        true => {
-            let mut report = report::json(&rows, line, &network);
-            record.put_into(&mut report, &notes);
-            print_json(&report)
-        }
-        false => talk.report(&report::table(&rows, line)),
+    if args.json {
+        let mut report = report::json(&rows, line, &network);
+        record.put_into(&mut report, &notes);
+        print_json(&report)
+    } else {
+        talk.report(&report::table(&rows, line))
     }
 }
 
-/// That what a scenario says of its training is one.
+/// Checks the training that a scenario describes.
 ///
 /// # Errors
 /// When a number format, the recipe or the grid is none.
@@ -117,7 +116,7 @@ fn print_recipe(recipe: &Recipe) -> Result<()> {
 /// Time after which the state is saved, wherever the training is.
 const BETWEEN: Duration = Duration::from_secs(15);
 
-/// Says how far it is.
+/// Prints the progress.
 fn say(talk: &Talk, progress: &Progress, tournament: &Tournament, before: usize) {
     let state = &tournament.state;
     let (done, all) = tournament.progress();
@@ -125,9 +124,8 @@ fn say(talk: &Talk, progress: &Progress, tournament: &Tournament, before: usize)
     let last = state.curve.iter().rev().take_while(|point| point.stage == before);
     let least = last.map(|point| point.cost).fold(f64::INFINITY, f64::min);
     let text = format!("{percent:5.1} %  stage {before}  least cost {least:.3}");
-    progress.suspend(|| match before != state.stage || state.epochs == 0 {
-        true => talk.note(text),
-        false => talk.detail(text),
+    progress.suspend(|| {
+        if before != state.stage || state.epochs == 0 { talk.note(text) } else { talk.detail(text) }
     });
 }
 
@@ -210,9 +208,10 @@ impl Args {
         let mut add = |option: &str, value: &dyn std::fmt::Display| {
             let value = value.to_string();
             let plain = |c: char| c.is_ascii_alphanumeric() || "._-/=+,:".contains(c);
-            let quoted = match value.chars().all(plain) {
-                true => value,
-                false => format!("'{}'", value.replace('\'', r"'\''")),
+            let quoted = if value.chars().all(plain) {
+                value
+            } else {
+                format!("'{}'", value.replace('\'', r"'\''"))
             };
             options.push(format!("{option}{quoted}"));
         };

@@ -15,7 +15,7 @@ const TOLD: [ContextKind; 5] = [
     ContextKind::TrailingArg,
 ];
 
-/// The same fault with no more of the command line than a line has room for.
+/// Shortens the command line in a fault to a line.
 pub fn shortened(mut fault: Error) -> Error {
     for kind in TOLD {
         let value = match fault.get(kind) {

@@ -47,17 +47,17 @@ pub struct Args {
     output: PathBuf,
     #[command(flatten)]
     design: Design,
-    /// How your design (--rtl) differs by intention: the bench gets BLOCK_adapter.v between (TOML)
+    /// Read from this file how your design (--rtl) differs by intention: the bench gets BLOCK_adapter.v between (TOML)
     #[arg(long, value_name = "FILE", requires = "sources", conflicts_with = "language")]
     map: Option<PathBuf>,
-    /// What the bench is written in
+    /// Language of the bench
     #[arg(long, value_parser = words(choice::LANGUAGE), default_value = "verilog")]
     language: Language,
     #[command(flatten)]
     from: From,
 }
 
-/// What the vectors are made from.
+/// Source of the vectors.
 #[derive(Clone, Debug, clap::Args)]
 pub struct From {
     /// Clock cycles of each block [default: 20000, more where a goal of the stimulus needs them;
@@ -70,7 +70,7 @@ pub struct From {
     /// Built-in scenario or file: network, chain and, for tof_top, what it runs
     #[arg(long, value_name = "NAME|FILE")]
     scenario: Option<String>,
-    /// Override a key of the scenario, e.g. firmware.shots_per_frame=300
+    /// Set a scenario key, e.g. `firmware.shots_per_frame=300`; may be repeated
     #[arg(short = 's', long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Frames of the scenario that tof_top runs
@@ -130,7 +130,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     Ok(())
 }
 
-/// What the vectors of a block come from.
+/// Returns the record of a block's vectors.
 fn record(setting: &Setting, command: &[String], spec: &Spec) -> Record {
     let mut record = Record { seed: setting.seed, ..Record::new(&setting.setup, command) };
     // Of all blocks, this one is enough.

@@ -19,11 +19,12 @@ use tofsim_rtl::verify::{
 };
 
 use crate::choice::{self, words};
-use crate::report::verification as report;
+use crate::report::verification::{CycleCounts, Verified, write_junit};
+use crate::report::writer::Report;
 use crate::text::colour::coloured;
 
-use super::design::Design;
-use super::terminal::{Talk, print, stop_signal};
+use super::design::{Design, present};
+use super::terminal::{Talk, stop_signal};
 use super::vectors::{From, find};
 
 /// Run Verilog or VHDL against the golden vectors
@@ -49,7 +50,7 @@ pub struct Args {
     /// Simulator to run
     #[arg(long, value_parser = words(choice::SIMULATOR), default_value = "icarus")]
     simulator: Simulator,
-    /// How your design differs by intention: names, polarities, latencies, adapters (TOML)
+    /// Read from this file how your design differs by intention: names, polarities, latencies, adapters (TOML)
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
     /// Compare registers inside the blocks too, which have to have our names [default for our own]
@@ -65,7 +66,7 @@ pub struct Args {
     #[arg(long, value_name = "SECONDS", default_value_t = 300,
         value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,
-    /// Where waveforms of mismatches go
+    /// Write waveforms of mismatches into this folder
     #[arg(short, long, value_name = "DIR", default_value = "waves/verify")]
     output: PathBuf,
     /// Print one JSON object
@@ -79,7 +80,7 @@ pub struct Args {
 }
 
 impl Args {
-    /// Those of a command line without the verb.
+    /// Parses the options of a command line without the verb.
     ///
     /// # Errors
     /// When there are no such options.
@@ -93,23 +94,17 @@ impl Args {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
-    if args.cycle_counts {
-        let (source, counts) = cycle_counts(args, talk)?;
-        match args.json {
-            true => print(&format!("{:#}\n", report::counts_json(&source, &counts)))?,
-            false => talk.report(&report::counts_text(&counts))?,
-        }
-        return Ok(ExitCode::from(u8::from(!counts.iter().all(Count::holds))));
-    }
-    let (source, reports) = blocks(args, talk)?;
-    match args.json {
-        true => {
-            let json = report::json(&source, args.simulator.name(), &reports);
-            print(&format!("{json:#}\n"))?;
-        }
-        false => talk.report(&report::text(&reports))?,
-    }
-    Ok(ExitCode::from(u8::from(reports.iter().any(BlockReport::failed))))
+    let failed = if args.cycle_counts {
+        let (rtl, counts) = &cycle_counts(args, talk)?;
+        Report::without_record(CycleCounts { rtl, counts }).deliver(None, args.json, talk)?;
+        !counts.iter().all(Count::holds)
+    } else {
+        let (rtl, blocks) = &blocks(args, talk)?;
+        let verified = Verified { rtl, simulator: args.simulator.name(), blocks };
+        Report::without_record(verified).deliver(None, args.json, talk)?;
+        blocks.iter().any(BlockReport::failed)
+    };
+    Ok(ExitCode::from(u8::from(failed)))
 }
 
 /// Checks the blocks that are asked for; where the design comes from, and how each came out.
@@ -147,7 +142,7 @@ pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
 
     let simulator = args.simulator.name();
     if let Some(path) = &args.junit {
-        report::write_junit(path, simulator, &reports)?;
+        write_junit(path, simulator, &reports)?;
         talk.wrote(path);
     }
     for wave in reports.iter().filter_map(|report| report.wave.as_ref()) {
@@ -217,22 +212,10 @@ fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Ve
 
 /// All blocks that the design has, or the map names.
 fn every(map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>> {
-    let has = |spec: &&Spec| {
+    let has = |spec: &Spec| {
         let named = map.and_then(|map| map.block.get(spec.name));
         named.is_some_and(|block| block.module.is_some()) || rtl.has(spec.name)
     };
-    let (there, missing): (Vec<_>, Vec<_>) = BLOCKS.iter().partition(has);
-    let missing: Vec<_> = missing.iter().map(|spec| spec.name).collect();
-    let missing = missing.join(", ");
-    if there.is_empty() {
-        let expected = format!("expected one of the modules {missing}, or a map with their names");
-        return Err(Input::new(&rtl.source, expected).into());
-    }
-    if !missing.is_empty() {
-        talk.note(format_args!(
-            "{}: not checked, because it has no such module: {missing}",
-            rtl.source
-        ));
-    }
-    Ok(there)
+    let or = ", or a map with their names";
+    present(BLOCKS.iter(), has, |spec| spec.name, (rtl, or, "checked"), talk)
 }

@@ -1,5 +1,6 @@
 //! How well a pulse describes histograms: Pearson's chi-square.
 
+use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use tofsim::error::Result;
@@ -16,7 +17,7 @@ const FEWEST: f64 = 10.0;
 const FITTED: usize = 3;
 
 /// Chi-square of a fit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Goodness {
     /// Squares of residuals over their variances.
     pub chi_square: f64,

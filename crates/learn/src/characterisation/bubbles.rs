@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Serialize, Serializer};
+
 use tofsim::firmware::carry_chain::Delays;
 
 use super::density::CodeDensity;
@@ -10,7 +12,7 @@ use super::density::CodeDensity;
 const LONGEST: usize = 16;
 
 /// What stands between the first zero and the last one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pattern {
     /// Levels from the first zero to the last one, tap 0's side first; empty without a bubble.
     pub levels: String,
@@ -22,16 +24,27 @@ pub struct Pattern {
 
 /// What the taps look like as an edge samples them. It does not change from hit to hit: who has read a pattern
 /// once will read it again at that phase.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bubbles {
     /// Part of the phases at which there is a bubble [1].
     pub share: f64,
     /// Part of the phases by the number of changes from tap to tap, one without a bubble [1].
+    #[serde(serialize_with = "listed")]
     pub transitions: BTreeMap<usize, f64>,
     /// Patterns, the most frequent first.
     pub patterns: Vec<Pattern>,
     /// From the first zero to the last one, at most [taps].
     pub longest: usize,
+}
+
+/// Serializes the shares as a list of objects.
+fn listed<S: Serializer>(transitions: &BTreeMap<usize, f64>, to: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Transitions {
+        changes: usize,
+        share: f64,
+    }
+    to.collect_seq(transitions.iter().map(|(&changes, &share)| Transitions { changes, share }))
 }
 
 impl Bubbles {

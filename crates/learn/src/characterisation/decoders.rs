@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Serialize, Serializer};
+
 use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_decoder::{self, Decoder, Encoder};
 
@@ -26,45 +28,60 @@ pub const COSTS: [DecoderCost; 3] = [
 ];
 
 /// What a decoder is like.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct DecoderFigures {
     /// `ones`, `leading`, `reordered`, or `states` where each pattern of the taps is a code of its own.
+    #[serde(rename = "decoder")]
     pub name: &'static str,
     /// The code-density test.
+    #[serde(skip)]
     pub density: CodeDensity,
     /// Codes that hits have.
     pub codes: usize,
     /// Codes between the least and the largest that no hit has.
     pub empty: usize,
+    /// Mean width of a code from the least to the largest [ps].
+    pub lsb_ps: f64,
     /// By the delays [own LSB].
+    #[serde(rename = "dnl_lsb")]
     pub dnl: Spread,
     /// Widest code [ps].
     pub widest_ps: f64,
     /// Equal codes as coarse as these are so wide [ps].
     pub equivalent_ps: f64,
-    /// The time with the ROM of a converter that nobody has calibrated.
-    pub raw: TimeError,
-    /// The time with the decoder's own ROM.
-    pub calibrated: TimeError,
-    /// Part of the hits whose time is off by more than a bin of the histogram, raw and calibrated [1].
-    pub off: [f64; 2],
-    /// What it costs, where there is Verilog of it.
-    pub cost: Option<DecoderCost>,
+    /// Single-shot precision with the ROM of a converter that nobody has calibrated [ps].
+    pub raw_precision_ps: f64,
+    /// Single-shot precision with the decoder's own ROM [ps].
+    pub precision_ps: f64,
+    /// Part of the hits whose time is off by more than a bin of the histogram, uncalibrated [1].
+    pub raw_off_by_a_bin: f64,
+    /// The same part, with the decoder's own ROM [1].
+    pub off_by_a_bin: f64,
+    /// Look-up tables, where there is Verilog of it.
+    pub luts: Option<u64>,
+    /// Flip-flops, where there is Verilog of it.
+    pub ffs: Option<u64>,
 }
 
 /// A pattern of the taps, and the number that each decoder makes of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Read {
     /// From the first zero to the last one, tap 0's side first; empty without a bubble.
     pub levels: String,
     /// Part of the phases at which it is seen [1].
     pub share: f64,
     /// By [`Decoder::ALL`], less the number of ones below the first zero [taps].
+    #[serde(rename = "n_above_first_zero", serialize_with = "by_decoder")]
     pub numbers: [usize; 3],
 }
 
+/// Serializes a number of each decoder under its name.
+fn by_decoder<S: Serializer>(numbers: &[usize; 3], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map(Decoder::ALL.map(Decoder::name).iter().zip(numbers))
+}
+
 /// All decoders on one chain.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
     /// The decoders, then `states`.
     pub decoders: Vec<DecoderFigures>,
@@ -115,14 +132,17 @@ impl DecoderFigures {
             name,
             codes,
             empty: widths_ps.len() - codes,
+            lsb_ps: density.lsb_ps(),
             dnl: Spread::of(&density.dnl(&widths_ps)),
             widest_ps: Spread::of(&widths_ps).largest,
             equivalent_ps: CodeDensity::equivalent_ps(&widths_ps),
-            off: [&raw, &calibrated].map(|error| off(error, &density, bin_ps)),
-            raw,
-            calibrated,
+            raw_precision_ps: raw.precision_ps,
+            precision_ps: calibrated.precision_ps,
+            raw_off_by_a_bin: off(&raw, &density, bin_ps),
+            off_by_a_bin: off(&calibrated, &density, bin_ps),
+            luts: cost.map(|cost| cost.luts),
+            ffs: cost.map(|cost| cost.ffs),
             density,
-            cost,
         }
     }
 }

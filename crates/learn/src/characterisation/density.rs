@@ -1,6 +1,7 @@
 //! The code-density test: hits that know nothing of the clock, counted by what the decoder makes of them.
 
 use rand::RngExt;
+use serde::Serialize;
 
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::tdc_decoder::Encoder;
@@ -36,7 +37,7 @@ pub struct CodeDensity {
 }
 
 /// Root of the mean square, least and largest.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
     /// Root of the mean square.
     pub rms: f64,

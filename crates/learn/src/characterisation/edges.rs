@@ -1,6 +1,7 @@
 //! Whether fine and coarse time part where the clock's edge comes: the plus or minus one period of many converters.
 
 use rand::RngExt;
+use serde::Serialize;
 
 use tofsim::firmware::carry_chain::Transitions;
 use tofsim::firmware::tdc;
@@ -16,7 +17,7 @@ const STEP_FS: u64 = 100;
 const AROUND_FS: u64 = 100_000;
 
 /// An edge of the clock that a hit just reaches or just misses.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Edge {
     /// Coarse count of hits that just reach it.
     pub coarse: u64,
@@ -51,11 +52,12 @@ pub fn edges(p: &tdc::Params) -> Vec<Edge> {
 }
 
 /// Hits at random within the window.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Phases {
     /// How many.
     pub count: u64,
     /// Of them, those whose time is off by half a period of the clock or more.
+    #[serde(rename = "off_by_a_period")]
     pub off: u64,
     /// Largest error [ps].
     pub largest_error_ps: f64,

@@ -1,11 +1,13 @@
 //! The decoder's ROM from the counts of a code-density test.
 
+use serde::Serialize;
+
 use tofsim::error::Input;
 use tofsim::firmware::{tdc, tdc_calibration};
 use tofsim::{Note, NoteCode};
 
 /// A word of the ROM.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RomEntry {
     /// What the decoder makes of the taps.
     pub n: usize,

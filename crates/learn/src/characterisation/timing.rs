@@ -1,21 +1,27 @@
 //! How far times are from the truth, for hits at any phase of the clock.
 
+use serde::Serialize;
+
 use tofsim::firmware::tdc;
 
 use super::density::{CodeDensity, Spread};
 
 /// Of a converter with a certain ROM.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeError {
     /// Mean, over all phases [ps].
+    #[serde(rename = "mean_error_ps")]
     pub mean_ps: f64,
     /// Standard deviation of a single hit at a random phase: what papers call single-shot precision [ps].
     pub precision_ps: f64,
     /// Time less truth in the middle of each bin, the mean taken away: the integral nonlinearity [ps].
+    #[serde(skip)]
     pub errors_ps: Vec<f64>,
     /// Spread of those: INL [ps].
+    #[serde(rename = "inl_ps")]
     pub inl: Spread,
     /// Spread of the errors of the steps from bin to bin: DNL [ps].
+    #[serde(rename = "dnl_ps")]
     pub dnl: Spread,
 }
 

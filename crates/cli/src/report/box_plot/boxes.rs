@@ -8,7 +8,7 @@ use crate::text::svg::{Canvas, legend};
 
 use super::{BoxPlot, Chart, Limit, Result};
 
-type Point = (f64, f64);
+type BoxPoint = (f64, f64);
 
 /// Ink of a box.
 const BOX: f64 = 0.35;
@@ -94,7 +94,7 @@ fn boxed(
     at: f64,
     width: f64,
     colour: RGBColor,
-) -> Option<(Rectangle<Point>, [PathElement<Point>; 3])> {
+) -> Option<(Rectangle<BoxPoint>, [PathElement<BoxPoint>; 3])> {
     let [_, lower, median, upper, _] = spread.quartiles_mm?;
     let [low, high] = spread.tails.as_ref()?.whiskers_mm;
     let [left, right] = [at - width / 2.0, at + width / 2.0];

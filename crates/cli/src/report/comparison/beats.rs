@@ -9,7 +9,7 @@ use crate::text::table::{counted, grouped, table};
 /// Differences that are listed one by one.
 const LISTED: usize = 24;
 
-/// How many beats there are on both sides.
+/// Returns the line with the numbers of beats.
 pub(super) fn counts(result: &Comparison) -> String {
     let Some(found) = &result.beats else { return String::new() };
     let side = |k: usize| {
@@ -59,14 +59,11 @@ pub(super) fn differing(result: &Comparison) -> String {
     format!("\nfirst     {first}\n\n{}\n{more}", table(header, rows, ..0))
 }
 
-/// Where a beat is on a side.
+/// Returns the place of a beat on a side.
 fn place(result: &Comparison, side: usize, place: Option<BeatPlace>) -> String {
     let Some(BeatPlace { sample, at, .. }) = place else { return "the end".to_owned() };
     let own = result.sides[side].place(at);
-    match own.starts_with("sample") {
-        true => own,
-        false => format!("{own}, sample {sample}"),
-    }
+    if own.starts_with("sample") { own } else { format!("{own}, sample {sample}") }
 }
 
 /// Counts, and the first differences with their places: picoseconds or samples.

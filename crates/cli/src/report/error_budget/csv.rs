@@ -1,69 +1,80 @@
 //! An error budget as a table for spreadsheets: a row for each value of the key and each effect.
 
-use std::fmt::Write;
-
 use tofsim_learn::error_budget::DepthBudget;
 use tofsim_learn::error_budget::figures::{ErrorChange, ErrorFigures};
+use tofsim_studies::table::Cell;
+
+use crate::report::sheet::{Digits, Sheet};
 
 use super::DepthBudgets;
 use super::json::words;
 
-/// Figures of a column group.
-const FIGURES: [&str; 6] =
-    ["mean_mm", "mean_se_mm", "two_sd_mm", "two_sd_se_mm", "failures", "outliers"];
-/// Changes of a column group.
-const CHANGES: [&str; 4] = ["mean_mm", "mean_se_mm", "variance_mm2", "variance_se_mm2"];
+/// Names and values of a group of columns.
+type Columns<T> = [(&'static str, fn(&T) -> Cell)];
 
-/// The table. Of what has no number the field is empty; `every_effect_off` and `all_together` stand in the columns
-/// of what is alone.
-pub fn csv(of: &DepthBudgets) -> String {
-    let groups = [("alone", &FIGURES[..]), ("all_but", &FIGURES), ("alone_less_off", &CHANGES)];
-    let groups = groups.into_iter().chain([("together_less_all_but", &CHANGES[..])]);
-    let names =
-        groups.flat_map(|(group, names)| names.iter().map(move |name| format!("{group}_{name}")));
-    let mut text = format!(
-        "{},effect,state,{}\n",
-        of.key.unwrap_or("target.distance_m"),
-        names.collect::<Vec<_>>().join(",")
-    );
-    for (value, budget) in of.points {
-        for (effect, state, cells) in rows(budget) {
-            // Writing to a string never fails.
-            let _ = writeln!(text, "{value},{effect},{state},{}", cells.join(","));
-        }
-    }
-    text
+const FIGURES: &Columns<ErrorFigures> = &[
+    ("mean_mm", |of| of.mean_mm.into()),
+    ("mean_se_mm", |of| of.mean_se_mm.into()),
+    ("two_sd_mm", |of| of.two_sd_mm.into()),
+    ("two_sd_se_mm", |of| of.two_sd_se_mm.into()),
+    ("failures", |of| of.failures.into()),
+    ("outliers", |of| of.outliers.into()),
+];
+const CHANGES: &Columns<ErrorChange> = &[
+    ("mean_mm", |of| of.mean_mm.into()),
+    ("mean_se_mm", |of| of.mean_se_mm.into()),
+    ("variance_mm2", |of| of.variance_mm2.into()),
+    ("variance_se_mm2", |of| of.variance_se_mm2.into()),
+];
+
+/// The figures of an effect at a value of the key.
+#[derive(Default)]
+struct EffectRow<'a> {
+    value: f64,
+    effect: &'static str,
+    state: &'static str,
+    alone: Option<&'a ErrorFigures>,
+    all_but: Option<&'a ErrorFigures>,
+    adds: Option<&'a ErrorChange>,
+    takes: Option<&'a ErrorChange>,
 }
 
-fn rows(budget: &DepthBudget) -> Vec<(&'static str, &'static str, Vec<String>)> {
-    let whole = |name, of: &ErrorFigures| (name, "", cells(Some(of), None, None, None));
-    let effects = budget.effects.iter().map(|row| {
-        let groups = (row.alone.as_ref(), row.all_but.as_ref());
-        let cells = cells(groups.0, groups.1, row.adds.as_ref(), row.takes.as_ref());
-        (row.effect.key(), words(&row.state).0, cells)
+/// Returns the table. `every_effect_off` and `all_together` have figures in the columns of what is alone.
+pub fn csv(of: &DepthBudgets) -> String {
+    let rows: Vec<_> = of.points.iter().flat_map(|(value, budget)| rows(*value, budget)).collect();
+    let sheet = Sheet::of(&rows)
+        .column(of.key.unwrap_or("target.distance_m"), Digits::Shortest, |row| row.value)
+        .column("effect", Digits::Shortest, |row| row.effect)
+        .column("state", Digits::Shortest, |row| row.state);
+    let sheet = group(sheet, "alone", FIGURES, |row| row.alone);
+    let sheet = group(sheet, "all_but", FIGURES, |row| row.all_but);
+    let sheet = group(sheet, "alone_less_off", CHANGES, |row| row.adds);
+    group(sheet, "together_less_all_but", CHANGES, |row| row.takes).csv()
+}
+
+/// Adds a group of columns, empty where a row has none of them.
+fn group<'a, T>(
+    sheet: Sheet<'a, EffectRow<'a>>,
+    name: &str,
+    columns: &Columns<T>,
+    of: fn(&EffectRow<'a>) -> Option<&'a T>,
+) -> Sheet<'a, EffectRow<'a>> {
+    columns.iter().fold(sheet, |sheet, (column, value)| {
+        sheet.column(format!("{name}_{column}"), Digits::Shortest, move |row| of(row).map(value))
+    })
+}
+
+fn rows(value: f64, budget: &DepthBudget) -> Vec<EffectRow<'_>> {
+    let whole = |effect, of| EffectRow { value, effect, alone: Some(of), ..EffectRow::default() };
+    let effects = budget.effects.iter().map(|row| EffectRow {
+        value,
+        effect: row.effect.key(),
+        state: words(&row.state).0,
+        alone: row.alone.as_ref(),
+        all_but: row.all_but.as_ref(),
+        adds: row.adds.as_ref(),
+        takes: row.takes.as_ref(),
     });
     let first = whole("every_effect_off", &budget.none);
     [first].into_iter().chain(effects).chain([whole("all_together", &budget.together)]).collect()
-}
-
-fn cells(
-    alone: Option<&ErrorFigures>,
-    all_but: Option<&ErrorFigures>,
-    adds: Option<&ErrorChange>,
-    takes: Option<&ErrorChange>,
-) -> Vec<String> {
-    let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-    let figures = |of: Option<&ErrorFigures>| {
-        let spread = |of: &ErrorFigures| {
-            [of.mean_mm, of.mean_se_mm, of.two_sd_mm, of.two_sd_se_mm].map(number)
-        };
-        let counts = |of: &ErrorFigures| [of.failures, of.outliers].map(|count| count.to_string());
-        of.map_or(vec![String::new(); FIGURES.len()], |of| [&spread(of)[..], &counts(of)].concat())
-    };
-    let changes = |of: Option<&ErrorChange>| {
-        let all =
-            |of: &ErrorChange| [of.mean_mm, of.mean_se_mm, of.variance_mm2, of.variance_se_mm2];
-        of.map_or(vec![String::new(); CHANGES.len()], |of| all(of).map(number).to_vec())
-    };
-    [figures(alone), figures(all_but), changes(adds), changes(takes)].concat()
 }

@@ -7,14 +7,10 @@ use tofsim_learn::error_budget::{DepthBudget, EffectErrors};
 
 use super::DepthBudgets;
 
-/// Schema of the object.
-pub const SCHEMA: &str = "tofsim.errors/1";
-
-/// The object that `--json` prints, but for its record.
+/// Returns the points with the effects of each.
 pub fn json(of: &DepthBudgets) -> Value {
     let first = of.points.first().map(|(_, budget)| budget);
     json!({
-        "schema": SCHEMA,
         "estimator": first.map(|budget| budget.kind.name()),
         "frames_per_variant": first.map(|budget| budget.frames),
         "key": of.key,

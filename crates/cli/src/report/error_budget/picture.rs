@@ -1,19 +1,15 @@
 //! An error budget as stacked bars: what each effect alone adds to the bias, and to the variance beside shot noise,
 //! with a line where all together are.
 
-use std::io;
-
 use plotters::prelude::*;
 
 use tofsim_learn::error_budget::DepthBudget;
 use tofsim_learn::error_budget::effect::Effect;
 use tofsim_learn::error_budget::figures::ErrorChange;
 
-use crate::text::svg::{COLOURS, Canvas, chart, picture};
+use crate::text::svg::{COLOURS, Canvas, Drawn, chart, picture};
 
 use super::DepthBudgets;
-
-type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
 
 /// Width of the bars, where their places are 1 apart.
 const BAR: f64 = 0.6;
@@ -23,10 +19,10 @@ const UPPER: u32 = 260;
 const CHARTS: u32 = 830;
 
 /// A part of a bar.
-struct Part {
+struct BarPart {
     name: &'static str,
     colour: RGBColor,
-    /// What it adds at each point; nothing where it is off.
+    /// Height at each point; 0 where the effect is off.
     heights: Vec<f64>,
 }
 
@@ -52,18 +48,18 @@ fn parts(
     of: &DepthBudgets,
     change: fn(&ErrorChange) -> Option<f64>,
     own: fn(&DepthBudget) -> f64,
-) -> Vec<Part> {
+) -> Vec<BarPart> {
     let heights = |height: &dyn Fn(&DepthBudget) -> f64| -> Vec<f64> {
         of.points.iter().map(|(_, budget)| height(budget)).collect()
     };
     let grey = RGBColor(160, 160, 160);
-    let first = Part { name: "estimator's own", colour: grey, heights: heights(&own) };
+    let first = BarPart { name: "estimator's own", colour: grey, heights: heights(&own) };
     let of_effect = |(place, effect): (usize, Effect)| {
         let adds = |budget: &DepthBudget| {
             let row = budget.effects.iter().find(|row| row.effect == effect);
             row.and_then(|row| change(row.adds.as_ref()?)).unwrap_or(0.0)
         };
-        Part { name: effect.name(), colour: colour(place), heights: heights(&adds) }
+        BarPart { name: effect.name(), colour: colour(place), heights: heights(&adds) }
     };
     let is_on = |effect: &Effect| {
         let mut rows = of.points.iter().flat_map(|(_, budget)| &budget.effects);
@@ -89,7 +85,7 @@ fn bars(
     of: &DepthBudgets,
     title: &str,
     quantity: &str,
-    parts: &[Part],
+    parts: &[BarPart],
     together: fn(&DepthBudget) -> f64,
 ) -> Drawn {
     let stacks: Vec<_> = (0..of.points.len()).map(|point| stack(parts, point)).collect();
@@ -127,9 +123,9 @@ fn bars(
 }
 
 /// Colour, begin and end of the parts of a bar.
-fn stack(parts: &[Part], point: usize) -> Vec<(RGBColor, f64, f64)> {
+fn stack(parts: &[BarPart], point: usize) -> Vec<(RGBColor, f64, f64)> {
     let (mut above, mut below) = (0.0, 0.0);
-    let part = |part: &Part| {
+    let part = |part: &BarPart| {
         let height = part.heights[point];
         let end = if height < 0.0 { &mut below } else { &mut above };
         let from = *end;
@@ -139,8 +135,8 @@ fn stack(parts: &[Part], point: usize) -> Vec<(RGBColor, f64, f64)> {
     parts.iter().map(part).collect()
 }
 
-/// What the colours stand for.
-fn legend(side: &Canvas, biases: &[Part], variances: &[Part]) -> Drawn {
+/// Draws the legend.
+fn legend(side: &Canvas, biases: &[BarPart], variances: &[BarPart]) -> Drawn {
     let style = ("sans-serif", 14).into_font();
     let shown = biases.iter().zip(variances);
     let shown = shown.filter(|(bias, variance)| {
@@ -162,7 +158,7 @@ mod tests {
 
     #[test]
     fn parts_are_stacked_on_their_own_side_of_zero() {
-        let part = |height: f64| Part { name: "", colour: BLACK, heights: vec![height] };
+        let part = |height: f64| BarPart { name: "", colour: BLACK, heights: vec![height] };
         let parts = [1.0, -2.0, 3.0, -0.5].map(part);
         let ends: Vec<_> = stack(&parts, 0).iter().map(|&(_, from, until)| (from, until)).collect();
         assert_eq!(ends, [(0.0, 1.0), (0.0, -2.0), (1.0, 4.0), (-2.0, -2.5)]);

@@ -23,7 +23,7 @@ pub fn text(of: &DepthBudgets) -> String {
 fn one(budget: &DepthBudget) -> String {
     let frames = grouped(budget.frames);
     let head = format!(
-        "Errors of {} at {} m [mm], {frames} frames a row\n2 sd alone are those beside shot noise\n\n",
+        "Errors of {} at {} m [mm], {frames} frames a row\n2σ alone are those beside shot noise\n\n",
         budget.kind.name(),
         budget.distance_m,
     );
@@ -55,7 +55,7 @@ fn figures(budget: &DepthBudget) -> String {
             .map(|row| cells(row.effect.name(), row.alone.as_ref(), row.all_but.as_ref())),
     );
     let rows = rows.chain([cells("all together", None, Some(&budget.together))]);
-    table(["effect", "bias alone", "2 sd alone", "bias, all but", "2 sd, all but"], rows, 1..)
+    table(["effect", "bias alone", "2σ alone", "bias, all but", "2σ, all but"], rows, 1..)
 }
 
 fn differences(budget: &DepthBudget) -> String {
@@ -74,12 +74,12 @@ fn differences(budget: &DepthBudget) -> String {
 fn below(budget: &DepthBudget) -> String {
     let mut lines = vec![
         format!(
-            "Cramer-Rao bound: 2 sd of {} mm; {} mm in exact bins an eighth as wide",
+            "Cramer-Rao bound: 2σ of {} mm; {} mm in exact bins an eighth as wide",
             number_or_dash(budget.bound.two_sd_mm, 3),
             number_or_dash(budget.bound.fine_two_sd_mm, 3),
         ),
         format!(
-            "alone in sum: bias {:+.3} mm, 2 sd {:.3} mm; together {} and {} mm",
+            "alone in sum: bias {:+.3} mm, 2σ {:.3} mm; together {} and {} mm",
             budget.sum_mean_mm,
             budget.sum_two_sd_mm,
             budget.together.mean_mm.map_or("-".to_owned(), |mm| format!("{mm:+.3}")),
@@ -106,7 +106,7 @@ fn below(budget: &DepthBudget) -> String {
     lines.join("\n") + "\n"
 }
 
-/// How many histograms have no depth, or one far off, of all variants that are shown.
+/// Returns the largest numbers of failures and outliers over the variants that are shown.
 fn missing(budget: &DepthBudget) -> Option<String> {
     let rows = measured(budget).flat_map(|row| [row.alone, row.all_but]).flatten();
     let most = |of: fn(&ErrorFigures) -> u64| {
@@ -145,7 +145,7 @@ fn spread(value: Option<f64>, error: Option<f64>) -> String {
     }
 }
 
-/// So many that the larger of both has four digits at most.
+/// Returns the decimals with which the larger of both has four digits at most.
 fn decimals(value: f64, error: f64) -> usize {
     match value.abs().max(error) {
         ..9.9995 => 3,

@@ -1,4 +1,4 @@
-//! How exactly the instrument finds the distance, beside the Cramer-Rao bound.
+//! Accuracy of the instrument, with the Cramer-Rao bound for comparison.
 
 use serde_json::Value;
 
@@ -7,12 +7,13 @@ use tofsim_learn::dataset::axis::thinned;
 use crate::report::curves::{Curve, curves};
 
 use crate::page::html::{escaped, table, wide_figure};
+use crate::text::table::number_or_dash;
 
 /// Most distances of the table.
 const SHOWN: usize = 21;
 
 fn mm(value: &Value) -> String {
-    value.as_f64().map_or("-".to_owned(), |mm| format!("{mm:.2}"))
+    number_or_dash(value.as_f64(), 2)
 }
 
 /// The bound at each distance [mm]: at those of the thesis, or at all.
@@ -26,97 +27,100 @@ fn bound(evaluation: &Value) -> Vec<(f64, f64)> {
     pairs.filter_map(|(m, mm)| Some((m.as_f64()?, mm.as_f64()?))).collect()
 }
 
-/// Tables and pictures; an error only if the plotting library fails.
+/// Returns tables and pictures; an error only if the plotting library fails.
 pub fn section(evaluation: &Value) -> Result<String, String> {
-    let bound = bound(evaluation);
-    let at = |m: f64| bound.iter().find(|(known, _)| *known == m).map(|(_, mm)| *mm);
-    let groups = |k: usize| {
-        evaluation["estimators"][k]["by_distance_m"].as_array().cloned().unwrap_or_default()
-    };
-    let own = groups(0);
-    let of = |groups: &[Value], key: &str| -> Vec<(f64, f64)> {
+    let own = evaluation["estimators"][0]["by_distance_m"].as_array();
+    let accuracy =
+        Accuracy { evaluation, groups: own.map_or(&[], Vec::as_slice), bound: bound(evaluation) };
+    Ok(accuracy.words() + &accuracy.pictures()? + &accuracy.table())
+}
+
+/// The errors of the first estimator by distance, and the bound.
+struct Accuracy<'a> {
+    evaluation: &'a Value,
+    groups: &'a [Value],
+    /// Distance, and the bound there [m, mm].
+    bound: Vec<(f64, f64)>,
+}
+
+impl Accuracy<'_> {
+    /// A figure at each distance [m, mm].
+    fn figure(&self, key: &str) -> Vec<(f64, f64)> {
         let pair = |group: &Value| Some((group["value"].as_f64()?, group[key].as_f64()?));
-        groups.iter().filter_map(pair).collect()
-    };
-    let distances: Vec<_> = own.iter().filter_map(|group| group["value"].as_f64()).collect();
-    let shown = if bound.len() < distances.len() {
-        bound.iter().map(|(m, _)| *m).collect()
-    } else {
-        thinned(&distances, SHOWN)
-    };
-    let row = |m: &f64| {
-        let group = own.iter().find(|group| group["value"].as_f64() == Some(*m))?;
-        let (two_sd, least) = (group["two_sd_mm"].as_f64(), at(*m));
-        let times =
-            two_sd.zip(least).map_or("-".to_owned(), |(own, least)| format!("{:.2}", own / least));
-        let least = least.map_or("-".to_owned(), |mm| format!("{mm:.2}"));
-        let far = format!("{} of {}", group["outliers"], group["estimates"]);
-        Some([
-            m.to_string(),
-            mm(&group["two_sd_mm"]),
-            least,
-            times,
-            mm(&group["mean_mm"]),
-            far,
-            group["failures"].to_string(),
-        ])
-    };
-    let header = [
-        "distance [m]",
-        "2 sd [mm]",
-        "Cramer-Rao bound [mm]",
-        "times the bound",
-        "mean error [mm]",
-        "outliers",
-        "failures",
-    ];
-    let rows: Vec<_> = shown.iter().filter_map(row).collect();
-    let mut ratios: Vec<_> =
-        of(&own, "two_sd_mm").iter().filter_map(|(m, mm)| Some(mm / at(*m)?)).collect();
-    ratios.sort_by(f64::total_cmp);
-    let median = ratios.get(ratios.len() / 2);
-    let median = median.map_or(String::new(), |ratio| {
-        format!(" In the median over the distances, 2 sd is {ratio:.2} times the Cramer-Rao bound.")
-    });
-    let all = &evaluation["estimators"][0]["all"];
-    let words = format!(
-        "<p>{} histograms, drawn afresh over {}. Over all: 2 sd {} mm, mean error {} mm, {} of {} estimates \
-         further than {} mm from the truth, {} histograms without an estimate.{median}</p>\n",
-        evaluation["rows"],
-        grid(evaluation),
-        mm(&all["two_sd_mm"]),
-        mm(&all["mean_mm"]),
-        all["outliers"],
-        all["estimates"],
-        evaluation["outlier_limit_mm"],
-        all["failures"],
-    );
-    let named =
-        |k: usize| evaluation["estimators"][k]["name"].as_str().unwrap_or("estimator").to_owned();
-    let spread = of(&own, "two_sd_mm");
-    let picture = curves(
-        "2 sd by distance",
-        "2 sd [mm]",
-        true,
-        &[
-            Curve::new(&format!("{}, as the firmware computes it", named(0)), &spread),
-            Curve::bound(&bound),
-        ],
-    )?;
-    let mean = of(&own, "mean_mm");
-    let means = curves(
-        "Mean error by distance",
-        "mean error [mm]",
-        false,
-        &[Curve::new(&named(0), &mean)],
-    )?;
-    Ok(words
-        + &wide_figure(
+        self.groups.iter().filter_map(pair).collect()
+    }
+
+    /// The bound at a distance [mm].
+    fn bound_at(&self, m: f64) -> Option<f64> {
+        self.bound.iter().find(|(known, _)| *known == m).map(|(_, mm)| *mm)
+    }
+
+    fn words(&self) -> String {
+        let evaluation = self.evaluation;
+        let spread = self.figure("two_sd_mm");
+        let ratio = |(m, mm): &(f64, f64)| Some(mm / self.bound_at(*m)?);
+        let mut ratios: Vec<_> = spread.iter().filter_map(ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        let median = ratios.get(ratios.len() / 2).map_or(String::new(), |ratio| {
+            format!(
+                " In the median over the distances, 2σ is {ratio:.2} times the Cramer-Rao bound."
+            )
+        });
+        let all = &evaluation["estimators"][0]["all"];
+        format!(
+            "<p>{} histograms, drawn afresh over {}. Over all: 2σ {} mm, mean error {} mm, {} of {} estimates \
+             further than {} mm from the truth, {} histograms without an estimate.{median}</p>\n",
+            evaluation["rows"],
+            grid(evaluation),
+            mm(&all["two_sd_mm"]),
+            mm(&all["mean_mm"]),
+            all["outliers"],
+            all["estimates"],
+            evaluation["outlier_limit_mm"],
+            all["failures"],
+        )
+    }
+
+    fn pictures(&self) -> Result<String, String> {
+        let name = self.evaluation["estimators"][0]["name"].as_str().unwrap_or("estimator");
+        let (spread, mean) = (self.figure("two_sd_mm"), self.figure("mean_mm"));
+        let in_firmware = format!("{name}, as the firmware computes it");
+        let lines = [Curve::new(&in_firmware, &spread), Curve::bound(&self.bound)];
+        let picture = curves("2σ by distance", "2σ [mm]", true, &lines)?;
+        let lines = [Curve::new(name, &mean)];
+        let means = curves("Mean error by distance", "mean error [mm]", false, &lines)?;
+        Ok(wide_figure(
             &picture,
             "Twice the standard deviation over all light and reflectances of the grid. The bound takes the light as unknown.",
-        )
-        + &wide_figure(&means, "The mean error, over the same.")
-        + &table(&header, rows))
+        ) + &wide_figure(&means, "The mean error, over the same."))
+    }
+
+    fn table(&self) -> String {
+        let values = || self.groups.iter().filter_map(|group| group["value"].as_f64());
+        let shown = match values().collect::<Vec<_>>() {
+            all if self.bound.len() < all.len() => self.bound.iter().map(|(m, _)| *m).collect(),
+            all => thinned(&all, SHOWN),
+        };
+        let row = |m: &f64| {
+            let group = self.groups.iter().find(|group| group["value"].as_f64() == Some(*m))?;
+            let (two_sd, least) = (group["two_sd_mm"].as_f64(), self.bound_at(*m));
+            let times = two_sd.zip(least).map(|(own, least)| own / least);
+            let [least, times] = [least, times].map(|number| number_or_dash(number, 2));
+            let far = format!("{} of {}", group["outliers"], group["estimates"]);
+            let [two_sd, mean] = ["two_sd_mm", "mean_mm"].map(|key| mm(&group[key]));
+            Some([m.to_string(), two_sd, least, times, mean, far, group["failures"].to_string()])
+        };
+        let header = [
+            "distance [m]",
+            "2σ [mm]",
+            "Cramer-Rao bound [mm]",
+            "times the bound",
+            "mean error [mm]",
+            "outliers",
+            "failures",
+        ];
+        table(&header, shown.iter().filter_map(row).collect::<Vec<_>>())
+    }
 }
 
 /// The scenes in words.

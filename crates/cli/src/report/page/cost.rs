@@ -1,10 +1,10 @@
-//! What the instrument takes of two parts.
+//! Resources of the instrument on two parts.
 
 use serde_json::Value;
 
 use crate::page::html::table;
 
-/// What the parts have: LUT, FF, block RAM, multipliers (docs/resources.md; Lattice FPGA-DS-02012).
+/// Resources of the parts: LUT, FF, block RAM, multipliers (docs/resources.md; Lattice FPGA-DS-02012).
 const PARTS: [(&str, &str, [u64; 4]); 2] = [
     ("kintex7", "XC7K325T", [203_800, 407_600, 445, 840]),
     ("ecp5", "LFE5UM5G-85F", [83_640, 83_640, 208, 156]),

@@ -1,4 +1,4 @@
-//! What the instrument is, in numbers with units.
+//! Facts of the instrument, in numbers with units.
 
 use serde_json::Value;
 
@@ -9,6 +9,7 @@ use tofsim::scenario::{Part, Scenario};
 use tofsim::sim::setup::Setup;
 
 use crate::page::html::table;
+use crate::text::table::significant;
 
 /// Distances that the bins hold.
 pub fn range_m(setup: &Setup) -> String {
@@ -26,20 +27,11 @@ pub fn frame_rate(setup: &Setup) -> String {
     format!("{} per s", short(1.0 / (cycles as f64 * setup.cycle().seconds())))
 }
 
-/// A number with four digits that say something.
 fn short(number: f64) -> String {
-    if number == 0.0 {
-        return "0".to_owned();
-    }
-    let digits = (3 - number.abs().log10().floor() as i32).clamp(0, 6) as usize;
-    let text = format!("{number:.digits$}");
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
+    significant(number, 4, 6)
 }
 
-/// What it is.
+/// Returns the section with the facts, and the keys that differ from the KC705's.
 pub fn section(setup: &Setup, network: &Value) -> String {
     let scenario = &setup.scenario;
     let mut facts = facts(setup);
@@ -50,114 +42,97 @@ pub fn section(setup: &Setup, network: &Value) -> String {
     }
     let rows = facts.into_iter().map(|(what, value)| [what.to_owned(), value]);
     let others: Vec<_> = others(scenario);
-    let keys = match others.is_empty() {
-        true => "<p>Every key is the KC705's.</p>\n".to_owned(),
-        false => table(&["key", "value", "unit", "KC705"], others),
+    let keys = if others.is_empty() {
+        "<p>Every key is the KC705's.</p>\n".to_owned()
+    } else {
+        table(&["key", "value", "unit", "KC705"], others)
     };
     table(&["", ""], rows) + "<h3>Keys that are not the KC705's</h3>\n" + &keys
 }
 
-fn facts(setup: &Setup) -> Vec<(&'static str, String)> {
-    let Scenario { pll, tdc, firmware, laser, spad, estimator, target, ambient, .. } =
-        &setup.scenario;
-    let cycle_ns = setup.cycle().fs() as f64 / 1e6;
-    let delays = &setup.params.tdc.delays;
+type Facts = Vec<(&'static str, String)>;
+
+fn facts(setup: &Setup) -> Facts {
+    [converter(setup), light(setup), frame(setup)].concat()
+}
+
+/// Part, clocks, bins and carry chain.
+fn converter(setup: &Setup) -> Facts {
+    let Scenario { pll, tdc, .. } = &setup.scenario;
     let part = match pll.part {
         Part::Kintex7 => "Kintex-7, speed grade -2",
         Part::Ecp5 => "ECP5",
     };
-    let cycles = setup.params.estimator_cycles();
-    let network = if estimator.kind == FirmwareEstimator::Network {
-        format!("network of {} neurons", setup.params.depth_estimator.neurons())
-    } else {
-        estimator.kind.module().replace('_', " ")
-    };
-    let bin_mm = tdc.bin_ps * 1e-9 * LIGHT_M_S / 2.0;
-    let period_ns = setup.laser_period() as f64 * cycle_ns;
-    let frame_ms = (setup.frame_cycles(setup.laser_period()) + 1) as f64 * cycle_ns / 1e6;
+    let (sys_mhz, input_mhz) = (pll.clk_sys_mhz(), short(pll.input_hz as f64 / 1e6));
+    let [sys, laser] = [sys_mhz, 2.0 * sys_mhz].map(short);
+    let bin_mm = short(tdc.bin_ps * 1e-9 * LIGHT_M_S / 2.0);
+    let (bins, bin_ps, first_ps) = (tdc.bins, short(tdc.bin_ps), short(tdc.first_bin_ps));
+    let (taps, delays) = (setup.params.tdc.delays.taps(), &setup.params.tdc.delays);
+    let span_ns = short(delays.span().fs() as f64 / 1e6);
+    let cycles = 1u32 << tdc.coarse_bits;
+    let window_ns = short(cycle_ns(setup) * f64::from(cycles));
     vec![
         ("part", part.to_owned()),
-        (
-            "clocks",
-            format!(
-                "clk_sys {} MHz, clk_laser {} MHz, from {} MHz",
-                short(pll.clk_sys_mhz()),
-                short(2.0 * pll.clk_sys_mhz()),
-                short(pll.input_hz as f64 / 1e6)
-            ),
-        ),
-        (
-            "bins",
-            format!(
-                "{} of {} ps, {} mm each; bin 0 begins at {} ps",
-                tdc.bins,
-                short(tdc.bin_ps),
-                short(bin_mm),
-                short(tdc.first_bin_ps)
-            ),
-        ),
+        ("clocks", format!("clk_sys {sys} MHz, clk_laser {laser} MHz, from {input_mhz} MHz")),
+        ("bins", format!("{bins} of {bin_ps} ps, {bin_mm} mm each; bin 0 begins at {first_ps} ps")),
         ("range", range_m(setup)),
-        (
-            "carry chain",
-            format!(
-                "{}: {} taps over {} ns",
-                tdc.profile,
-                delays.taps(),
-                short(delays.span().fs() as f64 / 1e6)
-            ),
-        ),
-        (
-            "window of a shot",
-            format!(
-                "{} ns, {} cycles",
-                short(cycle_ns * f64::from(1 << tdc.coarse_bits)),
-                1u32 << tdc.coarse_bits
-            ),
-        ),
+        ("carry chain", format!("{}: {taps} taps over {span_ns} ns", tdc.profile)),
+        ("window of a shot", format!("{window_ns} ns, {cycles} cycles")),
+    ]
+}
+
+/// Laser and detector.
+fn light(setup: &Setup) -> Facts {
+    let Scenario { laser, spad, .. } = &setup.scenario;
+    let (wavelength_nm, power_mw) =
+        (short(laser.wavelength_nm), short(laser.average_power_w * 1e3));
+    let sigma_ps = short(setup.budget.pulse.sigma_ps());
+    let period_ns = short(setup.laser_period() as f64 * cycle_ns(setup));
+    let (pdp, dark_hz) = (short(spad.pdp * 100.0), short(setup.dark.one_hz()));
+    let (on_tdc, count) = (spad.on_tdc, spad.count);
+    vec![
         (
             "laser",
             format!(
-                "{} nm, {} mW on average, pulses of sigma {} ps every {} ns",
-                short(laser.wavelength_nm),
-                short(laser.average_power_w * 1e3),
-                short(setup.budget.pulse.sigma_ps()),
-                short(period_ns)
+                "{wavelength_nm} nm, {power_mw} mW on average, pulses of sigma {sigma_ps} ps every {period_ns} ns"
             ),
         ),
         (
             "SPADs on the TDC",
-            format!(
-                "{} of {}, detection probability {} %, {} Hz dark counts",
-                spad.on_tdc,
-                spad.count,
-                short(spad.pdp * 100.0),
-                short(setup.dark.one_hz())
-            ),
+            format!("{on_tdc} of {count}, detection probability {pdp} %, {dark_hz} Hz dark counts"),
         ),
-        (
-            "frame",
-            format!(
-                "{} shots in {} ms, {}; words of {} bits",
-                firmware.shots_per_frame,
-                short(frame_ms),
-                frame_rate(setup),
-                firmware.count_bits
-            ),
-        ),
-        (
-            "estimator",
-            format!("{network}; {cycles} cycles, {} us", short(cycles as f64 * cycle_ns / 1e3)),
-        ),
+    ]
+}
+
+/// Frame, estimator and scene.
+fn frame(setup: &Setup) -> Facts {
+    let Scenario { firmware, estimator, target, ambient, .. } = &setup.scenario;
+    let name = if estimator.kind == FirmwareEstimator::Network {
+        format!("network of {} neurons", setup.params.depth_estimator.neurons())
+    } else {
+        estimator.kind.module().replace('_', " ")
+    };
+    let cycles = setup.params.estimator_cycles();
+    let us = short(cycles as f64 * cycle_ns(setup) / 1e3);
+    let frame_cycles = (setup.frame_cycles(setup.laser_period()) + 1) as f64;
+    let (frame_ms, rate) = (short(frame_cycles * cycle_ns(setup) / 1e6), frame_rate(setup));
+    let (shots, bits) = (firmware.shots_per_frame, firmware.count_bits);
+    let (distance_m, reflectance) = (short(target.distance_m), short(target.reflectance));
+    let irradiance = short(ambient.irradiance_w_m2_nm);
+    vec![
+        ("frame", format!("{shots} shots in {frame_ms} ms, {rate}; words of {bits} bits")),
+        ("estimator", format!("{name}; {cycles} cycles, {us} us")),
         (
             "scene of the frame below",
             format!(
-                "{} m, reflectance {}, {} W/m^2/nm of ambient light",
-                short(target.distance_m),
-                short(target.reflectance),
-                short(ambient.irradiance_w_m2_nm)
+                "{distance_m} m, reflectance {reflectance}, {irradiance} W/m^2/nm of ambient light"
             ),
         ),
     ]
+}
+
+fn cycle_ns(setup: &Setup) -> f64 {
+    setup.cycle().fs() as f64 / 1e6
 }
 
 /// Keys with another value than by default: key, value, unit, default.

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::page::html::{table, wide_figure};
 
-/// Of the first frame of a `tofsim.run/1`, with words below its picture.
+/// Returns the section of the first frame of a `tofsim.run/1`, with a caption below its picture.
 pub fn section(run: &Value, histogram: Option<&str>, words: &str) -> String {
     let frame = &run["frames"][0];
     if frame.is_null() {

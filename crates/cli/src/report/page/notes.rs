@@ -1,4 +1,4 @@
-//! What results lie outside of.
+//! Notes on the validity of the results.
 
 use crate::page::html::escaped;
 

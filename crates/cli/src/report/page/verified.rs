@@ -1,4 +1,4 @@
-//! What was held to the model, and proven.
+//! Blocks that were verified, and cycle counts that were proven.
 
 use serde_json::Value;
 

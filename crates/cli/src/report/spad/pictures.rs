@@ -7,25 +7,25 @@ use tofsim::sim::free_running::afterpulses::Afterpulses;
 
 use crate::text::svg::{COLOURS, chart, legend, picture};
 
-use super::Characterisation;
+use super::{Characterisation, NamedText};
 
 /// Points of a line.
 const POINTS: usize = 200;
 /// Points and bars.
 const GREY: f64 = 0.6;
 
-/// The pictures, by name.
+/// Draws the pictures.
 ///
 /// # Errors
 /// When the plotting library fails.
-pub fn svg(found: &Characterisation) -> Result<Vec<(&'static str, String)>> {
+pub fn svg(found: &Characterisation) -> Result<Vec<NamedText>> {
     let mut all = vec![("rates.svg", rates(found))];
     if let Some(seen) = &found.afterpulses {
         all.push(("intervals.svg", intervals(seen)));
         all.push(("autocorrelation.svg", autocorrelation(seen)));
     }
-    let named = |(name, svg): (&'static str, std::result::Result<String, String>)| {
-        Ok((name, svg.map_err(|text| Input::new(name, text))?))
+    let named = |(name, svg): (&str, std::result::Result<String, String>)| {
+        Ok((name.to_owned(), svg.map_err(|text| Input::new(name, text))?))
     };
     all.into_iter().map(named).collect()
 }

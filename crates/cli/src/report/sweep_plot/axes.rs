@@ -1,4 +1,4 @@
-//! What lies along the axes of a sweep's picture.
+//! Ranges and labels of the axes of a sweep's picture.
 
 use tofsim_studies::table::Field;
 

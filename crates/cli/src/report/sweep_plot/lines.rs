@@ -1,7 +1,5 @@
 //! Lines over a column, one for each value of a series, with standard errors and limits.
 
-use std::io;
-
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -9,7 +7,7 @@ use plotters::prelude::*;
 use tofsim_studies::plan::file::{LimitLine, Plot};
 use tofsim_studies::table::{Cell, Field, Row};
 
-use crate::text::svg::{COLOURS, chart, legend, picture};
+use crate::text::svg::{COLOURS, Drawn, chart, legend, picture};
 
 use super::axes::{place, range, tick};
 
@@ -19,8 +17,8 @@ const LEGEND_LINE: f64 = 0.046;
 const LIMITS: [RGBColor; 2] = [RGBColor(200, 30, 30), RGBColor(128, 0, 128)];
 
 /// A line: its name, and its points with their standard errors.
-pub struct Line {
-    /// What it stands for.
+pub struct SweepLine {
+    /// Name in the legend.
     pub name: String,
     /// Across, up, and the standard error of that.
     pub points: Vec<(f64, f64, Option<f64>)>,
@@ -44,13 +42,10 @@ pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String
     // Room above the lines for what they stand for.
     let legend = (LEGEND_LINE * (lines.len() + plot.limits.len()) as f64).min(0.5);
     let room = legend / (1.0 - legend);
-    let high = match plot.log_y {
-        true => high * (high / low).powf(room),
-        false => high + room * (high - low),
-    };
+    let high = if plot.log_y { high * (high / low).powf(room) } else { high + room * (high - low) };
     picture(|canvas| {
         let mut chart = chart(canvas, &plot.title);
-        let frame = Frame { plot, lines: &lines, ends: [left, right, low, high] };
+        let frame = PlotFrame { plot, lines: &lines, ends: [left, right, low, high] };
         match (plot.log_x, plot.log_y) {
             (false, false) => frame.fill(chart.build_cartesian_2d(left..right, low..high)?),
             (true, false) => {
@@ -68,10 +63,10 @@ pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String
 }
 
 /// The lines of a plot, each in rising order.
-pub fn lines(plot: &Plot, fields: &[Field], rows: &[Row]) -> Vec<Line> {
+pub fn lines(plot: &Plot, fields: &[Field], rows: &[Row]) -> Vec<SweepLine> {
     let x = place(fields, &plot.x);
     let series: Vec<_> = plot.series.iter().filter_map(|name| place(fields, name)).collect();
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<SweepLine> = Vec::new();
     for name in &plot.y {
         let (y, se) = (place(fields, name), place(fields, &format!("{name}_se")));
         for row in rows {
@@ -87,7 +82,7 @@ pub fn lines(plot: &Plot, fields: &[Field], rows: &[Row]) -> Vec<Line> {
             let line = match lines.iter().position(|line| line.name == label) {
                 Some(place) => &mut lines[place],
                 None => {
-                    lines.push(Line { name: label, points: Vec::new() });
+                    lines.push(SweepLine { name: label, points: Vec::new() });
                     let last = lines.len() - 1;
                     &mut lines[last]
                 }
@@ -101,16 +96,14 @@ pub fn lines(plot: &Plot, fields: &[Field], rows: &[Row]) -> Vec<Line> {
     lines
 }
 
-struct Frame<'a> {
+struct PlotFrame<'a> {
     plot: &'a Plot,
-    lines: &'a [Line],
+    lines: &'a [SweepLine],
     /// Left, right, low and high.
     ends: [f64; 4],
 }
 
-type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
-
-impl Frame<'_> {
+impl PlotFrame<'_> {
     fn fill<'a, 'b: 'a, X, Y>(
         &self,
         mut chart: ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>,

@@ -16,7 +16,7 @@ const WRITTEN: usize = 16;
 const MISSING: RGBColor = RGBColor(225, 225, 225);
 
 /// A cell: its place across and up, and its value if there is one.
-type Place = (f64, f64, Option<f64>);
+type SurfaceCell = (f64, f64, Option<f64>);
 
 /// The picture; an error if no row has a value.
 pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String> {
@@ -26,7 +26,7 @@ pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String
     };
     let number = |row: &Row, place: usize| row.cells.get(place).and_then(Cell::as_number);
     let (xs, ys) = (sorted(rows, across), sorted(rows, up));
-    let cell = |row: &Row| -> Option<Place> {
+    let cell = |row: &Row| -> Option<SurfaceCell> {
         let (x, y) = (number(row, across)?, number(row, up)?);
         let at = |all: &[f64], value| all.iter().position(|other| *other == value);
         Some((at(&xs, x)? as f64, at(&ys, y)? as f64, number(row, colour)))
@@ -90,18 +90,15 @@ fn sorted(rows: &[Row], place: usize) -> Vec<f64> {
     values
 }
 
-/// How far a value is from the least to the largest, by factors where all are above 0.
+/// Returns the position of a value between the least and the largest, on a logarithmic scale where all are above 0.
 fn part(value: f64, [low, high]: [f64; 2]) -> f64 {
     if low >= high {
         return 0.0;
     }
-    match low > 0.0 {
-        true => (value / low).ln() / (high / low).ln(),
-        false => (value - low) / (high - low),
-    }
+    if low > 0.0 { (value / low).ln() / (high / low).ln() } else { (value - low) / (high - low) }
 }
 
-/// From light yellow over green to dark blue.
+/// Returns a colour from light yellow over green to dark blue.
 fn colour_of(value: f64, ends: [f64; 2]) -> RGBColor {
     const STOPS: [[f64; 3]; 4] =
         [[255.0, 247.0, 188.0], [161.0, 218.0, 180.0], [65.0, 140.0, 185.0], [30.0, 45.0, 110.0]];

@@ -10,10 +10,11 @@ use tofsim_learn::error_budget::Plan;
 use tofsim_learn::estimation::EstimatorKind;
 
 use crate::choice::words;
-use crate::record::Record;
-use crate::report::error_budget::{DepthBudgets, csv, json, picture, text};
+use crate::report::error_budget::DepthBudgets;
+use crate::report::writer::Report;
 use crate::verbs::draws::{load, use_threads};
-use crate::verbs::terminal::{Talk, print_json, stop_signal};
+use crate::verbs::options::ScenarioArgs;
+use crate::verbs::terminal::{Talk, stop_signal};
 
 /// The options that go with `--errors`.
 #[derive(Debug, clap::Args)]
@@ -22,7 +23,7 @@ pub struct ErrorArgs {
     /// but each, and with all together
     #[arg(long)]
     pub errors: bool,
-    /// With --errors: whose errors [default: the estimator in the firmware's socket]
+    /// With --errors: estimator to analyse [default: the one in the firmware's estimator slot]
     #[arg(long, requires = "errors", value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
     /// With --errors: frames to draw of each variant
@@ -53,10 +54,10 @@ pub struct ErrorArgs {
 
 impl ErrorArgs {
     /// Measures and reports.
-    pub fn run(&self, scenario: &str, set: &[String], as_json: bool, talk: &Talk) -> Result<()> {
+    pub fn run(&self, scenario: &ScenarioArgs, as_json: bool, talk: &Talk) -> Result<()> {
         use_threads(self.threads)?;
         let axis = self.grid.as_deref().map(|grid| Axis::parse("--grid", grid)).transpose()?;
-        let plans = self.plans(scenario, set, axis.as_ref())?;
+        let plans = self.plans(scenario, axis.as_ref())?;
         let Some((_, first)) = plans.first() else {
             return Err(Input::new("--grid", "expected one value at least").into());
         };
@@ -77,37 +78,20 @@ impl ErrorArgs {
         };
         let measured: Result<Vec<_>> = plans.iter().map(measure).collect();
         progress.finish_and_clear();
-        let budgets =
-            DepthBudgets { key: axis.as_ref().map(|axis| axis.key.as_str()), points: &measured? };
-        let record = Record::new(first.setup(), &talk.command);
-        let mut object = json::json(&budgets);
-        record.put_into(&mut object, &notes);
-        if let Some(folder) = &self.output {
-            let table = ("errors.csv", record.comment_line() + &csv::csv(&budgets));
-            let picture =
-                picture::svg(&budgets).map_err(|fault| Input::new("errors.svg", fault))?;
-            let picture = ("errors.svg", record.in_svg(&picture));
-            let whole = ("errors.json", format!("{object:#}\n"));
-            talk.write_into(folder, [table, picture, whole])?;
-        }
-        match as_json {
-            true => print_json(&object),
-            false => talk.report(&text::text(&budgets)),
-        }
+        let key = axis.as_ref().map(|axis| axis.key.as_str());
+        let budgets = DepthBudgets { key, points: &measured? };
+        let report = Report::new(budgets, first.setup(), &notes, talk);
+        report.deliver(self.output.as_deref(), as_json, talk)
     }
 
-    /// What is to be measured at each value of the grid's key, or at the scenario's distance.
-    fn plans(
-        &self,
-        scenario: &str,
-        set: &[String],
-        axis: Option<&Axis>,
-    ) -> Result<Vec<(f64, Plan)>> {
+    /// Plans the measurement at each value of the grid's key, or at the scenario's distance.
+    fn plans(&self, scenario: &ScenarioArgs, axis: Option<&Axis>) -> Result<Vec<(f64, Plan)>> {
+        let set = &scenario.set;
         let plan = |value: Option<(&str, f64)>| {
             let more = value.map(|(key, value)| format!("{key}={value}"));
             let set_here: Vec<_> = set.iter().cloned().chain(more).collect();
-            let loaded = load(scenario, &set_here, self.seed)?;
-            let loaded = Loaded { set: set.to_vec(), ..loaded };
+            let loaded = load(&scenario.scenario, &set_here, self.seed)?;
+            let loaded = Loaded { set: set.clone(), ..loaded };
             let in_socket = || EstimatorKind::in_socket(&loaded.scenario);
             let kind = self.estimator.unwrap_or_else(in_socket);
             let distance_m = loaded.scenario.target.distance_m;

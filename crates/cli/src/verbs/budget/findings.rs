@@ -1,4 +1,4 @@
-//! What a scenario's light, shots and laser come to, for a table and for programs.
+//! The link budget of a scenario, what a shot can expect, and eye safety.
 
 use serde_json::{Value, json};
 
@@ -7,10 +7,10 @@ use tofsim::optics::Chances;
 use tofsim::optics::eye_safety::{Exposure, longest_exposure_s};
 use tofsim::{Note, NoteCode, Setup};
 
-/// What the command finds.
+/// The link budget, with the verdicts on eye safety.
 pub struct Findings {
     pub setup: Setup,
-    /// Of a shot; `None` where shots depend on each other.
+    /// Probabilities of a shot; `None` where shots depend on each other.
     pub chances: Option<Chances>,
     /// Eq. 3.3, at the rate of the optics (Table 3.2).
     pub at_the_optics_rate: Exposure,

@@ -7,15 +7,15 @@ use crate::text::table::{grouped, number_or_dash, plain};
 
 use super::findings::Findings;
 
-type Row = [String; 3];
+type BudgetRow = [String; 3];
 
-/// What is found.
+/// Returns the table.
 pub fn table(findings: &Findings) -> String {
     plain(rows(findings))
 }
 
 /// Rows of what is found: light, shot, laser, verdicts; what, how much, and what that means.
-pub fn rows(findings: &Findings) -> Vec<Row> {
+pub fn rows(findings: &Findings) -> Vec<BudgetRow> {
     let setup = &findings.setup;
     let (budget, target) = (&setup.budget, &setup.scenario.target);
     let mut light = vec![
@@ -40,18 +40,18 @@ pub fn rows(findings: &Findings) -> Vec<Row> {
     light.chain(laser).chain(eye_safety(findings)).collect()
 }
 
-fn row(name: &str, value: impl Into<String>, meaning: impl Into<String>) -> Row {
+fn row(name: &str, value: impl Into<String>, meaning: impl Into<String>) -> BudgetRow {
     [name.to_owned(), value.into(), meaning.into()]
 }
 
-/// What a retroreflecting patch sends back, if there is one.
-fn retro(budget: &Budget) -> Option<Row> {
+/// Returns the row of a retroreflecting patch, if there is one.
+fn retro(budget: &Budget) -> Option<BudgetRow> {
     let photons = budget.retro_per_shot;
     (photons > 0.0).then(|| row("patch", format!("{photons:.4}"), "the same of the patch"))
 }
 
-/// What the air does, if there is something in it.
-fn air(budget: &Budget) -> Vec<Row> {
+/// Returns the rows of the air, if it scatters.
+fn air(budget: &Budget) -> Vec<BudgetRow> {
     if budget.backscatter_per_shot == 0.0 && budget.transmission == 1.0 {
         return vec![];
     }
@@ -72,29 +72,29 @@ fn flight(findings: &Findings) -> String {
     }
 }
 
-/// What a shot can expect.
-fn shot(findings: &Findings) -> Vec<Row> {
+/// Returns the probabilities of a shot.
+fn shot(findings: &Findings) -> Vec<BudgetRow> {
     let Some(chances) = &findings.chances else {
-        return vec![row("any hit", "-", "told where a shot's first avalanche alone decides")];
+        return vec![row("any hit", "-", "known only where the first avalanche of a shot decides")];
     };
     let shots = f64::from(findings.setup.params.frame_ctrl.shots_per_frame);
     let counted = grouped((chances.counted * shots).round() as u64);
     let ratio = number_or_dash(chances.signal_to_noise(), 4);
     let four = |chance: f64| format!("{chance:.4}");
     vec![
-        row("any hit", four(chances.hit), "chance that the TDC keeps one in a shot"),
-        row("signal first", four(chances.signal_first), "chance that it is a laser photon's"),
+        row("any hit", four(chances.hit), "probability that the TDC keeps one in a shot"),
+        row("signal first", four(chances.signal_first), "probability that it is a laser photon's"),
         row(
             "counted",
             four(chances.counted),
             format!("hits per shot with a code, {counted} a frame"),
         ),
-        row("signal to noise", ratio, "of these, laser photons' to one other"),
+        row("signal-to-background", ratio, "counted laser hits per background hit"),
     ]
 }
 
 /// The verdict for one frame, for frames that repeat, and by eq. 3.3.
-fn eye_safety(findings: &Findings) -> Vec<Row> {
+fn eye_safety(findings: &Findings) -> Vec<BudgetRow> {
     let verdict = |name: &str, exposure: &Exposure, what: String| {
         let verdict = match exposure.is_within() {
             Some(true) => "within",

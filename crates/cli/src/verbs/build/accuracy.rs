@@ -48,7 +48,7 @@ pub fn run(site: &Site) -> Result<Outcome> {
     let all = &result["estimators"][0]["all"];
     let number = |key: &str| all[key].as_f64().map_or("-".to_owned(), |mm| format!("{mm:.2}"));
     let summary = format!(
-        "2 sd {} mm, mean error {} mm, {} outliers of {}",
+        "2σ {} mm, mean error {} mm, {} outliers of {}",
         number("two_sd_mm"),
         number("mean_mm"),
         all["outliers"],

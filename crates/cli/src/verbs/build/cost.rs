@@ -1,4 +1,4 @@
-//! What the instrument takes of two parts.
+//! Resources of the instrument on two parts.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

@@ -22,7 +22,7 @@ const STIMULI: [&str; 3] = ["photons", "codes", "histogram"];
 
 /// The scenario of an instrument, and the files that it names.
 pub struct InstrumentFiles {
-    /// As it is given.
+    /// The scenario as given.
     pub loaded: Loaded,
     /// The scenario's file, and others, in the folder.
     pub files: Vec<(String, String)>,
@@ -30,7 +30,7 @@ pub struct InstrumentFiles {
 }
 
 impl InstrumentFiles {
-    /// Of a scenario file, or a built-in scenario.
+    /// Reads a scenario file, or a built-in scenario.
     ///
     /// # Errors
     /// When it is no scenario, or a file that it names cannot be read.
@@ -77,7 +77,7 @@ impl InstrumentFiles {
         Ok(InstrumentFiles { loaded, files, original: PathBuf::from(name) })
     }
 
-    /// That a folder does not have the original in it under the name of its copy.
+    /// Checks that the original is not in the folder under the name of its copy.
     ///
     /// # Errors
     /// When it has.

@@ -1,4 +1,4 @@
-//! What has been done in a build's folder: `build.json`.
+//! Journal of a build's folder: `build.json`.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use super::step::Step;
 pub const FILE: &str = "build.json";
 const SCHEMA: &str = "tofsim.build/1";
 
-/// What has been done.
+/// Steps that have been done.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Journal {
     schema: String,
@@ -25,18 +25,18 @@ pub struct Journal {
     pub steps: BTreeMap<String, StepRecord>,
 }
 
-/// What came of a step.
+/// Result of a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepRecord {
     /// Digest of all that decides what comes out; none of a step that could not be done.
     pub input: Option<String>,
     /// Its files, and a digest of each.
     pub outputs: BTreeMap<PathBuf, String>,
-    /// Whether it found no fault.
+    /// Whether no fault was found.
     pub passed: bool,
-    /// What it came to, in a line.
+    /// Summary in a line.
     pub summary: String,
-    /// What the report shows of it.
+    /// Results for the report.
     pub result: Value,
 }
 
@@ -46,7 +46,7 @@ fn digest_of_file(path: &Path) -> Result<String> {
 }
 
 impl StepRecord {
-    /// Of a step that has been done.
+    /// Records a step that has been done.
     ///
     /// # Errors
     /// When an output cannot be read.
@@ -62,7 +62,7 @@ impl StepRecord {
         Ok(StepRecord { input: Some(input), outputs, passed, summary, result })
     }
 
-    /// Of a step whose tool is missing.
+    /// Records a step whose tool is missing.
     pub fn without(tool: &Tool) -> Self {
         let Tool { program, package } = tool;
         let summary =
@@ -71,7 +71,7 @@ impl StepRecord {
         StepRecord { input: None, outputs, passed: false, summary, result }
     }
 
-    /// Whether its files are as it left them.
+    /// Returns whether the files of the step are unchanged.
     fn is_whole(&self) -> bool {
         let is_same = |(path, known): (&PathBuf, &String)| {
             digest_of_file(path).is_ok_and(|found| found == *known)
@@ -81,7 +81,7 @@ impl StepRecord {
 }
 
 impl Journal {
-    /// That of the current folder, or an empty one.
+    /// Reads the journal of the current folder, or creates an empty one.
     ///
     /// # Errors
     /// When the file cannot be read, or is no such journal.
@@ -106,7 +106,7 @@ impl Journal {
         write_bytes(Path::new(FILE), text + "\n")
     }
 
-    /// What came of a step.
+    /// Result of a step.
     pub fn of(&self, step: Step) -> Option<&StepRecord> {
         self.steps.get(step.name())
     }

@@ -15,7 +15,7 @@ use super::files::NETWORK;
 use super::site::Site;
 use super::step::Outcome;
 
-/// Where a training works.
+/// Folder of a training.
 const TRAINING: &str = "training";
 
 pub fn run(site: &Site, anew: bool) -> Result<Outcome> {

@@ -10,7 +10,8 @@ use tofsim_rtl::instrument;
 use tofsim_rtl::verify::BlockReport;
 use tofsim_rtl::verify::cycle_counts::Count;
 
-use crate::report::verification as report;
+use crate::report::verification::{CycleCounts, Verified};
+use crate::report::writer::Findings as _;
 use crate::verbs::verify;
 
 use super::site::Site;
@@ -28,7 +29,7 @@ pub fn cycles(site: &Site) -> Result<Outcome> {
     let held = counts.iter().filter(|count| count.holds()).count();
     let summary = format!("{held} of {} counts proven", counts.len());
     let passed = counts.iter().all(Count::holds);
-    written("cycles.json", report::counts_json(&source, &counts), passed, summary)
+    written("cycles.json", CycleCounts { rtl: &source, counts: &counts }.object(), passed, summary)
 }
 
 pub fn verify(site: &Site) -> Result<Outcome> {
@@ -53,7 +54,8 @@ pub fn verify(site: &Site) -> Result<Outcome> {
     let cycles: usize = reports.iter().map(|report| report.cycles).sum();
     let summary =
         format!("{} of {} benches pass, {cycles} cycles", reports.len() - failed, reports.len());
-    written("verify.json", report::json(&source, "icarus", &reports), failed == 0, summary)
+    let verified = Verified { rtl: &source, simulator: "icarus", blocks: &reports };
+    written("verify.json", verified.object(), failed == 0, summary)
 }
 
 fn written(name: &str, result: Value, passed: bool, summary: String) -> Result<Outcome> {

@@ -22,9 +22,9 @@ pub struct Site<'a> {
     pub files: &'a InstrumentFiles,
     /// The scenario with any network.
     pub loaded: Loaded,
-    /// The same, ready to run.
+    /// The scenario, ready to run.
     pub setup: Setup,
-    /// What the instrument's results lie outside of, whatever its network.
+    /// Notes on the instrument's results, whatever its network.
     pub notes: Vec<Note>,
     /// Whether all is to be quick.
     pub quick: bool,
@@ -33,7 +33,7 @@ pub struct Site<'a> {
 }
 
 impl<'a> Site<'a> {
-    /// Of an instrument.
+    /// Prepares the build of an instrument.
     ///
     /// # Errors
     /// When what its scenario says does not fit together.

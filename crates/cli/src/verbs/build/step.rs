@@ -24,15 +24,15 @@ pub enum Step {
     Report,
 }
 
-/// What a step came to.
+/// Outcome of a step.
 pub struct Outcome {
     /// The files that it has made.
     pub outputs: Vec<PathBuf>,
-    /// What the report shows of it.
+    /// Results for the report.
     pub result: Value,
-    /// Whether it found no fault.
+    /// Whether no fault was found.
     pub passed: bool,
-    /// What it came to, in a line.
+    /// Summary in a line.
     pub summary: String,
 }
 
@@ -59,7 +59,7 @@ impl Step {
         ("vectors", Step::Vectors, "Writes golden vectors and a bench for each block"),
         ("cycles", Step::Cycles, "Proves the cycle counts (Icarus, Yosys)"),
         ("verify", Step::Verify, "Holds the Verilog to the model (Icarus)"),
-        ("frame", Step::Frame, "Simulates a frame, with a waveform and set-ups for its viewers"),
+        ("frame", Step::Frame, "Simulates a frame, with a waveform and save files for its viewers"),
         (
             "accuracy",
             Step::Accuracy,
@@ -74,7 +74,7 @@ impl Step {
         Step::CHOICES[self as usize].0
     }
 
-    /// What it does.
+    /// Returns a description of the step.
     pub fn about(self) -> &'static str {
         Step::CHOICES[self as usize].2
     }

@@ -33,8 +33,9 @@ pub(super) fn valid(text: &str) -> Result<(String, String), String> {
 /// A signal and by how many samples it is late.
 pub(super) fn latency(text: &str) -> Result<(String, i64), String> {
     let (name, samples) = setting::<i64>(text, "whole number")?;
-    match samples.unsigned_abs() <= LONGEST_LATENCY {
-        true => Ok((name, samples)),
-        false => Err(format!("expected {LONGEST_LATENCY} samples at most")),
+    if samples.unsigned_abs() <= LONGEST_LATENCY {
+        Ok((name, samples))
+    } else {
+        Err(format!("expected {LONGEST_LATENCY} samples at most"))
     }
 }

@@ -16,14 +16,14 @@ pub(super) const SHOWN: usize = 6;
 #[command(
     after_help = "Histograms are drawn afresh over the thesis's test grid: 51 distances from 0.1 \
     to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones,\nbut for \
-    subtraction: a dark and a lit one of half the shots each.\nWith --grid KEY=... scenes are those of \
-    one's own, and what no --grid has is the scenario's.\n\n\
+    subtraction: a dark and a lit one of half the shots each.\nWith --grid KEY=... scenes are \
+    your own, and what no --grid sets is the scenario's.\n\n\
     Examples:\n  \
     tofsim evaluate                                 the default network on its chain's bins\n  \
     tofsim evaluate ideal --profile ideal -o out    with box plots and tables as CSV\n  \
     tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000\n  \
     tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?\n  \
-    tofsim evaluate --data measured --profile chain.toml    on histograms of one's own\n  \
+    tofsim evaluate --data measured --profile chain.toml    on your own histograms\n  \
     tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --grid laser.pulse_sigma_ps=100,137,200"
 )]
 pub struct Args {

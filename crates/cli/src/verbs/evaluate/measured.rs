@@ -14,9 +14,9 @@ use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::estimation::{Needs, Panel};
 use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures};
 
-use crate::record::Record;
-use crate::report::evaluation as report;
-use crate::verbs::terminal::{Talk, print_json};
+use crate::report::evaluation::{self as report, EvaluationFindings};
+use crate::report::writer::Report;
+use crate::verbs::terminal::Talk;
 
 use super::args::{Args, SHOWN};
 
@@ -33,7 +33,7 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
         let expected = "expected estimators of one histogram, it needs a dark one beside each";
         return Err(Input::new("--estimator", expected).value("subtraction").into());
     }
-    let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
+    let held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let estimators = Panel::new(&args.estimator, &setup)?.into_estimators();
     let count = labelled.histograms.len() as u64;
     let (histograms, scenes) = (&labelled.histograms, labelled.scenes.clone());
@@ -46,33 +46,24 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
     let of = |column: &EstimatorErrors| figures(&evaluation, column, limit_m, labelled.knows_light);
     let figures: Vec<_> = evaluation.columns.iter().map(of).collect();
     let (profile, network) = (&setup.scenario.tdc.profile, &setup.network.name);
-    let mut json = json!({
-        "schema": "tofsim.evaluate/1",
+    let json = json!({
         "network": network,
         "profile": profile,
         "data": data.display().to_string(),
         "rows": count,
         "estimators": figures,
     });
-    let record = Record::new(&setup, &talk.command);
-    record.put_into(&mut json, &notes);
-    if let Some(folder) = &args.output {
-        let (record, json, figures) = (&record, &json, &figures[..]);
-        let evaluated = report::Evaluated { record, json, figures, bound: &[], grid: None };
-        evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
-    }
-    if args.json {
-        return print_json(&json);
-    }
     let data = data.display();
     let head = format!("network {network}, chain {profile}, {count} histograms of {data}\n\n");
-    let distances: Vec<_> =
-        figures.first().map_or(&[][..], |one| &one.by_distance_m).iter().collect();
+    let distances = figures.first().map_or(&[][..], |one| &one.by_distance_m);
     let distances: Vec<f64> = distances.iter().map(|group| group.value).collect();
     let shown = thinned(&distances, SHOWN);
     let beside = report::Beside { distances_m: &shown, bound_mm: &[], thesis: false };
     let tables = report::overview(&figures) + "\n" + &report::tables(&figures, &beside);
-    talk.report(&(head + &tables))
+    let (text, figures) = (head + &tables, &figures[..]);
+    let findings = EvaluationFindings { json, text, figures, bound: &[], grid: None };
+    drop(held);
+    Report::new(findings, &setup, &notes, talk).deliver(args.output.as_deref(), args.json, talk)
 }
 
 /// The figures of an estimator; the thesis's line is for its own scenes.
@@ -94,7 +85,7 @@ fn figures(
 }
 
 impl Args {
-    /// Where the histograms lie outside of what the network was trained for, and that the chain has drifted.
+    /// Returns the notes on histograms outside of the network's training, and on a chain that has drifted.
     fn notes_on(&self, setup: &Setup, labelled: &Labelled) -> Result<Vec<Note>> {
         let mut notes = Vec::new();
         if self.measures_a_network() {

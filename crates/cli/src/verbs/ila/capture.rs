@@ -44,7 +44,7 @@ pub struct Args {
     /// Directory to write to
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
+    /// Set a scenario key, e.g. `target.distance_m=0.3`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
@@ -69,7 +69,7 @@ pub struct Args {
     json: bool,
 }
 
-/// What goes before the set-up's keys.
+/// Source of faults in the probe configuration's keys.
 #[derive(Clone, Debug, clap::Args)]
 struct Instead {
     /// Sampling clock: clk_sys, clk_laser, clk_in, or frequency and first edge as 100MHz+250ps
@@ -161,13 +161,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         trigger_times_us: triggers.into_iter().map(microseconds).collect(),
         files,
     };
-    match args.json {
-        true => {
-            let mut json = report.json(full, outcome.end);
-            record.put_into(&mut json, &notes);
-            print_json(&json)
-        }
-        false => talk.report(&report.text()),
+    if args.json {
+        let mut json = report.json(full, outcome.end);
+        record.put_into(&mut json, &notes);
+        print_json(&json)
+    } else {
+        talk.report(&report.text())
     }
 }
 
@@ -178,7 +177,7 @@ fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {
     Setup::new(load(name, &[own, &args.set].concat(), args.seed)?)
 }
 
-/// That nothing triggered, and what would have had to.
+/// Returns the error that nothing triggered, and the trigger.
 fn never(set_up: &AnalyserSetup, analyser: &Analyser, end: Time) -> Error {
     let taken = analyser.taken();
     let expected =
@@ -206,7 +205,7 @@ fn microseconds(time: Time) -> f64 {
     time.fs() as f64 / 1e9
 }
 
-/// What came of a capture.
+/// Results of a capture.
 struct Report<'a> {
     set_up: &'a AnalyserSetup,
     /// Its name and seed.
@@ -222,7 +221,7 @@ struct Report<'a> {
 const SHOWN: usize = 8;
 
 impl Report<'_> {
-    /// As `--json` prints it; `full` if every window has all its samples.
+    /// Returns the JSON object; `full` if every window has all its samples.
     fn json(&self, full: bool, end: Time) -> Value {
         let (shape, capture) = (&self.plan.shape, self.capture);
         let probes = capture.probes.iter().zip(&self.set_up.file.probe);

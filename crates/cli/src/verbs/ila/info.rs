@@ -41,13 +41,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         return Err(Input::new(args.file.display(), expected).into());
     }
     let survey = survey(&source)?;
-    match args.json {
-        true => print(&format!("{:#}\n", as_json(&source, &survey))),
-        false => talk.report(&as_text(&source, &survey)),
+    if args.json {
+        print(&format!("{:#}\n", as_json(&source, &survey)))
+    } else {
+        talk.report(&as_text(&source, &survey))
     }
 }
 
-/// What the format does not say.
+/// Returns what the format does not tell.
 fn unsaid(source: &Source, survey: &Survey) -> Vec<&'static str> {
     let mut unsaid = vec!["the frequency of the clock", "whether all samples were stored"];
     if survey.windows.len() > 1 {

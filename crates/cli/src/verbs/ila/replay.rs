@@ -37,7 +37,7 @@ pub struct Args {
     /// Scenario to write; the list goes beside it
     #[arg(short, long, value_name = "FILE.toml")]
     output: PathBuf,
-    /// What belongs together: a map file, or a set-up of `ila capture` by name or path
+    /// Match signals by a map file, or by a probe configuration of `ila capture` (name or path)
     #[arg(long, value_name = "FILE|NAME")]
     map: Option<String>,
     /// The analyser's clock, clk_sys or clk_laser [default: the map's, or else clk_sys]
@@ -46,16 +46,16 @@ pub struct Args {
     /// Not all samples were stored (a capture condition that the map does not have)
     #[arg(long)]
     qualified: bool,
-    /// What stands in for the light [default: the first of these that is probed]
+    /// Replace the light by this part of the capture [default: the first of these that is probed]
     #[arg(long = "as", value_name = "KIND", value_parser = words(choice::REPLAY))]
     kind: Option<ReplayKind>,
     /// Radix of the values in a CSV that does not say
     #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
-    /// What the capture does not show is as in this scenario
+    /// Scenario for what the capture does not show
     #[arg(long, value_name = "NAME|FILE", default_value = DEFAULT)]
     scenario: String,
-    /// Set a key of the scenario; may be repeated
+    /// Set a scenario key, e.g. `target.distance_m=0.3`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Print one JSON object instead of a table
@@ -65,7 +65,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let place = Place::new(&args.output)?;
+    let place = ReplayFiles::new(&args.output)?;
     let base = load(&args.scenario, &args.set)?;
     let setup = Setup::new(base.clone())?;
     let options = ReplayOptions {
@@ -97,13 +97,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     files.iter().for_each(|file| talk.wrote(file));
     let report =
         Report { replay: &replay, located: &located, files: &files, next: next(args, &located) };
-    match args.json {
-        true => {
-            let mut json = report.json();
-            record.put_into(&mut json, &notes);
-            print_json(&json)
-        }
-        false => talk.report(&report.text()),
+    if args.json {
+        let mut json = report.json();
+        record.put_into(&mut json, &notes);
+        print_json(&json)
+    } else {
+        talk.report(&report.text())
     }
 }
 
@@ -111,14 +110,14 @@ fn note(text: &String) -> Note {
     Note::new(NoteCode::Comparison, "capture", NoteValue::None, "", text)
 }
 
-/// Where the files go.
-struct Place {
+/// Paths of the files.
+struct ReplayFiles {
     folder: PathBuf,
     scenario: String,
     stem: String,
 }
 
-impl Place {
+impl ReplayFiles {
     fn new(output: &Path) -> Result<Self> {
         let stem = output.file_stem().and_then(|stem| stem.to_str());
         let (Some(stem), Some("toml")) = (stem, output.extension().and_then(|e| e.to_str())) else {
@@ -126,7 +125,7 @@ impl Place {
             return Err(Input::new("--output", expected).value(output.display()).into());
         };
         let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
-        Ok(Place {
+        Ok(ReplayFiles {
             folder: folder.unwrap_or(Path::new(".")).to_owned(),
             scenario: format!("{stem}.toml"),
             stem: stem.to_owned(),
@@ -179,10 +178,8 @@ fn replayed(base: Loaded, replay: &Replay, list: &str) -> Result<Scenario> {
 
 /// The command that compares the capture with its replay.
 fn next(args: &Args, located: &Located) -> String {
-    let quoted = |text: String| match text.contains([' ', '\'']) {
-        true => format!("\"{text}\""),
-        false => text,
-    };
+    let quoted =
+        |text: String| if text.contains([' ', '\'']) { format!("\"{text}\"") } else { text };
     let mut words = vec!["tofsim compare --scenario".to_owned()];
     words.push(quoted(args.output.display().to_string()));
     words.push(quoted(args.capture.display().to_string()));
@@ -198,7 +195,7 @@ fn next(args: &Args, located: &Located) -> String {
     words.join(" ")
 }
 
-/// What came of a replay.
+/// Results of a replay.
 struct Report<'a> {
     replay: &'a Replay,
     located: &'a Located,

@@ -2,13 +2,13 @@
 
 use tofsim_learn::dataset::grid::{DISTANCE, IRRADIANCE, REFLECTANCE};
 
-/// What all of them have.
+/// Options that all command lines have.
 pub struct Words<'a> {
     /// Name or path.
     pub scenario: &'a str,
     /// The overrides, as given.
     pub set: &'a [String],
-    /// In place of the scenario's.
+    /// Seed in place of the scenario's.
     pub seed: Option<u64>,
     /// The grid that the scenario says itself, as options; without any the evaluation has the thesis's.
     pub grid: Vec<String>,
@@ -22,7 +22,7 @@ impl Words<'_> {
         words
     }
 
-    /// Those of the evaluation: what its grid says, no key does.
+    /// Returns the words of the evaluation, without keys that its grid sets.
     pub fn evaluation(&self) -> Vec<String> {
         let own = self.grid.iter().filter_map(|option| option.split('=').next());
         let mut keys: Vec<_> = own.collect();
@@ -35,7 +35,7 @@ impl Words<'_> {
         Words { set: &set, grid: Vec::new(), ..*self }.of(&["evaluate", "--scenario"])
     }
 
-    /// How each part is made by itself.
+    /// Returns the commands that make each part by itself.
     pub fn by_hand(&self) -> Vec<String> {
         let line = |words: Vec<String>, more: &str| format!("tofsim {}{more}", words.join(" "));
         vec![

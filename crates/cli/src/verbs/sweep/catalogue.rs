@@ -1,4 +1,4 @@
-//! What a sweep has to offer: plans that come with the program, and columns.
+//! Plans that come with the program, and columns of a sweep.
 
 use serde_json::json;
 

@@ -51,7 +51,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     Ok(())
 }
 
-/// What a table that is about a sweep says of it.
+/// Returns the record in the description of a sweep's table.
 fn record_of(about: &str) -> Result<Record> {
     let record = Record::find(about.as_bytes());
     record.ok_or_else(|| Input::new(ABOUT, "expected what a sweep says of itself").into())

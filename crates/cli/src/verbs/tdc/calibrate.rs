@@ -10,14 +10,15 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::characterisation::rom::CalibratedRom;
 
 use crate::record::Record;
-use crate::report::tdc_rom as report;
+use crate::report::tdc_rom::csv;
+use crate::report::writer::Report;
 
-use crate::verbs::terminal::{Talk, print_json};
+use crate::verbs::terminal::Talk;
 
 /// Make the decoder's ROM from the counts of a code-density test, with standard errors
 ///
-/// The hits have to know nothing of the clock, such as those of ambient light. When a hit reaches tap 0 no count
-/// tells: that is taken from the scenario's chain.
+/// The hits must be uncorrelated with the clock, such as those of ambient light. The delay to tap 0, which no count
+/// shows, is taken from the scenario's chain.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim tdc calibrate counts.csv --scenario mine.toml -o cal.csv\n  \
@@ -29,7 +30,7 @@ pub struct Args {
     /// Built-in scenario, or the path of a scenario file: clock, bins, and the chain's offset
     #[arg(long, default_value = scenario::DEFAULT)]
     scenario: String,
-    /// Set a key of that, such as tdc.profile=kintex7; may be repeated
+    /// Set a scenario key, e.g. `tdc.profile=kintex7`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Write the file that tdc.calibration reads
@@ -48,15 +49,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let rom = CalibratedRom::new(&source, &counts, &setup.params.tdc)?;
     let notes: Vec<_> = rom.note().into_iter().collect();
     talk.heed(&notes)?;
-    let record = Record::new(&setup, &talk.command);
     if let Some(path) = &args.output {
-        write_bytes(path, record.comment_line() + &report::csv(&rom))?;
+        write_bytes(path, Record::new(&setup, &talk.command).comment_line() + &csv(&rom))?;
         talk.wrote(path);
     }
-    if args.json {
-        let mut object = report::json(&rom);
-        record.put_into(&mut object, &notes);
-        return print_json(&object);
-    }
-    talk.report(&report::text(&rom))
+    Report::new(rom, &setup, &notes, talk).deliver(None, args.json, talk)
 }

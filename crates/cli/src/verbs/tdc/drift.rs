@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use tofsim::error::{Result, read_text};
 use tofsim::files::output::create_directory_for;
-use tofsim::scenario;
 use tofsim::scenario::drift::{DIE_C, Profile};
 use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
@@ -12,28 +11,25 @@ use tofsim_learn::drift::{Drift, Plan};
 use tofsim_learn::estimation::EstimatorKind;
 
 use crate::choice::words;
-use crate::record::Record;
-use crate::report::tdc_drift as report;
+use crate::report::tdc_drift::DriftFindings;
+use crate::report::writer::Report;
 
-use crate::verbs::draws::{MOST_THREADS, load, use_threads};
-use crate::verbs::terminal::{Talk, print_json, stop_signal};
+use crate::verbs::draws::{MOST_THREADS, use_threads};
+use crate::verbs::options::{ResultArgs, ScenarioArgs};
+use crate::verbs::terminal::{Talk, stop_signal};
 
 /// Show the depth's error over time as the die heats up, with a TDC calibrated once and again and again
 ///
 /// Delays of the chain grow with temperature (tdc.delay_per_c) and fall with the supply (tdc.delay_per_mv); a
-/// calibration knows them as they were.
+/// calibration knows them as they were. -o writes drift.csv, drift.json and drift.svg.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim tdc drift -s tdc.profile=kintex7               from 25 to 65 degC in ten minutes\n  \
     tofsim tdc drift --every 10 --estimator likelihood_estimator -o drift\n  \
     tofsim tdc drift mine.toml --temperatures log.csv     as a logger saw it")]
 pub struct Args {
-    /// Built-in scenario, or the path of a scenario file
-    #[arg(value_name = "SCENARIO", default_value = scenario::DEFAULT)]
-    scenario: String,
-    /// Set a key of that, such as target.distance_m=0.3; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    scenario: ScenarioArgs,
     /// Temperatures over time: CSV with header time_s,temperature_c,supply_mv, instead of a ramp
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to", "over", "points"])]
     temperatures: Option<PathBuf>,
@@ -43,19 +39,19 @@ pub struct Args {
     /// Temperature at which it ends [degC]
     #[arg(long, value_name = "C", default_value_t = 65.0, value_parser = celsius)]
     to: f64,
-    /// How long it takes [s]
+    /// Duration of the ramp [s]
     #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = seconds)]
     over: f64,
     /// Moments of the ramp, evenly apart
     #[arg(long, value_name = "N", default_value_t = 21, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     points: u32,
-    /// From one calibration to the next, where it is made again [s]
+    /// Interval between calibrations [s]
     #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = seconds)]
     every: f64,
     /// Histograms at each moment, for each of the two
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     repeats: u64,
-    /// What finds the depths [default: what is in the scenario's socket]
+    /// Estimator of the depths [default: the one in the scenario's estimator slot]
     #[arg(long, value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
     /// Seed of every random stream, instead of the scenario's
@@ -64,12 +60,8 @@ pub struct Args {
     /// Threads; the results are the same for any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
-    /// Write drift.csv, drift.json and drift.svg into this folder
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-    /// Print one JSON object
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    result: ResultArgs,
 }
 
 /// A temperature that the part is made for.
@@ -89,7 +81,7 @@ fn seconds(text: &str) -> std::result::Result<f64, String> {
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     use_threads(args.threads)?;
-    let loaded = load(&args.scenario, &args.set, args.seed)?;
+    let loaded = args.scenario.load(args.seed)?;
     let tdc = &loaded.scenario.tdc;
     let profile = match &args.temperatures {
         Some(path) => Profile::parse(&path.display().to_string(), &read_text(path)?)?,
@@ -107,26 +99,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     talk.heed(&notes)?;
     let look = |folder: &PathBuf| create_directory_for(folder, "drift.json");
-    args.output.as_ref().map_or(Ok(()), look)?;
+    args.result.output.as_ref().map_or(Ok(()), look)?;
     let plan = Plan { kind, every_s: args.every, repeats: args.repeats };
     let progress = talk.progress(2 * args.repeats * profile.moments().len() as u64, "histograms");
     let stop = stop_signal();
     let found = Drift::new(&loaded, &profile, plan, stop.as_deref(), |more| progress.inc(more));
     progress.finish_and_clear();
     let found = found?;
-    let record = Record::new(&setup, &talk.command);
-    let mut object = report::json(&found);
-    record.put_into(&mut object, &notes);
-    if let Some(folder) = &args.output {
-        let files = [
-            ("drift.csv", record.comment_line() + &report::csv(&found)),
-            ("drift.json", format!("{object:#}\n")),
-            ("drift.svg", record.in_svg(&report::svg(&found, &setup)?)),
-        ];
-        talk.write_into(folder, files)?;
-    }
-    match args.json {
-        true => print_json(&object),
-        false => talk.report(&report::text(&found, &setup)),
-    }
+    let report = Report::new(DriftFindings { found: &found, setup: &setup }, &setup, &notes, talk);
+    args.result.deliver(&report, talk)
 }

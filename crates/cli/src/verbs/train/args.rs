@@ -14,23 +14,23 @@ use crate::verbs::formats::Formats;
 
 /// Train a depth network on simulated histograms, within the thesis's number formats or others
 ///
-/// What the scenario's table [training] has of grid, recipe, neurons and formats holds where no option says
+/// Grid, recipe, neurons and formats of the scenario's table [training] hold where no option says
 /// otherwise.
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim train --profile uniform --seed 1 -o mine\n  \
-    tofsim train --profile chain.toml -o mine       on one's own chain\n  \
+    tofsim train --profile chain.toml -o mine       on your own chain\n  \
     tofsim train --resume -o mine                   go on where it was stopped\n  \
     tofsim train --with finish.blocks=10 -o mine    with a number of the recipe changed\n  \
     tofsim train --grid target.distance_m=0.05..0.9:0.0025 --grid target.reflectance=0.05..0.9:0.05 -o far\n  \
-    tofsim train --data measured --profile chain.toml -o mine   on histograms of one's own\n  \
+    tofsim train --data measured --profile chain.toml -o mine   on your own histograms\n  \
     tofsim train --lut-bits 10 --format w1=12.19    in words that are not the thesis's\n  \
     tofsim run -s estimator.network=mine/network.toml")]
 pub struct Args {
     /// Built-in scenario or scenario file: optics, detector and shots; its scene does not matter
     #[arg(default_value = scenario::DEFAULT)]
     pub(super) scenario: String,
-    /// Set a key of the scenario, such as spad.pdp=0.015; may be repeated
+    /// Set a scenario key, e.g. `spad.pdp=0.015`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
     /// Chain whose bins to train on, built-in or a file: tdc.profile of the scenario
@@ -50,7 +50,7 @@ pub struct Args {
     /// The true distances of --data [m]: an .npy file of n or n x k floats, distances first
     #[arg(long, value_name = "FILE", requires = "data")]
     pub(super) truth: Option<PathBuf>,
-    /// A training of seconds, whose network is poor
+    /// Train for a few seconds only (poor accuracy)
     #[arg(long)]
     pub(super) quick: bool,
     /// Recipe: short (minutes), brief, quick (seconds), uniform-16, long, trainlm, or a TOML file; what it does not say is the default one's
@@ -91,14 +91,14 @@ pub struct Args {
 pub const QUICK: &str = "quick";
 
 impl Args {
-    /// Those of a command line without any.
+    /// Returns the options of an empty command line.
     pub(super) fn usual() -> Args {
         let command = Args::augment_args(Command::new("train"));
         let matches = command.get_matches_from(["train"]);
         Args::from_arg_matches(&matches).unwrap_or_else(|fault| fault.exit())
     }
 
-    /// With what the scenario's own table says where no option does.
+    /// Fills in the scenario's own table where no option is given.
     ///
     /// # Errors
     /// When the table has a number format that is none.

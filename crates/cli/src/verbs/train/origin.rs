@@ -1,4 +1,4 @@
-//! What a network is trained on: scenes on a grid, or histograms of one's own.
+//! Training data of a network: scenes on a grid, or your own histograms.
 
 use tofsim::Note;
 use tofsim::error::{Input, Result};
@@ -14,11 +14,11 @@ use crate::verbs::scenes::Scenes;
 
 use super::args::Args;
 
-/// Where the histograms come from.
+/// Sources of the histograms.
 pub enum Origin {
-    /// They are drawn.
+    /// Histograms that are drawn over a grid.
     Grid(Box<Scenes>),
-    /// They are in files.
+    /// Histograms in files.
     Measured {
         /// Dealt out.
         parts: Box<MeasuredParts>,
@@ -30,7 +30,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// As the options have it.
+    /// Reads the options.
     ///
     /// # Errors
     /// When an option is wrong or a file is no data.
@@ -68,7 +68,7 @@ impl Origin {
         Ok(Origin::Grid(Box::new(scenes)))
     }
 
-    /// What to train, choose and test on.
+    /// Returns the histograms to train, choose and test on.
     ///
     /// # Errors
     /// When the grid is too large.
@@ -94,7 +94,7 @@ impl Origin {
         })
     }
 
-    /// What makes depths of some scenes impossible.
+    /// Returns the notes on scenes without a depth.
     ///
     /// # Errors
     /// When a scenario has no such scene.
@@ -105,7 +105,7 @@ impl Origin {
         }
     }
 
-    /// What a checkpoint is for, beside recipe and seed.
+    /// Returns the settings that a checkpoint belongs to, beside recipe and seed.
     pub fn settings(&self) -> Vec<(String, String)> {
         let one = |key: &str, value: String| (key.to_owned(), value);
         match self {
@@ -129,7 +129,7 @@ impl Origin {
         }
     }
 
-    /// The same, ready to run.
+    /// Returns the scenario, ready to run.
     ///
     /// # Errors
     /// When a file that it names cannot be used.

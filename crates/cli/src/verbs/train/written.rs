@@ -1,4 +1,4 @@
-//! What a training leaves in its folder.
+//! Files of a training.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use crate::record::Record;
 use crate::report::{learning_curve, training as report};
 use crate::verbs::terminal::Talk;
 
-/// What a network comes from.
+/// Origin of a network.
 pub struct TrainingOrigin<'a> {
     /// Chain on whose bins it was trained.
     pub chain: String,
@@ -27,9 +27,9 @@ pub struct TrainingOrigin<'a> {
     pub command: String,
     /// Seed of data and starts.
     pub seed: u64,
-    /// What it was trained for.
+    /// Domain of its training.
     pub domain: Option<Domain>,
-    /// What stands in its files.
+    /// Record in its files.
     pub record: &'a Record,
 }
 
