@@ -38,7 +38,7 @@ pub struct Instrument {
 pub struct Depth {
     /// Name of the estimator.
     pub estimator: &'static str,
-    /// Whether it is the firmware's estimator.
+    /// Whether this is the firmware's estimator.
     pub in_socket: bool,
     /// Distance of the target [m].
     pub depth_m: Option<f64>,
