@@ -363,7 +363,7 @@ impl LikelihoodSolver {
 }
 
 impl In {
-    /// What `a` has from another block.
+    /// Returns the operand `a` if it comes from another block.
     fn first_operand(&self, place: u8) -> Option<i64> {
         Some(match place.checked_sub(WORDS as u8)? {
             0 => self.sum_13.get() >> 5,
@@ -380,7 +380,7 @@ impl In {
         })
     }
 
-    /// What `c` has from another block.
+    /// Returns the operand `c` if it comes from another block.
     fn third_operand(&self, place: u8) -> Option<i64> {
         Some(match place.checked_sub(WORDS as u8)? {
             0 => self.sum_11.get() >> 1,
@@ -403,12 +403,12 @@ impl Registers {
         &PROGRAM[self.counter.index() % PROGRAM.len()]
     }
 
-    /// Whether it begins.
+    /// Returns whether an instruction begins.
     fn begins(&self) -> bool {
         self.running && self.pause == 0
     }
 
-    /// Whether it measures what has been marked.
+    /// Returns whether the marked values are measured.
     fn measures(&self) -> bool {
         self.begins() && matches!(self.next_one().op, Op::Exponent | Op::Cut)
     }

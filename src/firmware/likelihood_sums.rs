@@ -246,7 +246,7 @@ impl LikelihoodSums {
         (self.square, self.reciprocal, self.twice_first) = Default::default();
     }
 
-    /// What the four products come to. What they are for in the first cycle of a beat is taken over in the second.
+    /// Registers the four products. Their destination in the first cycle of a beat is kept for the second.
     fn multiply(&self, i: &In, p: &Params, d: &mut Self) {
         self.front_operands(i, p, d);
         self.back_operands(i, d);
@@ -320,7 +320,7 @@ impl LikelihoodSums {
         d.twice = self.twice_first;
     }
 
-    /// What is not the signal's.
+    /// Subtracts the part that is not due to the signal.
     fn subtract(&self, d: &mut Self) {
         let mixed = self.once[2].get() as i64 - self.twice.get() as i64;
         d.unseen = S::new(self.residuals.get() - self.seen_first.get());

@@ -300,7 +300,7 @@ impl LikelihoodTerms {
         (d.pulse_slope, d.pulse_first) = (self.low_slope[1], self.low_first[1]);
     }
 
-    /// What goes along.
+    /// Delays the values that accompany a bin.
     fn carry(&self, i: &In, p: &Params, d: &mut Self) {
         shift(&mut d.bin, i.word_bin);
         shift(&mut d.rest, i.word_rest);
@@ -318,7 +318,7 @@ impl LikelihoodTerms {
         shift(&mut d.awaited, any && self.waiting[11] != 0);
     }
 
-    /// What of it is in the bin.
+    /// Cuts out the part that lies in the bin.
     fn cut_out(&self, i: &In, d: &mut Self) {
         let none = self.edge_alone[2] && self.first[2];
         d.last_part = if none { U::new(0) } else { self.pulse_part };
@@ -364,7 +364,7 @@ impl LikelihoodTerms {
         }
     }
 
-    /// What k grows by begins in the first cycle, and in the second s.
+    /// Computes the slope of k: it begins in the first cycle of a beat, and the share s in the second.
     fn divide(&self, i: &In, d: &mut Self) {
         let hazard = self.hazard[2].get() as i64;
         let mantissa = self.mantissa[0].get() as i64;
@@ -424,7 +424,7 @@ impl LikelihoodTerms {
         }
     }
 
-    /// What comes out.
+    /// Drives the outputs.
     fn give(&self, p: &Params, d: &mut Self) {
         let any = self.bin[14] || self.rest[14];
         let most = 1 << (p.histogram.count_bits + 8);
