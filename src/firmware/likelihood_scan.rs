@@ -118,13 +118,13 @@ signals! {
         /// Its excess.
         #[size(BoxTermBits)]
         entering_excess: S<39, 8>,
-        /// What is expected in it, 8 fraction bits.
+        /// Expected count of the entering bin, 8 fraction bits.
         #[size(BoxTermBits)]
         entering_expected: U<39>,
         /// Twice the shots that wait in its middle.
         #[size(MiddleBits)]
         entering_middle: U<25>,
-        /// What leaves the box: its excess.
+        /// Excess of the bin that leaves the box.
         #[size(BoxTermBits)]
         leaving_excess: S<39, 8>,
         /// Expected.

@@ -106,7 +106,7 @@ signals! {
         /// Operands of the first multiplier.
         #[size(ResidualBits)]
         first_a: Residual,
-        /// See there.
+        /// Second operand of the first multiplier.
         first_b: S<14>,
         /// Their product.
         #[size(FirstProductBits)]
@@ -114,7 +114,7 @@ signals! {
         /// Operands of the second one.
         #[size(MixedBits)]
         second_a: S<33>,
-        /// See there.
+        /// Second operand of the second multiplier.
         #[size(FactorBits)]
         second_b: S<26>,
         /// Their product.
@@ -123,7 +123,7 @@ signals! {
         /// Operands of the third one.
         #[size(MixedBits)]
         third_a: S<33>,
-        /// See there.
+        /// Second operand of the third multiplier.
         third_b: S<14>,
         /// Their product.
         #[size(ThirdProductBits)]
@@ -131,7 +131,7 @@ signals! {
         /// Operands of the fourth one.
         #[size(MixedBits)]
         fourth_a: S<33>,
-        /// See there.
+        /// Second operand of the fourth multiplier.
         fourth_b: S<10>,
         /// Their product.
         #[size(FourthProductBits)]

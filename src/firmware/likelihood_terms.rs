@@ -117,7 +117,7 @@ signals! {
         slides: [bool; 15],
         /// Of an edge, and of bin 0.
         edge_alone: [bool; 3],
-        /// See there.
+        /// Words of bin 0.
         first: [bool; 3],
         /// Shots that end.
         #[size(RestBits)]
@@ -146,15 +146,15 @@ signals! {
         fetched_first: Slope,
         /// The same of the word before the time.
         low_part: [U<17>; 2],
-        /// See there.
+        /// Slope of the word before the time.
         low_slope: [Slope; 2],
-        /// See there.
+        /// Slope of the part of the word before the time.
         low_first: [Slope; 2],
         /// How far the time is from it to the next [16ths].
         sixteenths: [U<4>; 2],
-        /// What the part grows by from the one to the next, in the second cycle of a beat.
+        /// Increase of the part from the one to the next, in the second cycle of a beat.
         rise: U<17>,
-        /// What it grows by to the time, in the first one [16ths].
+        /// Increase of the part to the time, in the first cycle of a beat [16ths].
         risen: U<21>,
         /// Part of the pulse before the word's end, half a beat early.
         pulse_part: U<17>,
@@ -164,7 +164,7 @@ signals! {
         pulse_first: Slope,
         /// The same at the end of the bin before.
         last_part: U<17>,
-        /// See there.
+        /// Slope at the end of the bin before.
         last_slope: Slope,
         /// Part of the pulse in the bin.
         part: U<17>,
@@ -212,7 +212,7 @@ signals! {
         many_left: U<17>,
         /// Three times that.
         triple_left: U<19>,
-        /// What k grows by within a quarter, half a beat early, 22 fraction bits; then the share.
+        /// Increase of k within a quarter, half a beat early, 22 fraction bits; then the share.
         grown: U<24>,
         /// k at the quarter before.
         k_before: K,
