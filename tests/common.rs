@@ -1,4 +1,4 @@
-//! What several tests share.
+//! Shared helpers of the tests.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
 use std::fmt::Write;

@@ -77,7 +77,7 @@ fn reached<'a>(imports: &'a Imports, file: &'a String) -> BTreeSet<&'a String> {
     reached
 }
 
-/// What each file below `folder` imports from others there, its tests left out.
+/// Returns the modules that each file below `folder` imports from others there, without its tests.
 fn imports(folder: &Path) -> Imports {
     let mut files = BTreeMap::new();
     collect(folder, &mut Vec::new(), &mut files);

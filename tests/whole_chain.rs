@@ -14,7 +14,7 @@ use crate::common;
 
 const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 const REFLECTANCES: [f64; 2] = [0.08, 0.60];
-/// What fixed point may cost, in mean and in spread [m].
+/// Error that fixed point may add, in mean and in spread [m].
 const FIXED_POINT_M: f64 = 0.3e-3;
 
 #[derive(Clone, Copy)]

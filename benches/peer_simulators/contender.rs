@@ -92,7 +92,7 @@ pub struct Contender {
     pub frames: u64,
     /// Number of shots per frame.
     pub shots: u64,
-    /// Whether it takes seconds, and has fewer rounds.
+    /// Whether a run takes seconds, and has fewer rounds.
     pub is_slow: bool,
 }
 

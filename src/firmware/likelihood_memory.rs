@@ -126,7 +126,7 @@ signals! {
         /// The exposure of its low four bits.
         #[size(BegunBits)]
         begun_exposure: U<28>,
-        /// What it comes to is written.
+        /// The result is written.
         written: bool,
         /// To this word.
         #[size(BinBits)]

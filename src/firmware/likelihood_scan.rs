@@ -26,7 +26,7 @@ use super::likelihood_terms::{Expected, Residual};
 
 /// Score of a box in which less than expected ended.
 const NONE: i64 = -4096;
-/// What is added to the expected count of a bin at which shots wait, 8 fraction bits: a tenth.
+/// Addition to the expected count of a bin while shots wait, 8 fraction bits: a tenth.
 const ADDED: i64 = 26;
 /// A block counts with a 64th of the first one's exposure.
 const LEAST_EXPOSURE: i64 = 6 * 64;
@@ -118,13 +118,13 @@ signals! {
         /// Its excess.
         #[size(BoxTermBits)]
         entering_excess: S<39, 8>,
-        /// What is expected in it, 8 fraction bits.
+        /// Expected count of the entering bin, 8 fraction bits.
         #[size(BoxTermBits)]
         entering_expected: U<39>,
         /// Twice the shots that wait in its middle.
         #[size(MiddleBits)]
         entering_middle: U<25>,
-        /// What leaves the box: its excess.
+        /// Excess of the bin that leaves the box.
         #[size(BoxTermBits)]
         leaving_excess: S<39, 8>,
         /// Expected.
@@ -204,7 +204,7 @@ signals! {
     }
 }
 
-/// What enters and leaves a box.
+/// Values that enter and leave a box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Kept {
     excess: S<39, 8>,

@@ -67,31 +67,31 @@ signals! {
         /// Its first bin and the one after its last, together.
         #[size(BoxSumBits)]
         pub box_sum: U<12>,
-        /// Sums of the last pass.
+        /// Sum of the information on mu in the last pass.
         #[size(SlopeSumBits)]
         pub sum_11: S<48>,
-        /// See there.
+        /// Sum of the information on mu and log S.
         #[size(SlopeSumBits)]
         pub sum_12: S<48>,
-        /// See there.
+        /// Sum of the information on mu and log b.
         #[size(SlopeSumBits)]
         pub sum_13: S<48>,
-        /// See there.
+        /// Sum of the information on log S.
         #[size(SumWordBits)]
         pub sum_22: S<43>,
-        /// See there.
+        /// Sum of the information on log S and log b.
         #[size(SumWordBits)]
         pub sum_23: S<43>,
-        /// See there.
+        /// Sum of the information on log b.
         #[size(SumWordBits)]
         pub sum_33: S<43>,
-        /// See there.
+        /// Score of mu.
         #[size(SlopeSumBits)]
         pub score_1: S<48>,
-        /// See there.
+        /// Score of log S.
         #[size(SumWordBits)]
         pub score_2: S<43>,
-        /// See there.
+        /// Score of log b.
         #[size(SumWordBits)]
         pub score_3: S<43>,
     }
@@ -133,27 +133,27 @@ signals! {
         number: [U<6>; 8],
         /// Where its operands are.
         from_a: U<6>,
-        /// See there.
+        /// Location of the second operand.
         from_b: U<6>,
-        /// See there.
+        /// Location of the third operand.
         from_c: U<6>,
         /// By how many bits its product is shifted.
         base: U<5>,
-        /// What is added to that, in the order of [`By`].
+        /// Addition to that shift, in the order of [`By`].
         by: U<3>,
         /// It is no division and no root.
         alu: bool,
         /// Where its result goes.
         to: U<6>,
-        /// What else is kept of it: 1 its magnitude, 8 and more its sign as a flag.
+        /// Further property that is stored: 1 for the magnitude, 8 and more for the sign as a flag.
         mark: U<4>,
         /// Operands.
         #[size(WordBits)]
         a: Word,
-        /// See there.
+        /// Second operand.
         #[size(WordBits)]
         b: Word,
-        /// See there.
+        /// Third operand.
         #[size(WordBits)]
         c: Word,
         /// The low bits of a times those of b, or its others.
@@ -200,7 +200,7 @@ signals! {
         opposite: bool,
         /// Its limits, in the order of [`Clamp`].
         limits: U<3>,
-        /// What the instruction comes to.
+        /// Result of the instruction.
         #[size(WordBits)]
         result: Word,
         /// A reciprocal or a root is on the way.
@@ -209,7 +209,7 @@ signals! {
         divided: bool,
         /// Its next bit.
         digit: U<5>,
-        /// What a root takes for this one.
+        /// Two bits that a root takes for its next bit.
         pair: U<2>,
         /// Bits of what was divided by last, or half of those of a variance.
         bits: U<6>,
@@ -218,9 +218,9 @@ signals! {
         /// All magnitudes that were marked, without their lowest 14 bits: on those no shift depends.
         #[size(MagnitudeBits)]
         magnitude: U<31>,
-        /// What a division or a root leaves.
+        /// Remainder of a division or a root.
         remainder: U<28>,
-        /// What it has come to.
+        /// Result of a division or a root.
         quotient: U<25>,
     }
 }
@@ -251,11 +251,11 @@ impl Module for LikelihoodSolver {
 
 /// Numbers of marks: a magnitude, and the first flag.
 const MAGNITUDE: u64 = 1;
-/// See there.
+/// Number of the first flag.
 const FLAGS: u64 = 8;
 /// Bits of a reciprocal, and of a root.
 const RECIPROCAL_BITS: u64 = 17;
-/// See there.
+/// Bits of a root.
 const ROOT_BITS: u64 = 25;
 
 impl Params {
@@ -363,7 +363,7 @@ impl LikelihoodSolver {
 }
 
 impl In {
-    /// What `a` has from another block.
+    /// Returns the operand `a` if it comes from another block.
     fn first_operand(&self, place: u8) -> Option<i64> {
         Some(match place.checked_sub(WORDS as u8)? {
             0 => self.sum_13.get() >> 5,
@@ -380,7 +380,7 @@ impl In {
         })
     }
 
-    /// What `c` has from another block.
+    /// Returns the operand `c` if it comes from another block.
     fn third_operand(&self, place: u8) -> Option<i64> {
         Some(match place.checked_sub(WORDS as u8)? {
             0 => self.sum_11.get() >> 1,
@@ -403,12 +403,12 @@ impl Registers {
         &PROGRAM[self.counter.index() % PROGRAM.len()]
     }
 
-    /// Whether it begins.
+    /// Returns whether an instruction begins.
     fn begins(&self) -> bool {
         self.running && self.pause == 0
     }
 
-    /// Whether it measures what has been marked.
+    /// Returns whether the marked values are measured.
     fn measures(&self) -> bool {
         self.begins() && matches!(self.next_one().op, Op::Exponent | Op::Cut)
     }

@@ -106,7 +106,7 @@ signals! {
         /// Operands of the first multiplier.
         #[size(ResidualBits)]
         first_a: Residual,
-        /// See there.
+        /// Second operand of the first multiplier.
         first_b: S<14>,
         /// Their product.
         #[size(FirstProductBits)]
@@ -114,7 +114,7 @@ signals! {
         /// Operands of the second one.
         #[size(MixedBits)]
         second_a: S<33>,
-        /// See there.
+        /// Second operand of the second multiplier.
         #[size(FactorBits)]
         second_b: S<26>,
         /// Their product.
@@ -123,7 +123,7 @@ signals! {
         /// Operands of the third one.
         #[size(MixedBits)]
         third_a: S<33>,
-        /// See there.
+        /// Second operand of the third multiplier.
         third_b: S<14>,
         /// Their product.
         #[size(ThirdProductBits)]
@@ -131,7 +131,7 @@ signals! {
         /// Operands of the fourth one.
         #[size(MixedBits)]
         fourth_a: S<33>,
-        /// See there.
+        /// Second operand of the fourth multiplier.
         fourth_b: S<10>,
         /// Their product.
         #[size(FourthProductBits)]
@@ -246,7 +246,7 @@ impl LikelihoodSums {
         (self.square, self.reciprocal, self.twice_first) = Default::default();
     }
 
-    /// What the four products come to. What they are for in the first cycle of a beat is taken over in the second.
+    /// Registers the four products. Their destination in the first cycle of a beat is kept for the second.
     fn multiply(&self, i: &In, p: &Params, d: &mut Self) {
         self.front_operands(i, p, d);
         self.back_operands(i, d);
@@ -320,7 +320,7 @@ impl LikelihoodSums {
         d.twice = self.twice_first;
     }
 
-    /// What is not the signal's.
+    /// Subtracts the part that is not due to the signal.
     fn subtract(&self, d: &mut Self) {
         let mixed = self.once[2].get() as i64 - self.twice.get() as i64;
         d.unseen = S::new(self.residuals.get() - self.seen_first.get());

@@ -117,7 +117,7 @@ signals! {
         slides: [bool; 15],
         /// Of an edge, and of bin 0.
         edge_alone: [bool; 3],
-        /// See there.
+        /// Words of bin 0.
         first: [bool; 3],
         /// Shots that end.
         #[size(RestBits)]
@@ -146,15 +146,15 @@ signals! {
         fetched_first: Slope,
         /// The same of the word before the time.
         low_part: [U<17>; 2],
-        /// See there.
+        /// Slope of the word before the time.
         low_slope: [Slope; 2],
-        /// See there.
+        /// Slope of the part of the word before the time.
         low_first: [Slope; 2],
         /// How far the time is from it to the next [16ths].
         sixteenths: [U<4>; 2],
-        /// What the part grows by from the one to the next, in the second cycle of a beat.
+        /// Increase of the part from the one to the next, in the second cycle of a beat.
         rise: U<17>,
-        /// What it grows by to the time, in the first one [16ths].
+        /// Increase of the part to the time, in the first cycle of a beat [16ths].
         risen: U<21>,
         /// Part of the pulse before the word's end, half a beat early.
         pulse_part: U<17>,
@@ -164,7 +164,7 @@ signals! {
         pulse_first: Slope,
         /// The same at the end of the bin before.
         last_part: U<17>,
-        /// See there.
+        /// Slope at the end of the bin before.
         last_slope: Slope,
         /// Part of the pulse in the bin.
         part: U<17>,
@@ -212,7 +212,7 @@ signals! {
         many_left: U<17>,
         /// Three times that.
         triple_left: U<19>,
-        /// What k grows by within a quarter, half a beat early, 22 fraction bits; then the share.
+        /// Increase of k within a quarter, half a beat early, 22 fraction bits; then the share.
         grown: U<24>,
         /// k at the quarter before.
         k_before: K,
@@ -300,7 +300,7 @@ impl LikelihoodTerms {
         (d.pulse_slope, d.pulse_first) = (self.low_slope[1], self.low_first[1]);
     }
 
-    /// What goes along.
+    /// Delays the values that accompany a bin.
     fn carry(&self, i: &In, p: &Params, d: &mut Self) {
         shift(&mut d.bin, i.word_bin);
         shift(&mut d.rest, i.word_rest);
@@ -318,7 +318,7 @@ impl LikelihoodTerms {
         shift(&mut d.awaited, any && self.waiting[11] != 0);
     }
 
-    /// What of it is in the bin.
+    /// Cuts out the part that lies in the bin.
     fn cut_out(&self, i: &In, d: &mut Self) {
         let none = self.edge_alone[2] && self.first[2];
         d.last_part = if none { U::new(0) } else { self.pulse_part };
@@ -364,7 +364,7 @@ impl LikelihoodTerms {
         }
     }
 
-    /// What k grows by begins in the first cycle, and in the second s.
+    /// Computes the slope of k: it begins in the first cycle of a beat, and the share s in the second.
     fn divide(&self, i: &In, d: &mut Self) {
         let hazard = self.hazard[2].get() as i64;
         let mantissa = self.mantissa[0].get() as i64;
@@ -424,7 +424,7 @@ impl LikelihoodTerms {
         }
     }
 
-    /// What comes out.
+    /// Drives the outputs.
     fn give(&self, p: &Params, d: &mut Self) {
         let any = self.bin[14] || self.rest[14];
         let most = 1 << (p.histogram.count_bits + 8);

@@ -82,7 +82,7 @@ signals! {
         #[only_if(Calibrated)]
         #[size(AgeBits)]
         pub calibrated_age: Word,
-        /// What the block does.
+        /// Returns the state.
         #[view(heading = "TDC", probe = true)]
         pub(crate) state: State,
         /// A calibration is due.

@@ -166,9 +166,8 @@ impl Budget {
         }
     }
 
-    /// Scales the budget of a white target in an irradiance of 1 W/m^2/nm to another reflectance and irradiance
-    /// [W/m^2/nm]: diffuse reflection is proportional to reflectance (eq. 3.13), and ambient light also to irradiance
-    /// (eq. 3.19 and 3.20). Light from a retroreflective patch and from the air does not depend on the reflectance.
+    /// Scales the budget of a white target in 1 W/m^2/nm to another reflectance and irradiance [W/m^2/nm], by eq. 3.13,
+    /// 3.19 and 3.20. Light from a retroreflective patch and from the air does not depend on the reflectance.
     pub fn of_white(&self, reflectance: f64, irradiance_w_m2_nm: f64) -> Self {
         Budget {
             signal_per_shot: self.signal_per_shot * reflectance,
@@ -249,9 +248,7 @@ fn fitted_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -
 /// thesis's optics and distances, because both are the same sum [1].
 ///
 /// The reference is the thesis's target at the scenario's distance, because Table 4.3 has one rate for all distances,
-/// although that target does not fill the field of view beyond 0.47 m. Beyond the table's largest distance the
-/// reference is constant, so that the rate falls with the target's solid angle, and a wall that fills the field of
-/// view gives the same rate from everywhere.
+/// and beyond the table's largest distance it is constant.
 fn against_the_thesis_optics(scenario: &Scenario, own_sr: f64) -> f64 {
     let mut thesis = Scenario::default();
     thesis.target.distance_m = scenario.target.distance_m.min(FARTHEST_FITTED_M);

@@ -132,7 +132,7 @@ struct Stepper<F, const N: usize> {
     values: Values,
     number: u64,
     each: F,
-    /// What `each` ended the run with.
+    /// Result with which `each` ended the run.
     end: Option<Result<()>>,
 }
 

@@ -1,4 +1,4 @@
-//! What looks at a device's signals and listens to its avalanches.
+//! Observers of a device's signals and avalanches.
 
 use crate::firmware::tof_top::TofTop;
 use crate::kernel::Time;
@@ -6,9 +6,9 @@ use crate::optics::hazard::Cause;
 
 /// Sees the signals after every instant at which one may have changed.
 pub trait SignalProbe {
-    /// Whether it looks at all.
+    /// Whether the probe observes signals at all.
     const ON: bool;
-    /// Whether it looks just before each rising edge of `clk_sys` and `clk_laser` too.
+    /// Whether the probe also observes signals just before each rising edge of `clk_sys` and `clk_laser`.
     const EDGES: bool = false;
     /// The signals as they are from `now` on.
     fn sample(&mut self, now: Time, top: &TofTop);
@@ -20,7 +20,7 @@ pub trait SignalProbe {
     fn tick(&mut self, now: Time, top: &TofTop) {
         self.sample(now, top);
     }
-    /// Whether it looks before this edge.
+    /// Returns whether the probe observes signals before this edge.
     #[inline(always)]
     fn looks_before(&self, _edge: Edge) -> bool {
         Self::EDGES
@@ -42,7 +42,7 @@ pub enum Edge {
 
 /// Hears of every avalanche.
 pub trait AvalancheListener {
-    /// Whether it listens at all.
+    /// Whether the probe observes avalanches at all.
     const ON: bool;
     /// An avalanche at `at`, `None` of a known cause.
     fn avalanche(&mut self, at: Time, cause: Option<Cause>);

@@ -191,10 +191,10 @@ impl Waves {
     }
 }
 
-/// The outputs of the row of SPADs, a bit each.
+/// Outputs of the SPAD row, one bit each.
 #[derive(Clone, Copy, Default)]
 struct Row {
-    /// Which of them the file has.
+    /// Mask of the outputs in the file.
     has: u64,
     now: u64,
     shown: u64,
@@ -206,7 +206,7 @@ impl Row {
         Row { has: places.fold(0, |has, place| has | 1 << place), ..Row::default() }
     }
 
-    /// Reports those that have changed, or all.
+    /// Reports the outputs that have changed, or all.
     #[cold]
     fn show(&mut self, all: bool, sink: &mut impl Sink) {
         let mut left = self.has & if all { u64::MAX } else { self.now ^ self.shown };

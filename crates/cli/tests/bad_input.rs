@@ -1,4 +1,4 @@
-//! What the program says of input it cannot use, and what it leaves behind.
+//! Tests of the messages for unusable input, and of the files left behind.
 
 use std::fs;
 use std::io::Read;

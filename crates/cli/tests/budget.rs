@@ -16,7 +16,7 @@ struct Counted {
     coded_signal: f64,
 }
 
-/// What the events of a simulated frame come to.
+/// Counts the events of a simulated frame.
 fn counted(scenario: &[&str]) -> Counted {
     let folder = empty();
     let run = ["--events", "events.csv", "--waves", "none", "-q"];

@@ -26,7 +26,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// What a command prints, errors too, and its status if that is not 0.
+/// Returns the output of a command, including errors, and its status if that is not 0.
 fn printed(folder: &Path, line: &str) -> String {
     let (line, target) = line.split_once(" > ").map_or((line, None), |(a, b)| (a, Some(b)));
     let words = words(line);

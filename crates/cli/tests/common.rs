@@ -1,4 +1,4 @@
-//! What several tests share: the program, and what the simulator's own tests have.
+//! Shared helpers of the tests: the program, and those of the simulator's own tests.
 
 #[path = "../../../tests/common.rs"]
 mod simulator;
@@ -16,7 +16,7 @@ pub fn tofsim(folder: &Path, args: &[&str]) -> Command {
     command
 }
 
-/// What the program did.
+/// Runs the program.
 pub fn output(folder: &Path, args: &[&str]) -> Output {
     tofsim(folder, args).output().unwrap()
 }

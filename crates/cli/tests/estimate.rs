@@ -54,7 +54,7 @@ fn every_address_of_the_activation_table_is_the_naive_one() {
     }
 }
 
-/// What the program prints as JSON.
+/// Runs the program, and returns its JSON.
 fn run(arguments: &[&Path]) -> serde_json::Value {
     let program = env!("CARGO_BIN_EXE_tofsim");
     let output = Command::new(program).args(["estimate", "--json"]).args(arguments).output();

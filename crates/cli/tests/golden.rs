@@ -1,6 +1,5 @@
-//! What a user sees, kept word for word. After a change that is meant:
-//! `INSTA_UPDATE=always cargo test -p tofsim-cli --test cli golden`, then read the difference before
-//! committing it.
+//! Snapshots of the program's output. After an intended change, run `INSTA_UPDATE=always cargo test -p tofsim-cli
+//! --test cli golden`, and read the difference before committing it.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -11,7 +10,7 @@ use wellen::simple::read;
 
 use crate::common;
 
-/// What is shown: one shot from its reset to its code [ps].
+/// Length of the waveform shown: one shot from its reset to its code [ps].
 const SPAN_PS: u64 = 96_000;
 
 /// The first shot of kc705 as text: one character for each nanosecond, `▔` high and `▁` low; words

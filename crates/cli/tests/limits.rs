@@ -1,4 +1,4 @@
-//! What a result lies outside of is said, and nothing else is.
+//! Tests that exceeded limits are noted, and nothing else is.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! What `run` says of a depth beside what the firmware says.
+//! Tests of the second opinion of `run`.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! What a user sees at a terminal, and what an interrupted or killed program leaves.
+//! Tests of the output on a terminal, and of the files left by an interrupted or killed program.
 
 mod interrupted;
 mod long_values;

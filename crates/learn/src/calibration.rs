@@ -1,9 +1,8 @@
-//! What an instrument's own histograms tell of it: the shape of its pulse.
+//! Calibration of the pulse shape from an instrument's own histograms.
 //!
-//! Arrival, signal and background of each histogram are not known, and are fitted together with the shape that
-//! all have in common: the profile likelihood of the shape's parameters, climbed by Fisher scoring
-//! ([`scoring`]). A pulse without a formula comes out of the same histograms by expectation and maximisation
-//! ([`samples`]).
+//! Arrival, signal and background of each histogram are unknown, and are fitted together with the common shape:
+//! Fisher scoring of the profile likelihood of the shape's parameters ([`scoring`]). A pulse without a formula is
+//! determined by expectation maximization ([`samples`]).
 
 pub mod candidates;
 pub mod goodness;

@@ -7,7 +7,7 @@ use tofsim::firmware::tdc_decoder::Params;
 use tofsim::sim::device::Off;
 use tofsim_learn::characterisation::rom::{CalibratedRom, RomEntry};
 
-/// What a calibration has counted by `n`, and the ages that the firmware worked out [units].
+/// Counts of a calibration by `n`, and the ages that the firmware computed [units].
 struct Calibrated {
     setup: Setup,
     counts: Vec<u64>,

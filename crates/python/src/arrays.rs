@@ -71,7 +71,7 @@ impl<'py> Lent<'py> {
         Ok(all.chunks_exact(self.bins))
     }
 
-    /// Whether it is a single one.
+    /// Returns whether there is a single histogram.
     pub fn is_single(&self) -> bool {
         self.array.shape().len() == 1
     }

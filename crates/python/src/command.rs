@@ -31,8 +31,8 @@ pub fn main(py: Python<'_>, words: Vec<OsString>) -> u8 {
     })
 }
 
-/// What a command line prints with `--json`, as a dictionary, and whether all was the same or fine. The first word is a
-/// verb.
+/// Runs a command line, and returns its `--json` object as a dictionary, and whether its status was 0. The first word
+/// is a verb.
 #[pyfunction]
 #[pyo3(name = "_answer", signature = (words, threads = None, progress = None))]
 pub fn answer<'py>(

@@ -30,7 +30,7 @@ pub struct Dataset {
     pub(crate) drawn: Arc<Drawn>,
 }
 
-/// What is drawn.
+/// A dataset to draw.
 pub struct Drawn {
     pub scenes: Scenes,
     pub rows: Rows,
@@ -129,7 +129,7 @@ impl Dataset {
         self.drawn.rows.count()
     }
 
-    /// What makes depths of some scenes impossible.
+    /// Returns notes on scenes that cannot have a depth.
     fn notes<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyAny>> {
         Ok(object(py, &json!(self.drawn.scenes.notes()?))?)
     }

@@ -17,7 +17,7 @@ create_exception!(
 /// Shorthand for what may raise an exception.
 pub type Result<T> = std::result::Result<T, Fault>;
 
-/// What goes wrong on the way to Python.
+/// An error on the way to Python.
 #[derive(Debug)]
 pub enum Fault {
     /// In the library.

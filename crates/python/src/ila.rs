@@ -28,7 +28,7 @@ pub fn radix_of(name: Option<&str>) -> Result<Option<Radix>> {
     Ok(Some(found.ok_or_else(fault)?.1))
 }
 
-/// What a file holds.
+/// Contents of a file.
 struct Read {
     form: CaptureForm,
     columns: Vec<Column>,

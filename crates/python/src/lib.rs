@@ -19,7 +19,7 @@ mod scenario;
 mod simulate;
 mod waves;
 
-/// What the package `tofsim` is made of.
+/// Contents of the package `tofsim`.
 #[pyo3::pymodule]
 mod _tofsim {
     #[pymodule_export]

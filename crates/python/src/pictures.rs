@@ -8,7 +8,7 @@ use tofsim_cli::report::page::facts;
 
 use crate::errors::Result;
 
-/// What a scenario is, as tables.
+/// Formats a scenario as tables.
 pub fn scenario(setup: &Setup) -> String {
     let heading = format!("<h3>{}</h3>\n", setup.name);
     heading + &facts::section(setup, &serde_json::Value::Null)

@@ -38,7 +38,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// What the table says of where it comes from.
+    /// Returns the provenance of the table.
     fn record(&self) -> Result<Record> {
         let (set, seed) = &self.given;
         let setup = Setup::of_counts(self.plan.base()?)?;

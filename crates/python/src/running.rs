@@ -20,7 +20,7 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Time that a task has to stop; what does not is left to itself, and what it finds is lost.
 const PATIENCE: Duration = Duration::from_millis(150);
 
-/// What a task looks at and tells.
+/// Progress and stop flag of a task.
 #[derive(Clone, Default)]
 pub struct Watch {
     /// Set to stop it.
@@ -119,7 +119,7 @@ fn tell(py: Python<'_>, terms: &Terms, watch: &Watch, told: &mut (u64, u64)) -> 
     progress.call1(py, now).map(drop)
 }
 
-/// What a panic says.
+/// Returns the message of a panic.
 fn said(panic: Box<dyn Any + Send>) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| text.to_string());
     let text = text.or_else(|| panic.downcast_ref::<String>().cloned());

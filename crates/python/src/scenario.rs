@@ -26,7 +26,7 @@ use crate::pictures;
 #[pyclass(module = "tofsim", frozen, skip_from_py_object)]
 #[derive(Clone)]
 pub struct Scenario {
-    /// What errors call it.
+    /// Name of the source in errors.
     source: String,
     text: String,
     pub(crate) loaded: Loaded,
@@ -54,7 +54,7 @@ impl Scenario {
         Ok(Scenario { source, text, loaded, _home: None })
     }
 
-    /// What a function was given: a scenario, or what makes one; without any, the default.
+    /// Converts a function's argument: a scenario, or an argument of its constructor; the default if there is none.
     pub fn of(given: Option<&Bound<'_, PyAny>>) -> Result<Self> {
         match given.map(|given| given.cast::<Scenario>()) {
             Some(Ok(scenario)) => Ok(scenario.get().clone()),

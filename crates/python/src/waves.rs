@@ -35,7 +35,7 @@ struct Changes {
     unknown: Vec<u64>,
 }
 
-/// What a file holds.
+/// Contents of a file.
 struct Read {
     format: &'static str,
     axis: Axis,

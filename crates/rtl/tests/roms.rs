@@ -19,7 +19,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rtl_ref")
 }
 
-/// What the memories have to be.
+/// Returns the expected memory contents.
 fn expected() -> BTreeMap<&'static str, String> {
     let of = |scenario, set: &[&str]| {
         let parameters = parameters::tof_top(&common::setup(scenario, set));

@@ -51,7 +51,7 @@ pub struct Params {
     pub delay: i64,
 }
 
-/// What an instrument is, as far as the estimator knows it.
+/// Properties of an instrument that the estimator uses.
 #[derive(Clone, Debug)]
 pub struct Wanted<'a> {
     /// How large the histogram is.
@@ -60,7 +60,7 @@ pub struct Wanted<'a> {
     pub shots: u64,
     /// Where bins begin, and last where the last one ends, from the laser edge [ps].
     pub edges_ps: &'a [f64],
-    /// What a bin is meant to be [ps].
+    /// Nominal bin width [ps].
     pub bin_ps: f64,
     /// How arrivals of an echo are spread.
     pub pulse: Pulse,

@@ -17,12 +17,12 @@ const DIVISOR_BITS: u32 = 17;
 pub static LOG2: LazyLock<[i64; ENTRIES]> =
     LazyLock::new(|| std::array::from_fn(|i| round(64.0 * libm::log2(middle(i)))));
 
-/// What a bin's terms need.
+/// Tables for the terms of a bin.
 #[derive(Debug)]
 pub struct Tables {
     /// k at the begin of each quarter, 12 fraction bits.
     pub k: [i64; ENTRIES],
-    /// What k grows by in a quarter.
+    /// Growth of k within a quarter.
     pub growth: [i64; ENTRIES],
     /// Reciprocal of a mantissa from 1 to 2, 10 fraction bits.
     pub reciprocal: [i64; ENTRIES],
@@ -53,12 +53,12 @@ impl Tables {
         TABLES.k[(hazard >> 20) as usize]
     }
 
-    /// What it grows by from there; 22 fraction bits.
+    /// Returns the growth of k from the start of the quarter, with 22 fraction bits.
     pub fn k_grown(hazard: i64) -> i64 {
         Self::k_growth(hazard) * (hazard >> 10 & 1023)
     }
 
-    /// What it grows by in the quarter.
+    /// Returns the growth of k within the quarter.
     pub fn k_growth(hazard: i64) -> i64 {
         TABLES.growth[(hazard >> 20) as usize]
     }

@@ -1,4 +1,4 @@
-//! What the solver does, instruction by instruction.
+//! The solver's program, instruction by instruction.
 
 /// Words of the solver's memory; from [`ONE`] on they are constants.
 pub const ARRIVAL: u8 = 0;
@@ -57,13 +57,13 @@ const SCORE_2: u8 = 36;
 
 /// Where a result goes that is an output.
 pub const DEPTH: u8 = 32;
-/// See there.
+/// Location of sigma.
 pub const SIGMA: u8 = 33;
 
 /// Cycles that the multiplier takes for a product.
 const MULTIPLIED: u8 = 2;
 
-/// What an instruction is.
+/// Operation of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Op {
     /// to = c +- (a b >> shift).
@@ -80,7 +80,7 @@ pub enum Op {
     End,
 }
 
-/// What is added to a shift.
+/// Addition to a shift.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
     /// Nothing.
@@ -134,7 +134,7 @@ impl Clamp {
     ];
 }
 
-/// What else is kept of a result.
+/// Further property of a result that is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// Nothing.
@@ -148,25 +148,25 @@ pub enum Mark {
 /// An instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Instruction {
-    /// What it does.
+    /// Operation.
     pub op: Op,
     /// Where the result goes.
     pub to: u8,
     /// Operands.
     pub a: u8,
-    /// See there.
+    /// Location of the second operand.
     pub b: u8,
-    /// See there.
+    /// Location of the third operand.
     pub c: u8,
     /// The product is subtracted.
     pub minus: bool,
     /// Bits.
     pub shift: u8,
-    /// What is added to them.
+    /// Addition to the shift.
     pub by: By,
     /// Limits of the result.
     pub clamp: Clamp,
-    /// What else is kept.
+    /// Further property that is stored.
     pub mark: Mark,
     /// Cycles until the next one begins.
     pub wait: u8,

@@ -1,8 +1,8 @@
-//! What becomes of a shot's first avalanche, by its time from the laser edge.
+//! Result of a shot's first avalanche as a function of its time from the laser edge.
 //!
-//! In MODE 0 a shot has one avalanche at most, so that its result is a function of that time alone,
-//! as long as nothing of the shot before is left in the chain: a staircase whose steps are the
-//! spans of [`Bins`] and what lies between and after them.
+//! In MODE 0 a shot has at most one avalanche, so that its result depends on that time alone, as long as nothing of
+//! the previous shot is left in the chain: a staircase whose steps are the spans of [`Bins`] and the gaps between and
+//! after them.
 
 use crate::firmware::histogram_builder::MOST_BINS;
 use crate::firmware::tdc;

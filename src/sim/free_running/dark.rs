@@ -13,8 +13,8 @@ const LONGEST_S: f64 = 10_000.0;
 /// Fewest intervals that tell a rate.
 const FEWEST: u64 = 10;
 
-/// What the dark shows of a rate of `dark_hz`, in about so many counts; `None` if it is none, or afterpulses leave no
-/// tail.
+/// Measures a dark count rate of `dark_hz` with about `counts` counts; `None` if there is none, or afterpulsing
+/// leaves no tail.
 pub fn dark_rate_hz(diode: &FreeRunning, dark_hz: f64, counts: u64) -> Option<Measured> {
     let window_s = window_s(diode);
     let batch_s = (counts as f64 / BATCHES as f64 / dark_hz).min(LONGEST_S);

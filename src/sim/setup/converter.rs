@@ -16,9 +16,9 @@ use super::recalibration;
 /// Taps about a transition that may be unsure, for two transitions in the chain to be shown whole.
 const MOST_UNSURE: usize = 4;
 
-/// What comes of the scenario's keys.
+/// The converter of a scenario.
 pub(super) struct Converter {
-    /// What elaboration fixes in `tdc`.
+    /// Parameters of `tdc`.
     pub tdc: tdc::Params,
     /// The same of `tdc_calibration`, if the firmware calibrates itself.
     pub tdc_calibration: Option<tdc_calibration::Params>,
@@ -26,9 +26,9 @@ pub(super) struct Converter {
     pub calibrated: Option<Delays>,
     /// The converter as its calibration has it, if it is another.
     pub known: Option<tdc::Params>,
-    /// What becomes of the delays in a run, if something does.
+    /// Drift of the delays during a run, if there is any.
     pub course: Option<Course>,
-    /// What makes the chain another at each edge, if something does.
+    /// Changes of the chain from edge to edge, if there are any.
     pub disturbance: Option<Disturbance>,
 }
 
@@ -61,10 +61,10 @@ impl Converter {
     }
 }
 
-/// What makes the chain another at each edge, if something does.
+/// Returns the changes of the chain from edge to edge, if there are any.
 ///
 /// # Errors
-/// When more taps may be unsure than can be shown, or one that is reached at once.
+/// If more taps may be uncertain than can be represented, or one that is reached at once.
 fn disturbance(scenario: &Scenario, chain: &Drifted) -> Result<Option<Disturbance>> {
     let window_ps = scenario.tdc.setup_window_ps;
     let window = Time::from_ps_f64(window_ps);

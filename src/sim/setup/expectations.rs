@@ -1,4 +1,4 @@
-//! What a setup's shots and an eye before it can expect, without a run.
+//! Expected values of a setup's shots, and exposure of an eye, without a simulation.
 
 use crate::note::{Note, NoteCode};
 use crate::optics::Chances;

@@ -10,12 +10,12 @@ use crate::scenario::QuenchMode;
 use super::Setup;
 
 impl Setup {
-    /// What the estimator's parameters and ROMs are for histograms of so many shots.
+    /// Computes the estimator's parameters and ROMs for histograms of `shots` shots.
     ///
     /// # Errors
-    /// When its model does not hold: hits before the first bin use up shots that no word counts
-    /// (`tdc.first_bin_ps`), the SPAD is not armed for each shot (`firmware.mode`), or the pulse or the window
-    /// is too long for its words.
+    /// If its model does not apply: hits before the first bin use up shots without being counted
+    /// (`tdc.first_bin_ps`), the SPAD is not armed for each shot (`firmware.mode`), or the pulse or the window is too
+    /// long for its words.
     pub fn likelihood(&self, shots: u64) -> Result<Params, Input> {
         self.likelihood_by(shots, Params::new)
     }

@@ -1,4 +1,4 @@
-//! What the firmware calibrates its TDC with, if it does.
+//! Ring oscillator and schedule of the firmware's TDC calibration.
 
 use crate::firmware::tdc_calibration::{BEATS, Params};
 use crate::firmware::{tdc, tdc_calibration};

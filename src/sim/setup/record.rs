@@ -1,4 +1,4 @@
-//! What is recorded of a setup's run, and what files that come of it say of where they come from.
+//! Record of a setup's run, and provenance of files.
 
 use std::path::Path;
 
@@ -67,7 +67,7 @@ impl Setup {
         waves::select(entries, hierarchy::ram_entries(&self.params.histogram), globs)
     }
 
-    /// What a file that comes of it says of where it comes from, a line each.
+    /// Returns the provenance to write to a file, in lines.
     pub fn provenance(&self) -> Vec<String> {
         let mut lines = vec![
             format!("tofsim {}", env!("CARGO_PKG_VERSION")),

@@ -1,14 +1,13 @@
-//! What an FST file is made of: blocks, each a type, its length without the type, and its contents.
+//! Blocks of an FST file: each has a type, its length without the type, and its contents.
 //!
-//! Numbers in blocks are big-endian with 64 bits, or have seven bits to a byte, lowest first, the
-//! eighth bit saying that there is more (GTKWave's `block_format.txt`).
+//! Numbers in blocks are big-endian 64-bit integers or unsigned LEB128 (GTKWave's `block_format.txt`).
 
 use std::io::{self, Write};
 
 /// Type of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Block {
-    /// Extent of the file, and who wrote it.
+    /// Extent of the file, and the writing program.
     Header = 0,
     /// Width of each signal.
     Geometry = 3,
@@ -16,12 +15,12 @@ pub(super) enum Block {
     Hierarchy = 6,
     /// A section of value changes.
     Changes = 8,
-    /// Passed over by readers.
+    /// Block that readers skip.
     Skipped = 255,
 }
 
 impl Block {
-    /// Writes a block, whose contents are `parts` one after the other.
+    /// Writes a block whose contents are the concatenation of `parts`.
     pub(super) fn write(self, file: &mut impl Write, parts: &[&[u8]]) -> io::Result<()> {
         let contents: usize = parts.iter().map(|part| part.len()).sum();
         let length = size_of::<u64>() + contents;
@@ -31,12 +30,12 @@ impl Block {
     }
 }
 
-/// Appends a number of 64 bits.
+/// Appends a 64-bit integer.
 pub(super) fn long(bytes: &mut Vec<u8>, value: u64) {
     bytes.extend_from_slice(&value.to_be_bytes());
 }
 
-/// Appends a number, as few bytes as it needs.
+/// Appends an unsigned LEB128 integer.
 #[inline]
 pub(super) fn number(bytes: &mut Vec<u8>, mut value: u64) {
     while value > 0x7f {
@@ -46,7 +45,7 @@ pub(super) fn number(bytes: &mut Vec<u8>, mut value: u64) {
     bytes.push(value as u8);
 }
 
-/// Appends a number that is read as a signed one: the highest of its seven bits is the sign.
+/// Appends an integer that is read as signed LEB128, whose highest bit is the sign.
 pub(super) fn signed(bytes: &mut Vec<u8>, mut value: u64) {
     while value > 0x3f {
         bytes.push(value as u8 | 0x80);

@@ -1,7 +1,6 @@
-//! The value changes of an FST file, in sections that are compressed signal by signal.
+//! Value changes of an FST file, in sections that are compressed signal by signal.
 //!
-//! A section holds the values at its begin, the stream of each signal, where each stream is, and the
-//! times.
+//! A section contains the initial values, the stream of each signal, the offsets of the streams, and the times.
 
 use std::io::{self, Seek, Write};
 
@@ -10,36 +9,36 @@ use super::header::Header;
 use super::stream::Stream;
 use super::times::Times;
 
-/// That streams are compressed with LZ4.
+/// Identifier of LZ4 compression of the streams.
 const LZ4: u8 = b'4';
-/// Changes gathered before they are compressed [bytes].
+/// Amount of changes that are collected before compression [bytes].
 const GATHERED: usize = 1 << 20;
 
-/// Where changes go.
+/// Writer of the value changes.
 pub(super) struct Changes<W> {
     file: W,
     header: Header,
     streams: Vec<Stream>,
-    /// Values at the begin of the section, a digit for each bit.
+    /// Values at the start of the section, one digit per bit.
     frame: Vec<u8>,
     times: Times,
     /// The last time [ps].
     at: u64,
-    /// Begin of the section [ps].
+    /// Start of the section [ps].
     start: u64,
-    /// What all streams take, or little less [bytes].
+    /// Approximate size of all streams [bytes].
     size: usize,
 }
 
 impl<W: Write + Seek> Changes<W> {
-    /// Writes to `file`, behind what it has; `widths` are those of the signals, in their order.
+    /// Creates a writer that appends to `file`; `widths` are those of the signals, in order.
     pub(super) fn new(file: W, header: Header, widths: &[usize]) -> Self {
         let streams = widths.iter().map(|&width| Stream::new(width)).collect();
         let (frame, times) = (Vec::new(), Times::default());
         Changes { file, header, streams, frame, times, at: 0, start: 0, size: 0 }
     }
 
-    /// A time step begins, later than those before it or at the same time [ps].
+    /// Begins a time step, not earlier than the previous one [ps].
     pub(super) fn begin(&mut self, at: u64) -> io::Result<()> {
         if at <= self.at {
             return Ok(());
@@ -55,7 +54,7 @@ impl<W: Write + Seek> Changes<W> {
         Ok(())
     }
 
-    /// A signal changes to a value of up to 64 bits.
+    /// Changes a signal of up to 64 bits.
     #[inline]
     pub(super) fn word(&mut self, signal: usize, value: u64) {
         let width = self.streams[signal].width;
@@ -64,7 +63,7 @@ impl<W: Write + Seek> Changes<W> {
         self.change(signal, &aligned.to_be_bytes()[8 - bytes..]);
     }
 
-    /// A signal changes to a value, its highest bit the highest of the first byte.
+    /// Changes a signal; the most significant bit is the highest bit of the first byte.
     #[inline]
     pub(super) fn change(&mut self, signal: usize, value: &[u8]) {
         let stream = &mut self.streams[signal];
@@ -75,7 +74,7 @@ impl<W: Write + Seek> Changes<W> {
         }
     }
 
-    /// All signals become unknown.
+    /// Sets all signals to unknown.
     pub(super) fn unknown(&mut self) {
         for stream in &mut self.streams {
             stream.value = None;
@@ -86,7 +85,7 @@ impl<W: Write + Seek> Changes<W> {
         }
     }
 
-    /// Writes what is left, and the header with the end at that time [ps].
+    /// Writes the last section, and the header with the end time [ps].
     pub(super) fn finish(mut self, at: u64) -> io::Result<W> {
         self.begin(at)?;
         self.write_section()?;
@@ -110,7 +109,7 @@ impl<W: Write + Seek> Changes<W> {
         Ok(())
     }
 
-    /// Appends the values at the begin; their length stands there twice, because it is not compressed.
+    /// Appends the initial values. Their length is written twice, because they are not compressed.
     fn take_frame(&mut self, body: &mut Vec<u8>) {
         let length = self.frame.len() as u64;
         for count in [length, length, self.streams.len() as u64] {
@@ -119,7 +118,7 @@ impl<W: Write + Seek> Changes<W> {
         body.append(&mut self.frame);
     }
 
-    /// Appends all streams, and where they are; what they were before compression [bytes].
+    /// Appends all streams and their offsets, and returns their uncompressed size [bytes].
     fn take_streams(&mut self, body: &mut Vec<u8>) -> usize {
         number(body, self.streams.len() as u64);
         let (mut last, mut empty, mut length) = (body.len(), 0, 0);
@@ -143,7 +142,7 @@ impl<W: Write + Seek> Changes<W> {
     }
 }
 
-/// Appends that so many signals have no stream.
+/// Appends the number of consecutive signals without a stream.
 fn skip(places: &mut Vec<u8>, signals: &mut u64) {
     if *signals > 0 {
         number(places, 2 * std::mem::take(signals));

@@ -1,5 +1,5 @@
-//! The header of an FST file. Its length is fixed, so that it is written twice: at first to keep the
-//! place, and over that once the end is known.
+//! The header of an FST file. It has a fixed length and is written twice: at first to reserve the space, and again
+//! once the end is known.
 
 use std::io::{self, Seek, SeekFrom, Write};
 
@@ -8,41 +8,41 @@ use crate::files::date;
 
 use super::blocks::{Block, long};
 
-/// Room for the version, a zero at its end included [bytes].
+/// Size of the version field, including a final zero [bytes].
 const VERSION: usize = 128;
-/// Room for the date [bytes].
+/// Size of the date field [bytes].
 const DATE: usize = 119;
-/// Exponent of the unit of time: picoseconds.
+/// Exponent of the time unit: picoseconds.
 const TIMESCALE: i8 = -12;
 /// File type of a Verilog simulator.
 const VERILOG: u8 = 0;
 
-/// What the header says.
+/// Contents of the header.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Header {
-    /// Time of the end [ps].
+    /// End time [ps].
     pub(super) end: u64,
     pub(super) scopes: u64,
-    /// Names, aliases included.
+    /// Number of names, including aliases.
     pub(super) names: u64,
-    /// Signals, each under one or more names.
+    /// Number of signals.
     pub(super) signals: u64,
-    /// Sections of value changes.
+    /// Number of sections of value changes.
     pub(super) sections: u64,
-    /// Who wrote it, from what.
+    /// Program, version and provenance.
     pub(super) version: String,
-    /// When, if that is fixed.
+    /// Date, if the environment sets one.
     pub(super) date: String,
 }
 
 impl Header {
-    /// A header that says who writes the file, from what.
+    /// Creates a header with the program, its version and the provenance.
     pub(super) fn new(provenance: &[String]) -> Result<Self> {
         let date = date::fixed()?.unwrap_or_default();
         Ok(Header { version: version(provenance), date, ..Header::default() })
     }
 
-    /// Writes it at the begin of a file.
+    /// Writes the header at the start of a file.
     pub(super) fn write(&self, file: &mut (impl Write + Seek)) -> io::Result<()> {
         let mut contents = Vec::new();
         for time in [0, self.end] {
@@ -65,14 +65,14 @@ impl Header {
     }
 }
 
-/// Appends a text and zeros up to a length.
+/// Appends a text, padded with zeros to a length.
 fn text(bytes: &mut Vec<u8>, text: &str, length: usize) {
     let end = bytes.len() + length;
     bytes.extend_from_slice(text.as_bytes());
     bytes.resize(end, 0);
 }
 
-/// Program, version and provenance in one line, as far as there is room.
+/// Formats program, version and provenance in one line, truncated to the field's size.
 fn version(provenance: &[String]) -> String {
     let mut version = concat!("tofsim ", env!("CARGO_PKG_VERSION")).to_owned();
     for line in provenance {

@@ -7,32 +7,32 @@ use crate::hierarchy::{Entry, IDS, Kind};
 use super::super::scopes::{Element, elements};
 use super::blocks::{Block, long, number};
 
-/// A scope begins.
+/// Start of a scope.
 const SCOPE: u8 = 254;
-/// The scope open now ends.
+/// End of the current scope.
 const UP: u8 = 255;
 /// Type of a scope.
 const MODULE: u8 = 0;
-/// Type of a variable that something drives.
+/// Type of a variable that is driven.
 const WIRE: u8 = 16;
-/// Type of a variable that keeps its value.
+/// Type of a variable that stores its value.
 const REG: u8 = 5;
 
 /// The hierarchy of a file.
 pub(super) struct Hierarchy {
-    /// Place of each signal in the file's order by id; what is not selected is `None`.
+    /// Index of each id's signal in the file; `None` if it is not selected.
     pub(super) signals: Vec<Option<usize>>,
-    /// Width of the signal at each place [bits].
+    /// Width of each signal [bits].
     pub(super) widths: Vec<usize>,
     pub(super) scopes: u64,
-    /// Names, aliases included.
+    /// Number of names, including aliases.
     pub(super) names: u64,
-    /// What the block holds before it is compressed.
+    /// Uncompressed contents of the block.
     spelled: Vec<u8>,
 }
 
 impl Hierarchy {
-    /// That of `entries`.
+    /// Creates the hierarchy of `entries`.
     pub(super) fn new(entries: &[Entry]) -> Self {
         let (signals, widths, spelled) = (vec![None; IDS], Vec::new(), Vec::new());
         let mut hierarchy = Hierarchy { signals, widths, scopes: 0, names: 0, spelled };

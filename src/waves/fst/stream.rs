@@ -1,31 +1,31 @@
 //! The changes of one signal in a section of an FST file.
 //!
-//! A change is how many times of the section have passed since the one before, and the value: in
-//! the same number for a single bit, and behind it otherwise.
+//! A change consists of the number of time steps since the previous one, and the value: in the same integer for a
+//! single bit, and after it otherwise.
 
 use super::blocks::number;
 
-/// Shortest stream that is compressed [bytes].
+/// Length from which a stream is compressed [bytes].
 const SHORT: usize = 32;
 
-/// One signal.
+/// Stream of one signal.
 pub(super) struct Stream {
-    /// [bits].
+    /// Width [bits].
     pub(super) width: usize,
     pub(super) data: Vec<u8>,
-    /// Number of the time of the last change, from 0 in each section.
+    /// Number of the time step of the last change, from 0 in each section.
     time: u64,
-    /// The value, its highest bit the highest of the first byte; `None` is unknown.
+    /// Value, most significant bit first; `None` if it is unknown.
     pub(super) value: Option<Box<[u8]>>,
 }
 
 impl Stream {
-    /// A signal of so many bits, unknown.
+    /// Creates the stream of an unknown signal.
     pub(super) fn new(width: usize) -> Self {
         Stream { width, data: Vec::new(), time: 0, value: None }
     }
 
-    /// The signal has that value from now on.
+    /// Sets the value without a change in the stream.
     #[inline]
     pub(super) fn set(&mut self, value: &[u8]) {
         match &mut self.value {
@@ -34,7 +34,7 @@ impl Stream {
         }
     }
 
-    /// Notes that it has changed to `value` at the time of that number; how many bytes that took.
+    /// Appends a change to `value` at a time step, and returns its size in bytes.
     #[inline]
     pub(super) fn note(&mut self, time: u64, value: &[u8]) -> usize {
         let (before, delta) = (self.data.len(), self.since(time));
@@ -47,7 +47,7 @@ impl Stream {
         self.data.len() - before
     }
 
-    /// Notes that it has become unknown at the time of that number.
+    /// Appends a change to unknown at a time step.
     pub(super) fn note_unknown(&mut self, time: u64) {
         let delta = self.since(time);
         if self.width == 1 {
@@ -58,13 +58,13 @@ impl Stream {
         }
     }
 
-    /// Times since the last change.
+    /// Returns the number of time steps since the last change.
     #[inline]
     fn since(&mut self, time: u64) -> u64 {
         time - std::mem::replace(&mut self.time, time)
     }
 
-    /// Appends the value, a digit for each bit.
+    /// Appends the value to a text, one digit per bit.
     pub(super) fn spell(&self, text: &mut Vec<u8>) {
         match &self.value {
             None => text.resize(text.len() + self.width, b'x'),
@@ -74,7 +74,8 @@ impl Stream {
         }
     }
 
-    /// Appends what was noted, with LZ4 if that is shorter, and begins anew; how many bytes it was.
+    /// Appends the stream to a section, compressed with LZ4 if that is shorter, and clears it; returns its
+    /// uncompressed size in bytes.
     pub(super) fn take(&mut self, section: &mut Vec<u8>) -> usize {
         let Stream { data, time, .. } = self;
         let length = data.len();

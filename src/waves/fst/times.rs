@@ -2,20 +2,20 @@
 
 use super::blocks::{long, number};
 
-/// Level of zlib: times repeat so much that more brings nothing.
+/// Compression level of zlib. Times are so repetitive that higher levels have no effect.
 const ZLIB: u8 = 3;
 
-/// Times, each later than the one before it.
+/// Strictly increasing times.
 #[derive(Default)]
 pub(super) struct Times {
-    /// The first one, then each as what it is more than the one before it.
+    /// First time, followed by the differences of consecutive times.
     pub(super) steps: Vec<u8>,
-    /// Number of the last one, from 0.
+    /// Number of the last time, from 0.
     pub(super) last: u64,
 }
 
 impl Times {
-    /// Takes the next time, which comes after `before` [ps].
+    /// Adds the next time, given the previous one [ps].
     pub(super) fn push(&mut self, at: u64, before: u64) {
         if self.steps.is_empty() {
             number(&mut self.steps, at);
@@ -25,7 +25,7 @@ impl Times {
         }
     }
 
-    /// Appends them, compressed if that makes them shorter, and begins anew.
+    /// Appends the times to a section, compressed if that is shorter, and clears them.
     pub(super) fn take(&mut self, section: &mut Vec<u8>) {
         let packed = miniz_oxide::deflate::compress_to_vec_zlib(&self.steps, ZLIB);
         let shorter = if packed.len() < self.steps.len() { &packed } else { &self.steps };

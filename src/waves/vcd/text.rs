@@ -1,54 +1,53 @@
-//! The text of a VCD file's body, written into a buffer that has room for a whole step.
+//! Text of a VCD file's body, written to a buffer with space for a complete step.
 
 use std::io::{self, Write};
 
 use super::super::digits::{eight, three};
 
-/// Bytes gathered before they go to the file.
+/// Amount of text that is collected before it is written [bytes].
 const BLOCK: usize = 1 << 16;
-/// What one step may need beside its values: the time, a keyword at each end, and what is copied
-/// beyond the end of a text [bytes].
+/// Space for a step in addition to its values: the time, a keyword at each end, and the excess of fixed-size copies
+/// [bytes].
 const SPARE: usize = 128;
-/// What a time's leading digits count: the last six are looked up [ps].
+/// Unit of a time's leading digits: the last six digits are looked up in a table [ps].
 const LEAD: u64 = 1_000_000;
 
-/// Text that is not in the file yet.
+/// Text that has not been written yet.
 pub(super) struct Text {
-    /// The text, and room for the longest step after [`BLOCK`] bytes.
+    /// Buffer, with space for the longest step after [`BLOCK`] bytes.
     bytes: Box<[u8]>,
     pub(super) len: usize,
-    /// The last time's first digits, after a `#`.
+    /// Leading digits of the last time, after a `#`.
     lead: [u8; 16],
     lead_len: usize,
-    /// The time that those digits are with zeros after them; 0 before the first [ps].
+    /// Time of these digits followed by zeros; 0 before the first time [ps].
     lead_at: u64,
 }
 
-/// What stands after a value: at most seven bytes.
+/// Text after a value, at most seven bytes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tail {
-    /// A place for a digit, and the tail.
+    /// Space for a digit, followed by the tail.
     line: u64,
-    /// Without the digit; with it, one more [bytes].
+    /// Length without the digit [bytes].
     len: u8,
 }
 
 impl Tail {
-    /// Of a text; what is past the seventh byte is lost.
+    /// Creates a tail; text beyond the seventh byte is dropped.
     pub(super) fn new(text: &str) -> Self {
         let mut line = [0; 8];
         line[1..].iter_mut().zip(text.bytes()).for_each(|(byte, text)| *byte = text);
         Tail { line: u64::from_le_bytes(line), len: text.len().min(7) as u8 }
     }
 
-    /// How long it is [bytes].
+    /// Returns the length [bytes].
     pub(super) fn len(&self) -> usize {
         self.len as usize
     }
 }
 
-/// Writes there `N` bytes, of which those that are too many are written over later: copying a fixed
-/// number is faster.
+/// Copies `N` bytes, of which excess ones are overwritten later: copying a fixed number is faster.
 #[inline(always)]
 fn put<const N: usize>(bytes: &mut [u8], at: usize, text: &[u8; N]) {
     bytes[at..][..N].copy_from_slice(text);
@@ -57,19 +56,19 @@ fn put<const N: usize>(bytes: &mut [u8], at: usize, text: &[u8; N]) {
 // The place in the text is a local variable in each of these, because a field that is stored and
 // loaded for every few bytes is what would limit the speed.
 impl Text {
-    /// With room for steps whose values take up to `longest` bytes.
+    /// Creates a buffer for steps whose values take up to `longest` bytes.
     pub(super) fn new(longest: usize) -> Self {
         let bytes = vec![0; BLOCK + longest + SPARE].into_boxed_slice();
         Text { bytes, len: 0, lead: [0; 16], lead_len: 0, lead_at: 0 }
     }
 
-    /// Whether there is enough of it for a write.
+    /// Returns whether there is enough text for a write.
     #[inline]
     pub(super) fn is_full(&self) -> bool {
         self.len >= BLOCK
     }
 
-    /// Hands it on; after an error it is lost.
+    /// Writes the text to a file. After an error it is lost.
     pub(super) fn write(&mut self, file: &mut impl Write) -> io::Result<()> {
         let text = &self.bytes[..std::mem::take(&mut self.len)];
         file.write_all(text)
@@ -96,7 +95,7 @@ impl Text {
         self.len += place + 7;
     }
 
-    /// Appends a time whose first digits are not those of the last one [ps].
+    /// Appends a time whose leading digits differ from those of the last one [ps].
     #[cold]
     #[inline(never)]
     fn stamp_anew(&mut self, at: u64) {
@@ -106,7 +105,7 @@ impl Text {
         (self.lead_at, self.lead_len) = (at - at % LEAD, lead.len());
     }
 
-    /// Appends a bit; nothing if its tail is empty.
+    /// Appends the value of a bit; nothing if its tail is empty.
     #[inline(always)]
     pub(super) fn bit(&mut self, value: u64, tail: Tail) {
         let line = tail.line | u64::from(b'0') | (value & 1);
@@ -114,7 +113,7 @@ impl Text {
         self.len += tail.len() + usize::from(tail.len > 0);
     }
 
-    /// Appends a value that is not known.
+    /// Appends an unknown value.
     pub(super) fn unknown(&mut self, is_vector: bool, tail: Tail) {
         if is_vector {
             self.push(b"b");
@@ -123,7 +122,7 @@ impl Text {
         self.push(&line.to_le_bytes()[..1 + tail.len()]);
     }
 
-    /// Appends a vector of the bits of a word without leading zeros, but for one if they all are.
+    /// Appends a vector of up to 64 bits without leading zeros.
     #[inline(never)]
     pub(super) fn number(&mut self, value: u64, tail: Tail) {
         let (bytes, place) = (&mut self.bytes[..], self.len);
@@ -132,7 +131,7 @@ impl Text {
         self.len = place + tail.len();
     }
 
-    /// The same of the bits of `words`, lowest first.
+    /// Appends a vector of `words`, least significant first, without leading zeros.
     pub(super) fn vector(&mut self, words: &[u64], tail: Tail) {
         let (mut first, mut rest) = (0, words);
         while let [below @ .., highest] = rest {
@@ -152,7 +151,7 @@ impl Text {
     }
 }
 
-/// Writes there a `b` and a word without leading zeros, and returns where it ends.
+/// Writes a `b` and a word without leading zeros, and returns the end position.
 #[inline(always)]
 fn put_number(bytes: &mut [u8], at: usize, value: u64) -> usize {
     put(bytes, at, b"b");
@@ -166,7 +165,7 @@ fn put_number(bytes: &mut [u8], at: usize, value: u64) -> usize {
     end
 }
 
-/// Writes there the 64 digits of a word; most words of a delay line are all zeros or ones.
+/// Writes the 64 digits of a word; most words of a delay line are all zeros or ones.
 #[inline(always)]
 fn put_word(bytes: &mut [u8], at: usize, word: u64) {
     if word == 0 || word == u64::MAX {

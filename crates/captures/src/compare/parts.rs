@@ -34,7 +34,7 @@ pub(super) struct Part {
     pub(super) low: u32,
     /// Number of bits.
     pub(super) width: u32,
-    /// Whether it is the whole signal.
+    /// Whether the slice is the whole signal.
     pub(super) whole: bool,
 }
 

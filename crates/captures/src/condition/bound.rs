@@ -69,7 +69,7 @@ impl Bound {
         Bound { node, watched, outcomes }
     }
 
-    /// Evaluates the condition at the next sample, where `value` returns the level of a [`Place`](super::Place) by
+    /// Evaluates the condition at the next sample, where `value` returns the level of a [`Operand`](super::Operand) by
     /// its index.
     ///
     /// Levels are stored for `rising`, `falling` and `changed`, which are false at the first sample. A test that

@@ -1,7 +1,7 @@
-//! FST files, looked through before the library reads them: it makes room for whatever their lengths,
-//! sizes and counts say, and follows lengths that lead nowhere.
+//! Check of an FST file before the library reads it, because fst-reader 0.17.1 allocates memory by the lengths, sizes
+//! and counts that the file states, and seeks by its lengths.
 //!
-//! The format is that of GTKWave's `block_format.txt` and `fstapi.c`.
+//! The format is described in GTKWave's `block_format.txt` and `fstapi.c`.
 
 mod changes;
 mod names;
@@ -22,19 +22,19 @@ use super::span::{Checked, Fault, Span, at_most, word};
 
 /// First byte of a file that begins with its header.
 pub(super) const HEADER: u8 = 0;
-/// First byte of a file that is packed as a whole.
+/// First byte of a file that is compressed as a whole.
 pub(super) const WRAPPED: u8 = 254;
 
-/// Bytes of a header with its length, and where behind that it has its end and its timescale.
+/// Size of a header including its length, and the offsets of its end time and timescale after the length [bytes].
 const HEADER_LENGTH: u64 = 329;
 const END: usize = 8;
 const TIMESCALE: usize = 64;
-/// Exponents of the seconds that a file counts in.
+/// Range of the timescale's power of ten.
 const EXPONENTS: std::ops::RangeInclusive<i8> = -21..=2;
-/// Bytes of a block's length.
+/// Size of a block's length field [bytes].
 const LENGTH: u64 = 8;
 
-/// Opens a file of any format; an FST file that is packed as a whole is unpacked.
+/// Opens a file of any format. An FST file that is compressed as a whole is decompressed.
 pub(super) fn open(path: &Path) -> Result<Bytes> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     let mut bytes = Bytes::new(file);
@@ -51,7 +51,7 @@ pub(super) fn open(path: &Path) -> Result<Bytes> {
     }
 }
 
-/// What is packed in a file.
+/// Decompresses a file that is compressed as a whole.
 fn unwrapped(file: &mut Bytes) -> Checked<Vec<u8>> {
     let head = file.range(1, 2 * LENGTH)?;
     let mut span = Span::new(&head, "packed file");
@@ -64,7 +64,7 @@ fn unwrapped(file: &mut Bytes) -> Checked<Vec<u8>> {
     gzip_prefix(&file.range(1 + 2 * LENGTH, packed)?, size, "size of the packed file")
 }
 
-/// Looks through a file, and says where its last time is.
+/// Checks a file, and returns its end time.
 pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
     let whole = file.length()?;
     let (mut end, mut signals) = (None, None);
@@ -114,7 +114,7 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
     Ok(end)
 }
 
-/// The last time, from the header.
+/// Parses the end time in the header.
 fn header(body: &[u8]) -> Checked<u64> {
     let length = body.len() as u64 + LENGTH;
     if length != HEADER_LENGTH {

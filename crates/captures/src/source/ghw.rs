@@ -1,7 +1,7 @@
-//! GHW files, looked through up to their end of header before the library reads them: it makes room for
-//! whatever their counts and ranges say.
+//! Check of a GHW file's header before the library reads it, because wellen 0.25.7 allocates memory by the counts and
+//! ranges that the file states.
 //!
-//! The format is that of GHDL's `grt-waves.adb`; what the library does not know is left to it.
+//! The format is described by GHDL's `grt-waves.adb`. Constructs that the library does not support are left to it.
 
 mod types;
 mod words;
@@ -11,15 +11,14 @@ use super::span::{Checked, Fault, Span, at_most};
 use types::Types;
 use words::{count, word};
 
-/// Bytes of the file's header, and where it says in which order the bytes of a number stand (2 for the
-/// highest first) and its version.
+/// Size of the file header, and the offsets of its byte order (2 for big-endian) and of its version [bytes].
 const HEADER: u64 = 16;
 const ORDER: usize = 12;
 const VERSION: usize = 11;
-/// Most characters of all strings, which share their beginnings.
+/// Limit of the total length of all strings, which share prefixes [characters].
 const CHARACTERS: u64 = 1 << 27;
 
-/// Looks through a file.
+/// Checks a file.
 pub(super) fn check(bytes: &[u8]) -> Checked<()> {
     let mut file = Span::new(bytes, "file");
     let head = file.take(HEADER)?;
@@ -102,10 +101,10 @@ fn hierarchy(file: &mut Span, is_big: bool, types: &Types) -> Checked<()> {
     }
 }
 
-/// Kinds of what is in a hierarchy.
+/// Kinds of entries in the hierarchy.
 const END_OF_SCOPE: u8 = 15;
 const GENERATE_FOR: u8 = 5;
-/// Block, generate, instance, package, process and generic.
+/// Kinds of scopes: block, generate, instance, package, process and generic.
 const SCOPES: [u8; 6] = [3, 4, 6, 7, 13, 14];
 const SIGNALS: std::ops::RangeInclusive<u8> = 16..=21;
 

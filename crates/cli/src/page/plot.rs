@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use plotters::prelude::*;
 
+use tofsim::error::Result;
+
 use crate::text::svg::{Canvas, Drawn, legend, picture_of};
 
 /// Width and height [px].
@@ -62,7 +64,7 @@ pub struct Plot<'a> {
 
 impl Plot<'_> {
     /// The picture as SVG text; an error only if the plotting library fails.
-    pub fn svg(&self) -> Result<String, String> {
+    pub fn svg(&self) -> Result<String> {
         let points = || self.layers.iter().flat_map(|layer| &layer.points);
         if points().next().is_none() {
             return Ok(String::new());

@@ -3,12 +3,12 @@
 mod boxes;
 mod missing;
 
-use std::io;
 use std::ops::Range;
 
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
+use tofsim::error::Result;
 use tofsim_learn::evaluation::Group;
 
 use crate::text::svg::{COLOURS, Canvas, chart, picture};
@@ -51,13 +51,12 @@ pub struct BoxPlot<'a> {
 
 type Axes = Cartesian2d<RangedCoordf64, RangedCoordf64>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Axes>;
-type Result<T> = std::result::Result<T, DrawingAreaErrorKind<io::Error>>;
 
 impl BoxPlot<'_> {
     /// The picture as SVG text; an error only if the plotting library fails. Values have places equally
     /// far apart. Below the boxes are the parts of the histograms without an estimate or with one that is
     /// far off, if there are any.
-    pub fn svg(&self) -> std::result::Result<String, String> {
+    pub fn svg(&self) -> Result<String> {
         picture(|canvas| {
             if self.has_missing() {
                 let (boxes, missing) = canvas.split_vertically(390);
@@ -81,7 +80,7 @@ impl BoxPlot<'_> {
         title: &str,
         heights: Range<f64>,
         words: [&str; 2],
-    ) -> Result<Chart<'a, 'b>> {
+    ) -> std::result::Result<Chart<'a, 'b>, DrawingAreaErrorKind<std::io::Error>> {
         let (values, heights_px) = (self.values(), canvas.dim_in_pixel().1);
         let mut chart = chart(canvas, title)
             .build_cartesian_2d(-0.5..values.len().max(1) as f64 - 0.5, heights)?;

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use serde_json::{Value, json};
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::kernel::pulse::Pulse;
 use tofsim_learn::calibration::candidates::{Calibration, Candidate, Kind};
 
@@ -144,8 +144,7 @@ impl Findings for PulseFindings {
     }
 
     fn plots(&self) -> Result<Vec<NamedText>> {
-        let svg = svg(&self.calibration).map_err(|fault| Input::new("pulse.svg", fault))?;
-        Ok(vec![("pulse.svg".to_owned(), svg)])
+        Ok(vec![("pulse.svg".to_owned(), svg(&self.calibration)?)])
     }
 }
 
@@ -172,7 +171,7 @@ fn parts(candidate: &Candidate) -> [String; 2] {
 }
 
 /// Draws the pulse in the bins, the pulse to take and the scenario's.
-fn svg(calibration: &Calibration) -> std::result::Result<String, String> {
+fn svg(calibration: &Calibration) -> Result<String> {
     let (taken, told) = (calibration.taken(), &calibration.candidates[0].pulse);
     let [from_ps, until_ps] = taken.pulse.ends_ps().map(|ps| 1.15 * ps);
     let line = |pulse: &Pulse| -> Vec<(f64, f64)> {

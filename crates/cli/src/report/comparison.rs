@@ -7,6 +7,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use tofsim::Note;
 use tofsim::error::Result;
 use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
 use tofsim_captures::source::Axis;
@@ -15,13 +16,15 @@ use crate::text::colour::coloured;
 use crate::text::junit::{self, JunitCase};
 use crate::text::table::{counted, grouped, table};
 
+use super::writer::Findings;
+
 /// Signals that are listed one by one.
 const LISTED: usize = 24;
 /// Signals without a partner of each side that are listed.
 const UNMATCHED: usize = 8;
 
 /// The verdict, what differs first, a line for each pair that differs, and what came together.
-pub fn text(result: &Comparison, verbose: bool) -> String {
+fn text(result: &Comparison, verbose: bool) -> String {
     let mut text = String::new();
     let names = ["expected", "got"];
     for (side, name) in result.sides.iter().zip(names) {
@@ -159,8 +162,34 @@ fn guessed(result: &Comparison, verbose: bool) -> String {
     text
 }
 
-/// One object, `tofsim.compare/1`.
-pub fn json(result: &Comparison) -> Value {
+/// A comparison, and the notes on it.
+pub struct ComparisonFindings<'a> {
+    /// Both sides, and their differences.
+    pub result: &'a Comparison,
+    /// Notes on the scenario and the comparison.
+    pub notes: &'a [Note],
+    /// Whether all names are listed.
+    pub verbose: bool,
+}
+
+impl Findings for ComparisonFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.compare/1";
+
+    /// The object of two files; a record of a scenario goes over its last keys.
+    fn json(&self) -> Value {
+        let mut json = json(self.result);
+        json["set"] = json!([]);
+        json["hash"] = Value::Null;
+        json["notes"] = json!(self.notes);
+        json
+    }
+
+    fn text(&self) -> String {
+        text(self.result, self.verbose)
+    }
+}
+
+fn json(result: &Comparison) -> Value {
     let pair = |pair: &Compared| {
         let mut value = json!(pair);
         if let Some(first) = &pair.first {
@@ -174,7 +203,6 @@ pub fn json(result: &Comparison) -> Value {
         Axis::Time(_) => "ps",
     };
     json!({
-        "schema": "tofsim.compare/1",
         "same": result.is_same(),
         "sides": result.sides.iter().map(|side| json!({
             "name": side.name,

@@ -5,6 +5,8 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
+use tofsim::error::Result;
+
 use crate::text::svg::{COLOURS, Drawn, chart, legend, picture};
 
 /// A curve of the plot.
@@ -33,12 +35,7 @@ const LEGEND_LINE: f64 = 0.055;
 const MOST_DOTS: usize = 12;
 
 /// A picture of some curves, upwards by factors or around zero; an error only if the plotting library fails.
-pub fn curves(
-    title: &str,
-    quantity: &str,
-    by_factors: bool,
-    all: &[Curve],
-) -> Result<String, String> {
+pub fn curves(title: &str, quantity: &str, by_factors: bool, all: &[Curve]) -> Result<String> {
     let points = || all.iter().flat_map(|curve| curve.points);
     if points().next().is_none() {
         return Ok(String::new());

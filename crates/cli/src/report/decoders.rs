@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use serde_json::{Value, json};
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::characterisation::decoders::{Comparison, DecoderFigures, Read};
 
@@ -134,7 +134,7 @@ fn svg(found: &Comparison, setup: &Setup) -> Result<String> {
     let until = until.fold(f64::INFINITY, f64::min).max(1e-6);
     let widths = first.iter().flatten().filter(|at| at.0 <= until).map(|at| at.1);
     let widest = widths.fold(0.0, f64::max).max(1e-6);
-    let drawn = picture(|canvas| {
+    picture(|canvas| {
         let panels = canvas.titled(&title, ("sans-serif", 18))?;
         let panels = panels.split_evenly((found.decoders.len(), 1));
         for (place, one) in found.decoders.iter().enumerate() {
@@ -162,8 +162,7 @@ fn svg(found: &Comparison, setup: &Setup) -> Result<String> {
             legend(&mut chart, SeriesLabelPosition::UpperRight)?;
         }
         Ok(())
-    });
-    drawn.map_err(|text| Input::new("picture", text).into())
+    })
 }
 
 /// Ages, each with the width of the code that a hit has then, as a line of steps.

@@ -7,7 +7,7 @@ mod text;
 
 use serde_json::Value;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim_learn::error_budget::DepthBudget;
 
 use super::sheet::NamedText;
@@ -38,7 +38,6 @@ impl Findings for DepthBudgets<'_> {
     }
 
     fn plots(&self) -> Result<Vec<NamedText>> {
-        let svg = picture::svg(self).map_err(|fault| Input::new("errors.svg", fault))?;
-        Ok(vec![("errors.svg".to_owned(), svg)])
+        Ok(vec![("errors.svg".to_owned(), picture::svg(self)?)])
     }
 }

@@ -2,11 +2,13 @@
 
 use plotters::style::{BLACK, RED};
 
+use tofsim::error::Result;
 use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::evaluation::{Figures, Group, thesis};
 
 use super::box_plot::{BoxPlot, Limit, Series};
 use super::curves::{Curve, curves};
+use super::sheet::NamedText;
 
 /// Values of a picture of several estimators.
 const SHOWN: usize = 11;
@@ -22,20 +24,16 @@ const LINE: Limit = Limit {
     colour: RED,
 };
 
-/// A picture.
-pub struct ErrorPlot {
-    /// Name of its file.
-    pub name: String,
-    /// Its text, or why there is none.
-    pub svg: Result<String, String>,
-}
-
-/// One for each estimator and quantity, and one for each quantity with all estimators side by side if
+/// Draws a picture for each estimator and quantity, and one for each quantity with all estimators side by side if
 /// there are several; with the line of the thesis's network where scenes are the thesis's.
-pub fn all(figures: &[Figures], thesis: bool) -> Vec<ErrorPlot> {
+///
+/// # Errors
+/// When the plotting library fails.
+pub fn all(figures: &[Figures], thesis: bool) -> Result<Vec<NamedText>> {
     let of_each: Vec<_> = figures.iter().map(Figures::groupings).collect();
-    let Some(first) = of_each.first() else { return Vec::new() };
-    let quantities = first.iter().enumerate().flat_map(|(k, of)| {
+    let first = of_each.first().map_or(&[][..], Vec::as_slice);
+    let mut plots = Vec::new();
+    for (k, of) in first.iter().enumerate() {
         let limits: &[Limit] = match (of.key == "distance_m", thesis) {
             (false, _) => &[],
             (true, false) => &[ALLOWED],
@@ -44,14 +42,17 @@ pub fn all(figures: &[Figures], thesis: bool) -> Vec<ErrorPlot> {
         let series = figures.iter().zip(&of_each);
         let series = series.map(|(one, all)| Series { name: one.name, groups: all[k].groups });
         let series: Vec<_> = series.filter(|one| !one.groups.is_empty()).collect();
-        of_quantity(of.key, of.quantity, &series, limits)
-    });
-    quantities.collect()
+        plots.extend(of_quantity(of.key, of.quantity, &series, limits)?);
+    }
+    Ok(plots)
 }
 
-/// Twice the standard deviation of each estimator by distance, with the bound below [m, mm]; nothing of a single
-/// distance.
-pub fn spread(figures: &[Figures], bound: &[(f64, f64)]) -> Option<ErrorPlot> {
+/// Draws twice the standard deviation of each estimator by distance, with the bound below [m, mm]; nothing of a
+/// single distance.
+///
+/// # Errors
+/// When the plotting library fails.
+pub fn spread(figures: &[Figures], bound: &[(f64, f64)]) -> Result<Option<NamedText>> {
     let points = |one: &Figures| -> Vec<(f64, f64)> {
         let groups = one.by_distance_m.iter();
         groups.filter_map(|group| Some((group.value, group.spread.two_sd_mm?))).collect()
@@ -60,19 +61,25 @@ pub fn spread(figures: &[Figures], bound: &[(f64, f64)]) -> Option<ErrorPlot> {
     let mut all: Vec<_> = each.iter().map(|(name, points)| Curve::new(name, points)).collect();
     all.extend((!bound.is_empty()).then(|| Curve::bound(bound)));
     let is_line = each.iter().any(|(_, points)| points.len() > 1);
-    is_line.then(|| ErrorPlot {
-        name: "spread_by_distance_m.svg".to_owned(),
-        svg: curves("twice the standard deviation of the depth", "2σ [mm]", true, &all),
-    })
+    if !is_line {
+        return Ok(None);
+    }
+    let svg = curves("twice the standard deviation of the depth", "2σ [mm]", true, &all)?;
+    Ok(Some(("spread_by_distance_m.svg".to_owned(), svg)))
 }
 
-fn of_quantity(key: &str, quantity: &str, series: &[Series], limits: &[Limit]) -> Vec<ErrorPlot> {
+fn of_quantity(
+    key: &str,
+    quantity: &str,
+    series: &[Series],
+    limits: &[Limit],
+) -> Result<Vec<NamedText>> {
     let one = |series: &Series| {
         let title = format!("{}: errors by {quantity}", series.name);
         let plot = BoxPlot { title: &title, quantity, series: &[*series], limits };
-        ErrorPlot { name: format!("{}_by_{key}.svg", series.name), svg: plot.svg() }
+        Ok((format!("{}_by_{key}.svg", series.name), plot.svg()?))
     };
-    let mut plots: Vec<_> = series.iter().map(one).collect();
+    let mut plots = series.iter().map(one).collect::<Result<Vec<_>>>()?;
     if let [first, _, ..] = series {
         let values: Vec<_> = first.groups.iter().map(|group| group.value).collect();
         let values = thinned(&values, SHOWN);
@@ -85,7 +92,7 @@ fn of_quantity(key: &str, quantity: &str, series: &[Series], limits: &[Limit]) -
         let series: Vec<_> = series.map(|(one, groups)| Series { groups, ..*one }).collect();
         let title = format!("errors by {quantity}");
         let plot = BoxPlot { title: &title, quantity, series: &series, limits };
-        plots.push(ErrorPlot { name: format!("errors_by_{key}.svg"), svg: plot.svg() });
+        plots.push((format!("errors_by_{key}.svg"), plot.svg()?));
     }
-    plots
+    Ok(plots)
 }

@@ -2,17 +2,16 @@
 
 use serde_json::Value;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim_learn::dataset::Grid;
 use tofsim_learn::evaluation::thesis::{self, Published};
 use tofsim_learn::evaluation::{Figures, Group, KeyGroups, Spread};
 
 use crate::text::table::{fitted, number_or_dash, width};
 
-use super::error_plots::{self, ErrorPlot};
-use super::evaluation_csv;
 use super::sheet::NamedText;
 use super::writer::Findings;
+use super::{error_plots, evaluation_csv};
 
 /// References that figures are compared with.
 pub struct Beside<'a> {
@@ -135,11 +134,10 @@ impl Findings for EvaluationFindings<'_> {
     }
 
     fn plots(&self) -> Result<Vec<NamedText>> {
-        let boxes = error_plots::all(self.figures, self.grid.is_some_and(Grid::is_thesis));
-        let all = boxes.into_iter().chain(error_plots::spread(self.figures, self.bound));
-        let named =
-            |ErrorPlot { name, svg }| Ok((name.clone(), svg.map_err(|why| Input::new(name, why))?));
-        all.map(named).collect()
+        let is_thesis = self.grid.is_some_and(Grid::is_thesis);
+        let mut plots = error_plots::all(self.figures, is_thesis)?;
+        plots.extend(error_plots::spread(self.figures, self.bound)?);
+        Ok(plots)
     }
 }
 

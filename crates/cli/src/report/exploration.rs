@@ -1,14 +1,52 @@
 //! Accuracy against cost as a table.
 
+use serde::Serialize;
+use serde_json::{Value, json};
+
 use tofsim_learn::evaluation::exploration::ExploredDatapath;
 
-use crate::text::table::{fitted, number_or_dash};
+use crate::text::table::{fitted, number_or_dash, width};
+
+use super::writer::Findings;
 
 /// A spread is as good as another if it is at most so many times as large at every distance.
 const AS_GOOD: f64 = 1.02;
 
+/// Accuracy and cost of datapaths.
+#[derive(Serialize)]
+pub struct Exploration<'a> {
+    /// Name of the network.
+    pub network: &'a str,
+    /// Chain on whose bins histograms were drawn.
+    pub profile: &'a str,
+    /// Number of histograms.
+    pub rows: u64,
+    /// Distances of the spreads [m].
+    pub distances_m: &'a [f64],
+    /// The datapaths.
+    pub points: &'a [ExploredDatapath],
+    /// Seed of the histograms.
+    #[serde(skip)]
+    pub seed: u64,
+}
+
+impl Findings for Exploration<'_> {
+    const SCHEMA: &'static str = "tofsim.exploration/1";
+
+    fn json(&self) -> Value {
+        json!(self)
+    }
+
+    fn text(&self) -> String {
+        let Exploration { network, profile, rows, seed, .. } = self;
+        let head =
+            format!("network {network}, chain {profile}, {rows} histograms, seed {seed}\n\n");
+        head + &text(self.points, self.distances_m, width())
+    }
+}
+
 /// Returns a summary and a table with a row for each datapath, in lines of `width` characters.
-pub fn text(points: &[ExploredDatapath], distances_m: &[f64], width: usize) -> String {
+fn text(points: &[ExploredDatapath], distances_m: &[f64], width: usize) -> String {
     let distances: Vec<_> =
         distances_m.iter().map(|distance_m| format!("{distance_m} m")).collect();
     let costs =

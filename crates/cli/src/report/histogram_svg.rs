@@ -5,6 +5,7 @@ use std::ops::Range;
 use plotters::coord::types::{RangedCoordf64, RangedCoordu32};
 use plotters::prelude::*;
 
+use tofsim::error::Result;
 use tofsim::scenario::Tdc;
 
 use crate::text::svg::{Drawn, chart, legend, picture};
@@ -24,7 +25,7 @@ pub fn svg(
     tdc: &Tdc,
     true_depth_m: Option<f64>,
     depth_m: Option<f64>,
-) -> Result<String, String> {
+) -> Result<String> {
     let (first_ns, bin_ns) = (tdc.first_bin_ps * 1e-3, tdc.bin_ps * 1e-3);
     let end_ns = first_ns + bin_ns * tdc.bins as f64;
     let bins = tdc.bins as usize;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use plotters::prelude::*;
 
+use tofsim::error::Result;
 use tofsim_learn::training::state::CurvePoint;
 
 use crate::text::svg::{chart, picture};
@@ -25,7 +26,7 @@ pub fn csv(points: &[CurvePoint]) -> String {
 }
 
 /// The curve as SVG text, a line for each start; an error only if the plotting library fails.
-pub fn svg(points: &[CurvePoint]) -> Result<String, String> {
+pub fn svg(points: &[CurvePoint]) -> Result<String> {
     let mut lines: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
     for point in points.iter().filter(|point| point.cost.is_finite() && point.cost > 0.0) {
         lines.entry(point.start).or_default().push((point.epochs as f64, point.cost));

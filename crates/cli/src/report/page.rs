@@ -9,6 +9,7 @@ pub mod verified;
 
 use serde_json::Value;
 
+use tofsim::error::Result;
 use tofsim::scenario::Part;
 use tofsim::sim::setup::Setup;
 
@@ -59,7 +60,7 @@ pub struct StepRow {
 
 impl Page<'_> {
     /// The whole page; an error only if the plotting library fails.
-    pub fn html(&self) -> Result<String, String> {
+    pub fn html(&self) -> Result<String> {
         let quick = if self.quick {
             "<p class=\"bad\">This was a quick build: its network is poor, and its figures rest on few \
                  histograms and short vectors.</p>\n"
@@ -112,7 +113,7 @@ impl Page<'_> {
         ])
     }
 
-    fn accuracy(&self) -> Result<String, String> {
+    fn accuracy(&self) -> Result<String> {
         if self.evaluation.is_null() {
             return Ok("<p class=\"bad\">This was not measured.</p>\n".to_owned());
         }

@@ -138,8 +138,7 @@ impl<'a> RunFiles<'a> {
         write_file(&folder.join(NAMES[0]), |file| summary.write(log, file))?;
         let csv = |text: String| self.record.comment_line() + &text;
         write_bytes(&folder.join(NAMES[1]), csv(histogram_csv(&frame.histogram)))?;
-        let svg = svg.map_err(|fault| Input::new("histogram.svg", fault))?;
-        write_bytes(&folder.join(NAMES[2]), self.record.in_svg(&svg))?;
+        write_bytes(&folder.join(NAMES[2]), self.record.in_svg(&svg?))?;
         if log.pairs.is_some() {
             let difference = pair_table::csv(&log.rows[0], &log.rows[1]);
             write_bytes(&folder.join(NAMES[3]), csv(difference))?;

@@ -40,7 +40,7 @@ pub struct ScenarioPage<'a> {
 
 impl ScenarioPage<'_> {
     /// The whole page; an error only if the plotting library fails.
-    pub fn html(&self) -> Result<String, String> {
+    pub fn html(&self) -> tofsim::error::Result<String> {
         let evaluation = match &self.evaluation {
             Ok(evaluation) => accuracy::section(evaluation)?,
             Err(why) => without(why),

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use plotters::prelude::*;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::scenario::Tdc;
 use tofsim_learn::characterisation::Characterisation;
 use tofsim_learn::characterisation::density::CodeDensity;
@@ -92,7 +92,7 @@ pub(super) fn lines(title: &str, axes: [&str; 2], lines: &[PlotLine]) -> Result<
     let points = lines.iter().flat_map(|(_, _, points)| points);
     let x = range(points.clone().map(|point| point.0), 0.0);
     let y = range(points.map(|point| point.1), 0.12);
-    let drawn = picture(|canvas| {
+    picture(|canvas| {
         let mut chart = chart(canvas, title).build_cartesian_2d(x, y)?;
         chart
             .configure_mesh()
@@ -109,6 +109,5 @@ pub(super) fn lines(title: &str, axes: [&str; 2], lines: &[PlotLine]) -> Result<
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 12, y)], style));
         }
         legend(&mut chart, SeriesLabelPosition::UpperRight)
-    });
-    drawn.map_err(|text| Input::new("picture", text).into())
+    })
 }

@@ -8,21 +8,39 @@ use tofsim_learn::training::accuracy::{DistanceErrors, worst_ratio};
 use tofsim_learn::training::weighting::Weighting;
 
 use super::sheet::{Digits, Sheet};
+use super::writer::Findings;
 
-/// Returns the JSON object, with all distances; `network` is the file that was written.
-pub fn json(rows: &[DistanceErrors], line: &Weighting, network: &Path) -> Value {
-    let each = |of: &dyn Fn(&DistanceErrors) -> f64| rows.iter().map(of).collect::<Vec<_>>();
-    json!({
-        "schema": "tofsim.train/1",
-        "network": network.display().to_string(),
-        // Largest ratio of a spread, twice the standard deviation in fixed point, to the line.
-        "worst_ratio": worst_ratio(rows, line),
-        "distances_m": each(&|row| row.distance_m),
-        "mean_mm": each(&|row| row.mean_mm),
-        "two_sd_mm": each(&|row| row.two_sd_mm),
-        // What to stay below; Table 5.5 of the thesis, unless the recipe says otherwise.
-        "line_mm": each(&|row| line.line_mm(row.distance_m)),
-    })
+/// The accuracy of a network by distance.
+pub struct TrainingFindings<'a> {
+    /// Errors at each distance.
+    pub rows: &'a [DistanceErrors],
+    /// Spread to stay below.
+    pub line: &'a Weighting,
+    /// The network's file.
+    pub network: &'a Path,
+}
+
+impl Findings for TrainingFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.train/1";
+
+    fn json(&self) -> Value {
+        let TrainingFindings { rows, line, network } = self;
+        let each = |of: &dyn Fn(&DistanceErrors) -> f64| rows.iter().map(of).collect::<Vec<_>>();
+        json!({
+            "network": network.display().to_string(),
+            // Largest ratio of a spread, twice the standard deviation in fixed point, to the line.
+            "worst_ratio": worst_ratio(rows, line),
+            "distances_m": each(&|row| row.distance_m),
+            "mean_mm": each(&|row| row.mean_mm),
+            "two_sd_mm": each(&|row| row.two_sd_mm),
+            // Table 5.5 of the thesis, unless the recipe says otherwise.
+            "line_mm": each(&|row| line.line_mm(row.distance_m)),
+        })
+    }
+
+    fn text(&self) -> String {
+        table(self.rows, self.line)
+    }
 }
 
 /// Rounded to hundredths, as files have it.
@@ -42,7 +60,7 @@ pub fn csv(rows: &[DistanceErrors]) -> String {
 }
 
 /// The line's distances, and the worst of all, for people.
-pub fn table(rows: &[DistanceErrors], line: &Weighting) -> String {
+fn table(rows: &[DistanceErrors], line: &Weighting) -> String {
     let is_shown = |row: &&DistanceErrors| line.distances_m.contains(&row.distance_m);
     let shown: Vec<_> = rows.iter().filter(is_shown).collect();
     let table = Sheet::of(&shown)
@@ -82,7 +100,8 @@ mod tests {
         let csv = csv(&rows);
         assert!(csv.ends_with("0.1,3,-0.25,1.5,1.0\n0.15,3,-0.25,2.5,1.0\n"), "{csv}");
         let path = Path::new("a/network.toml");
-        let json = json(&rows, &Weighting::default(), path);
+        let line = &Weighting::default();
+        let json = TrainingFindings { rows: &rows, line, network: path }.json();
         assert_eq!(json["two_sd_mm"][1], 2.5);
         assert_eq!(json["line_mm"][0], 1.6);
         assert_eq!(json["network"], "a/network.toml");

@@ -17,7 +17,7 @@ const LIGHTS: [u64; 2] = [15, 20];
 /// A single peak further off than that is not the signal's [m].
 pub const WRONG_M: f64 = 0.08;
 
-/// What the detector found at each of the six distances.
+/// Peak detection results at each of the six distances.
 pub struct Peaks {
     /// Histograms at a distance.
     pub trials: u64,

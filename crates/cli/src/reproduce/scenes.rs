@@ -34,7 +34,7 @@ impl View {
         Ok(View { scene, source, codes })
     }
 
-    /// What a shot can give with the laser off.
+    /// Returns the bin probabilities of a shot with the laser off.
     pub fn dark(&self) -> BinProbabilities {
         self.source.probabilities_with(&self.source.white(&self.scene), &self.scene, false)
     }

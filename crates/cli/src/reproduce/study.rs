@@ -1,4 +1,4 @@
-//! What all items share: seed, size, the thesis's instrument, and what several of them look at.
+//! State shared by all items: seed, size, the thesis's instrument, and common intermediate results.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -62,7 +62,7 @@ impl Study {
         self.setup(scenario::DEFAULT, &["tdc.profile=ideal", "estimator.network=ideal"])
     }
 
-    /// What its histograms are drawn from.
+    /// Returns the distribution of its histograms.
     ///
     /// # Errors
     /// As [`Study::setup`].
@@ -98,7 +98,7 @@ impl Study {
     }
 }
 
-/// What is there, or else is made and kept.
+/// Returns the cached value, which is computed on first use.
 fn once<T>(place: &RefCell<Option<Rc<T>>>, make: impl FnOnce() -> Result<T>) -> Result<Rc<T>> {
     if let Some(made) = &*place.borrow() {
         return Ok(Rc::clone(made));

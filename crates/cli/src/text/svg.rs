@@ -5,6 +5,8 @@ use std::io;
 use plotters::coord::{CoordTranslate, Shift};
 use plotters::prelude::*;
 
+use tofsim::error::{Input, Result};
+
 /// Width and height of a picture [px].
 const SIZE: (u32, u32) = (1000, 520);
 
@@ -22,7 +24,7 @@ pub const COLOURS: [RGBColor; 6] = [
 const TITLE: usize = 72;
 
 /// Outcome of drawing; an error only if the plotting library fails.
-pub type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
+pub type Drawn = std::result::Result<(), DrawingAreaErrorKind<io::Error>>;
 
 /// Drawing area of a picture.
 pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -51,17 +53,23 @@ pub fn legend<'a, 'b: 'a, C: CoordTranslate>(
     labels.background_style(WHITE.mix(0.85)).border_style(BLACK.mix(0.2)).draw()
 }
 
-/// The text of what `draw` draws on white; an error only if the plotting library fails.
-pub fn picture(draw: impl FnOnce(&Canvas) -> Drawn) -> Result<String, String> {
+/// Returns what `draw` draws on white as SVG text.
+///
+/// # Errors
+/// When the plotting library fails.
+pub fn picture(draw: impl FnOnce(&Canvas) -> Drawn) -> Result<String> {
     picture_of(SIZE, draw)
 }
 
-/// Returns the picture as SVG text, with that width and height [px].
-pub fn picture_of(size: (u32, u32), draw: impl FnOnce(&Canvas) -> Drawn) -> Result<String, String> {
+/// Returns a picture of that width and height as SVG text [px].
+///
+/// # Errors
+/// When the plotting library fails.
+pub fn picture_of(size: (u32, u32), draw: impl FnOnce(&Canvas) -> Drawn) -> Result<String> {
     let mut text = String::new();
     let canvas = SVGBackend::with_string(&mut text, size).into_drawing_area();
     let drawn = canvas.fill(&WHITE).and_then(|()| draw(&canvas)).and_then(|()| canvas.present());
-    drawn.map_err(|fault| fault.to_string())?;
+    drawn.map_err(|fault| Input::new("picture", fault))?;
     drop(canvas);
     Ok(text)
 }

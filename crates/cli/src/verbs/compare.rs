@@ -8,8 +8,6 @@ use std::sync::Arc;
 
 use values::{latency, time, tolerance, valid};
 
-use serde_json::{Value, json};
-
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::kernel::Time;
 use tofsim::sim::setup::Setup;
@@ -24,11 +22,12 @@ use tofsim_captures::source::Source;
 
 use crate::choice::{self, words};
 use crate::record::Record;
-use crate::report::comparison;
+use crate::report::comparison::{self, ComparisonFindings};
+use crate::report::writer::Report;
 
 use super::draws::load;
 use super::host::{Host, host};
-use super::terminal::{Talk, print};
+use super::terminal::Talk;
 
 /// Compare two waveforms or captures: A is the reference, B the capture under test
 ///
@@ -203,19 +202,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         talk.wrote(path);
     }
     options.waves.iter().for_each(|path| talk.wrote_wave(path));
-    if args.json {
-        let remark =
-            |text: &String| Note::new(NoteCode::Comparison, "compare", NoteValue::None, "", text);
-        notes.extend(result.notes.iter().map(remark));
-        let mut json = comparison::json(&result);
-        json["set"] = json!([]);
-        json["hash"] = Value::Null;
-        json["notes"] = json!(notes);
-        record.iter().for_each(|record| record.put_into(&mut json, &notes));
-        print(&format!("{json:#}\n"))?;
-    } else {
-        talk.report(&comparison::text(&result, talk.verbose))?
-    }
+    let remark =
+        |text: &String| Note::new(NoteCode::Comparison, "compare", NoteValue::None, "", text);
+    notes.extend(result.notes.iter().map(remark));
+    let findings = ComparisonFindings { result: &result, notes: &notes, verbose: talk.verbose };
+    Report { findings, record, notes: &notes }.deliver(None, args.json, talk)?;
     Ok(ExitCode::from(u8::from(!result.is_same())))
 }
 

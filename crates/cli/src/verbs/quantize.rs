@@ -19,9 +19,9 @@ use tofsim_learn::evaluation::exploration::{explore, sweep};
 use tofsim_learn::evaluation::thesis;
 use tofsim_learn::quantize::import;
 
-use crate::record::Record;
-use crate::report::exploration;
-use crate::text::table::{self, table};
+use crate::report::exploration::Exploration;
+use crate::report::writer::Report;
+use crate::text::table::table;
 
 use super::draws::Draws;
 use super::formats::Formats;
@@ -174,21 +174,15 @@ impl Args {
             let datapaths = sweep(&network.datapath);
             explore(network, &datapaths, data, &distances_m, stop.as_deref(), done)
         })?;
-        let (name, rows) = (&network.name, rows.count());
-        if self.json {
-            let mut object = json!({
-                "schema": "tofsim.exploration/1",
-                "network": name,
-                "profile": profile,
-                "rows": rows,
-                "distances_m": distances_m,
-                "points": points,
-            });
-            Record::new(setup, &talk.command).put_into(&mut object, &notes);
-            return print_json(&object);
-        }
-        let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
-        talk.report(&(head + &exploration::text(&points, &distances_m, table::width())))
+        let findings = Exploration {
+            network: &network.name,
+            profile,
+            rows: rows.count(),
+            distances_m: &distances_m,
+            points: &points,
+            seed,
+        };
+        Report::new(findings, setup, &notes, talk).deliver(None, self.json, talk)
     }
 
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {

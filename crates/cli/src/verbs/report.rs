@@ -143,7 +143,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     };
     let mut object = object(args.quick, &findings, &page);
     record.put_into(&mut object, &notes);
-    let html = page.html().map_err(|fault| Input::new("report.html", fault))?;
+    let html = page.html()?;
     let stage = StagedFolder::new(&args.output)?;
     write_bytes(&stage.path().join("report.html"), html)?;
     write_bytes(&stage.path().join("report.json"), format!("{object:#}\n"))?;

@@ -14,12 +14,13 @@ use tofsim_learn::training::tournament::{Tournament, Watch};
 use tofsim_learn::training::weighting::Weighting;
 
 use crate::record::Record;
-use crate::report::training as report;
+use crate::report::training::TrainingFindings;
+use crate::report::writer::Report;
 
 use super::draws::use_threads;
 use super::progress::Progress;
 use super::scenes::of_the_own_grid;
-use super::terminal::{Talk, print, print_json, stop_signal};
+use super::terminal::{Talk, print, stop_signal};
 
 mod args;
 mod origin;
@@ -74,13 +75,9 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
     let made = TrainingOrigin { chain, command, seed, domain, record: &record };
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
     let line = &recipe.weighting;
-    if args.json {
-        let mut report = report::json(&rows, line, &network);
-        record.put_into(&mut report, &notes);
-        print_json(&report)
-    } else {
-        talk.report(&report::table(&rows, line))
-    }
+    let findings = TrainingFindings { rows: &rows, line, network: &network };
+    let report = Report { findings, record: Some(record), notes: &notes };
+    report.deliver(None, args.json, talk)
 }
 
 /// Checks the training that a scenario describes.

@@ -1,4 +1,4 @@
-//! What is in the folder, and what is refused.
+//! Tests of the folder's contents, and of refused input.
 
 use std::fs;
 

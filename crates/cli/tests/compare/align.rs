@@ -31,7 +31,7 @@ pub fn word(step: u64) -> u64 {
     step * 167 % 251
 }
 
-/// What a logic analyser has of step `step`: the values before its edge.
+/// Returns a logic analyser's sample at step `step`: the values before its edge.
 pub fn sample(step: u64) -> String {
     let before = step.checked_sub(1);
     let (n, go) = (before.map_or(0, word), u8::from(before == Some(60)));

@@ -27,7 +27,7 @@ fn words(count: usize) -> Vec<u64> {
     (0..count).map(|_| random.below(1 << 16)).collect()
 }
 
-/// What a bus shows, cycle by cycle, that accepts those words, with so many stalls in ten cycles.
+/// Returns the signals of a bus that accepts the words, cycle by cycle, with `stalls` stalls in ten cycles.
 fn cycles(words: &[u64], stalls: u64, seed: u64) -> Vec<(bool, bool, u64)> {
     let mut random = Random(seed);
     let mut left = words.iter().peekable();

@@ -48,7 +48,7 @@ impl Table {
     }
 }
 
-/// What comes of some damage.
+/// Returns the result after some damage.
 fn damaged(damage: impl FnOnce(&mut Table)) -> Value {
     let folder = common::empty();
     let mut table = Table::captured(folder.path());

@@ -26,7 +26,7 @@ fn below(x: f64) -> f64 {
     (0..=steps).map(|k| weight(k) * density(from + f64::from(k) * step)).sum::<f64>() * step / 3.0
 }
 
-/// What 30,000 shots come to on average, the first photon of each counted.
+/// Returns the expected histogram of 30,000 shots, counting the first photon of each.
 fn histogram(surfaces: &[(f64, f64)]) -> Vec<u32> {
     let setup = Setup::load("kc705", &[]).unwrap();
     let edges = setup.known_bins().edges_ps().to_vec();

@@ -1,4 +1,4 @@
-//! What makes no pairs is refused by name.
+//! Tests that settings without pairs are refused by name.
 
 use crate::common::{self, empty, refused};
 

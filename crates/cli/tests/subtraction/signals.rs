@@ -1,4 +1,4 @@
-//! What the firmware's signals show of dark and lit frames.
+//! Tests of the firmware's signals in dark and lit frames.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

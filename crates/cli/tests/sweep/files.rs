@@ -1,4 +1,4 @@
-//! What a sweep finds in its folder, and what it refuses there.
+//! Tests of a sweep's folder: what it accepts and refuses there.
 
 use std::fs;
 use std::process::Command;

@@ -15,7 +15,7 @@ pub struct Cells {
     pub maker: String,
 }
 
-/// What the columns of the table count, by the begin of the type's name.
+/// Columns of the table, with the prefixes of the cell types that they count.
 const COLUMNS: &[(&str, &[&str])] = &[
     ("LUT", &["LUT", "INV"]),
     ("FF", &["FD"]),
@@ -26,7 +26,7 @@ const COLUMNS: &[(&str, &[&str])] = &[
     ("CARRY4", &["CARRY4"]),
 ];
 
-/// What the XC7K325T has of them, where the data sheet gives a number.
+/// Number of these cells in the XC7K325T, if the data sheet states it.
 const DEVICE: [Option<u64>; 7] =
     [Some(203_800), Some(407_600), Some(840), Some(890), Some(445), None, Some(50_950)];
 

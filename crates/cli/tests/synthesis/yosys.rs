@@ -34,7 +34,7 @@ pub fn modules(sources: &Sources) -> impl Iterator<Item = &str> {
     sources.keys().filter_map(|name| name.strip_suffix(".v"))
 }
 
-/// What synthesis of `top` may read: its file, those that its code names, and so on.
+/// Returns the files that the synthesis of `top` may read: its file, those that its code names, and so on.
 pub fn needed(sources: &Sources, top: &str) -> Sources {
     let mut needed = Sources::new();
     let mut open = vec![format!("{top}.v")];
@@ -61,7 +61,7 @@ pub fn paths<'a>(modules: impl IntoIterator<Item = &'a str>) -> String {
     paths.join(" ")
 }
 
-/// What a tool that has to succeed printed.
+/// Runs a tool that must succeed, and returns its output.
 pub fn output(tool: Tool, folder: &Path, args: &[&str]) -> String {
     let finished = tool.run(folder, args, &LIMITS).unwrap_or_else(|error| panic!("{error}"));
     let lines: Vec<_> = finished.output.lines().collect();

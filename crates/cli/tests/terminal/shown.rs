@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::common::{empty, output};
 
-/// What the program shows on a terminal of 80 columns; both of its streams.
+/// Returns the program's output on a terminal of 80 columns, both streams.
 #[cfg(target_os = "linux")]
 fn on_terminal(folder: &Path, line: &str, environment: &[(&str, &str)]) -> String {
     let program = env!("CARGO_BIN_EXE_tofsim");

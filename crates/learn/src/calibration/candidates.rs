@@ -47,14 +47,14 @@ pub struct Candidate {
     pub goodness: Goodness,
 }
 
-/// What histograms tell of the pulse.
+/// Result of a pulse calibration.
 #[derive(Clone, Debug)]
 pub struct Calibration {
     /// The scenario's pulse first, then those that were fitted.
     pub candidates: Vec<Candidate>,
     /// Which of them to take.
     pub chosen: usize,
-    /// What the bins show of the pulse, about the echoes of the one to take: time from the mean, density and its
+    /// Pulse observed in the bins, about the echoes by the accepted shape: time from the mean, density and its
     /// standard error [ps, 1/ps, 1/ps].
     pub shown: Vec<[f64; 3]>,
     /// Histograms with an echo.
@@ -135,7 +135,7 @@ impl Calibration {
         &self.candidates[self.chosen]
     }
 
-    /// Whether it is none that could have made the histograms by chance.
+    /// Returns whether the pulse is inconsistent with the histograms.
     pub fn is_doubtful(&self) -> bool {
         self.taken().goodness.chance < DOUBTFUL
     }

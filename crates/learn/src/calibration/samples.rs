@@ -130,8 +130,8 @@ fn trim(density: &mut [f64], se: &[f64]) {
     }
 }
 
-/// What the bins alone show of a pulse, before anything is fitted to it: time from the mean, density and its
-/// standard error, in steps [ps, 1/ps, 1/ps].
+/// Returns the pulse observed in the bins before any fit: time from the mean, density and its standard error, in
+/// steps [ps, 1/ps, 1/ps].
 pub fn shown(acquisition: &Acquisition, sightings: &Sightings, step_ps: f64) -> Vec<[f64; 3]> {
     let mut steps = BTreeMap::new();
     for bin in seen(acquisition, sightings, 0.0) {
@@ -186,7 +186,7 @@ fn passed(x: f64) -> f64 {
     }
 }
 
-/// What each sample got of the hits and what it was due, both for a density of one, and the information on it.
+/// Returns the observed hits of each sample, the expected ones for a density of one, and the information on it.
 fn shared(
     seen: &[Seen],
     times_ps: &[f64],

@@ -1,8 +1,8 @@
 //! Fisher scoring of the profile likelihood.
 //!
-//! What a shape's parameter changes is told apart from what arrival, signal and background of each histogram
-//! would change in its place: of the information on all of them, that of the three is taken out (Schur's
-//! complement), histogram by histogram. The rest is summed, and its inverse is the covariance of the parameters.
+//! The effect of a shape parameter is separated from that of each histogram's arrival, signal and background: the
+//! information on these three is eliminated (Schur complement), histogram by histogram. The rest is summed, and its
+//! inverse is the covariance of the parameters.
 
 use rayon::prelude::*;
 

@@ -36,7 +36,7 @@ pub struct Width {
     pub tail_ps: f64,
     /// Its standard error; of one that is not seen [`Width::most_tail_ps`] says more.
     pub tail_se_ps: f64,
-    /// Whether its third moment is two standard errors or more.
+    /// Whether the third moment is at least two standard errors.
     pub is_tail_seen: bool,
     /// The longest tail that would be seen so by chance once in twenty times.
     pub most_tail_ps: f64,

@@ -8,7 +8,7 @@ const STEPS_OF_BIN: u64 = 25;
 /// Bins of the histogram to a stretch of which a precision is said.
 const BINS_OF_STRETCH: usize = 4;
 
-/// What an edge shows of a hit.
+/// A hit as an edge samples it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// The edge that samples it, from the laser edge [fs].
@@ -17,7 +17,7 @@ pub struct Hit {
     pub coarse: u64,
     /// Taps that it has reached.
     pub rank: usize,
-    /// What the decoder makes of them.
+    /// Decoder's number for the taps.
     pub n: usize,
 }
 
@@ -45,7 +45,7 @@ pub fn time_ps(p: &tdc::Params, hit: &Hit) -> f64 {
 pub struct Point {
     /// From the laser edge [ps].
     pub delay_ps: f64,
-    /// What the edge shows.
+    /// The hit as the edge samples it.
     pub hit: Hit,
     /// Time by the converter's ROM [ps].
     pub time_ps: f64,

@@ -13,7 +13,7 @@ use super::decimal::Decimal;
 
 /// Most values of a key.
 const MOST_VALUES: usize = 1_000_000;
-/// What a grid may say of a key.
+/// Description of a grid's syntax.
 const EXPECTED: &str = "expected FROM..TO:STEP or values with commas between them, such as \
     target.distance_m=0.05..1.5:0.05 or target.distance_m=0.1,0.2";
 

@@ -22,9 +22,9 @@ pub struct Sample {
     pub seed: u64,
     /// Row number.
     pub row: u64,
-    /// What the sensor looks at.
+    /// Scene of the histogram.
     pub scene: Scene,
-    /// What it counts, bin 0 first [hits].
+    /// Histogram, bin 0 first [hits].
     pub histogram: Histogram,
 }
 
@@ -62,11 +62,11 @@ impl HistogramSource {
     }
 }
 
-/// What was last asked for, and what it came to.
+/// Cache of the last key and its value.
 pub(crate) struct Last<K, V>(pub(crate) Option<(K, V)>);
 
 impl<K: PartialEq, V> Last<K, V> {
-    /// What `key` comes to; it is made where the last key was another.
+    /// Returns the value of `key`, which is computed if the last key was another.
     pub(crate) fn or(&mut self, key: K, make: impl FnOnce(&K) -> V) -> &V {
         let known = self.0.take().filter(|(last, _)| *last == key);
         let pair = known.unwrap_or_else(|| {

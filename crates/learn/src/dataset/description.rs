@@ -1,4 +1,4 @@
-//! What a dataset's files say about themselves.
+//! Metadata of a dataset's files.
 
 use serde::Serialize;
 

@@ -16,7 +16,7 @@ use super::parquet_table::ParquetTable;
 /// The file with the description alone.
 pub const DESCRIPTION: &str = "dataset.json";
 
-/// What a dataset is written as.
+/// File format of a dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DatasetFormat {
     /// One table, dataset.parquet

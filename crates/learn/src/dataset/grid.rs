@@ -13,7 +13,7 @@ pub const REFLECTANCE: &str = "target.reflectance";
 /// Key of the ambient light [W/m^2/nm].
 pub const IRRADIANCE: &str = "ambient.irradiance_w_m2_nm";
 
-/// What the sensor looks at; all else is the scenario's.
+/// Variable part of the scene; everything else is the scenario's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scene {
     /// Distance of the target, what an estimator is to find (`target.distance_m`) [m].
@@ -26,7 +26,7 @@ pub struct Scene {
     pub setting: usize,
 }
 
-/// What a grid of one's own is for: draws for one are none of the other's.
+/// Purpose of a custom grid; different purposes have independent random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GridPurpose {
     /// Training, and datasets.
@@ -146,7 +146,7 @@ impl Grid {
         Grid { distances_m: self.distances_m.thinned(most), ..self.clone() }
     }
 
-    /// Whether it is one of the thesis's.
+    /// Returns whether this is one of the thesis's grids.
     pub fn is_thesis(&self) -> bool {
         self.name != OWN
     }

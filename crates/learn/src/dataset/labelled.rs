@@ -28,7 +28,7 @@ const KEY: &str = "tofsim.dataset";
 pub struct Labelled {
     /// Counts by bin [hits].
     pub histograms: Vec<Histogram>,
-    /// What each looked at; reflectance and irradiance are 0 where they are not known.
+    /// Scene of each histogram; reflectance and irradiance are 0 if they are unknown.
     pub scenes: Vec<Scene>,
     /// Whether reflectance and irradiance are known.
     pub knows_light: bool,

@@ -50,7 +50,7 @@ impl Rows {
 /// putting back. Row numbers are none of the grid's, so that draws are fresh even with the grid's seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subset {
-    /// What the scenes are taken from.
+    /// Grid of the scenes.
     pub grid: Grid,
     /// Number of rows.
     pub len: u64,
@@ -92,7 +92,7 @@ impl Subset {
 /// Lights that are drawn without putting back: each draw looks at all of them.
 const MOST_LEFT: u64 = 4096;
 
-/// What is drawn after `before` others from `0..count`, without putting back.
+/// Returns the draw after `before` others from `0..count`, without replacement.
 fn drawn(count: u64, before: u64, random: &mut ChaCha8Rng) -> u64 {
     let mut left: Vec<u64> = (0..count).collect();
     for _ in 0..before {

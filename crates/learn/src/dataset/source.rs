@@ -32,7 +32,7 @@ pub struct HistogramSource {
 struct Setting {
     scenario: Scenario,
     bins: Bins,
-    /// What estimators know of them.
+    /// Bins that estimators assume.
     known_bins: Bins,
     pulse: Pulse,
     dark: DarkRates,

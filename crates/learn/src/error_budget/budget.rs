@@ -1,4 +1,4 @@
-//! What a budget comes to.
+//! Result of an error budget.
 
 use crate::estimation::EstimatorKind;
 
@@ -30,20 +30,20 @@ pub struct DepthBudget {
     pub bound: Bound,
 }
 
-/// What one effect does.
+/// Errors due to one effect.
 #[derive(Clone, Debug)]
 pub struct EffectErrors {
     /// Which.
     pub effect: Effect,
-    /// Whether it is measured.
+    /// Whether the effect is measured.
     pub state: EffectState,
     /// With it alone; the spread is that beside shot noise.
     pub alone: Option<ErrorFigures>,
     /// With all but it.
     pub all_but: Option<ErrorFigures>,
-    /// What it adds to no other effect; to the variance, what it adds to shot noise. What uneven taps and a wrong ROM
-    /// add is beside the width of taps.
+    /// Errors with the effect alone, less those without any effect; in the variance, less those of shot noise. Uneven
+    /// taps and a wrong ROM are relative to the width of taps.
     pub adds: Option<ErrorChange>,
-    /// What all together have more than all but it.
+    /// Errors with all effects, less those with all but this one.
     pub takes: Option<ErrorChange>,
 }

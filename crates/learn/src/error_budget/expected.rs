@@ -1,4 +1,4 @@
-//! What a shot is expected to count, in closed form, with jitter of the clocks too.
+//! Expected counts of a shot in closed form, including jitter of the clocks.
 
 use tofsim::kernel::Time;
 use tofsim::optics::{Bins, Hazard};

@@ -31,7 +31,7 @@ pub struct ErrorFigures {
     pub outliers: u64,
 }
 
-/// What an effect adds to errors, found from the same random numbers with and without it.
+/// Change of errors due to an effect, from the same random numbers with and without it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorChange {
     /// Mean error with it less that without [mm].
@@ -62,7 +62,7 @@ impl Errors {
         }
     }
 
-    /// What makes these errors of `others`, frame by frame if both are drawn or neither is.
+    /// Returns the change from `others` to these errors, frame by frame if both or neither are drawn.
     pub fn change_from(&self, others: &Errors) -> ErrorChange {
         if self.is_drawn != others.is_drawn || self.of.len() != others.of.len() {
             return self.apart_from(others);

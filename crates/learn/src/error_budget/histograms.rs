@@ -10,7 +10,7 @@ use super::quantile::binomial;
 /// Ways in which the expected counts are rounded to whole ones.
 pub const ROUNDINGS: u64 = 16;
 
-/// What the histograms of a variant are drawn from.
+/// Distribution of a variant's histograms.
 #[derive(Clone, Debug)]
 pub struct Histograms {
     /// Mean hits with each code in a shot [1].

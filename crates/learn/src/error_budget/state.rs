@@ -99,7 +99,7 @@ fn unfit(kind: EstimatorKind, variant: &Variant, known: &[String]) -> Result<Opt
     }))
 }
 
-/// What a scenario lies outside of, of what the network was trained for; nothing for other estimators.
+/// Returns notes on a scenario outside the network's training domain; none for other estimators.
 pub fn domain_notes(kind: EstimatorKind, setup: &Setup) -> Result<Vec<Note>> {
     match kind.is_network() {
         true => domain::notes(&setup.network, &setup.scenario, &[]),

@@ -116,7 +116,7 @@ impl<'a> Acquisition<'a> {
     }
 }
 
-/// What a histogram depends on: the echo of the target, and the background.
+/// Parameters of a histogram: the echo of the target, and the background.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Echo {
     /// Mean arrival of the echo [ps].

@@ -10,7 +10,7 @@
 //! that are prominent enough border one another. Peaks that are not above zero have no half height
 //! and are dropped first, as there.
 
-/// What a peak has to be.
+/// Criteria of a peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Criteria {
     /// `MinPeakProminence` [unit of the ordinate].

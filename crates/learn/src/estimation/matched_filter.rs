@@ -122,7 +122,7 @@ fn reach_ps(shape: &pulse::Pulse) -> [f64; 2] {
     }
 }
 
-/// What the filter found.
+/// Result of the filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
     /// The echo; its background is below zero by chance.

@@ -46,7 +46,7 @@ struct Bin {
     code: u16,
     /// Middle of the times that give the code [ps].
     centre_ps: f64,
-    /// What makes a count that of a bin as codes count it [1].
+    /// Factor from a count to that of a nominal bin [1].
     scale: f64,
 }
 

@@ -33,7 +33,7 @@ pub fn half(shots: u64) -> Result<u64, Input> {
 /// Peak detection on the difference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subtraction {
-    /// What looks at it.
+    /// Peak detection for the difference.
     pub detection: PeakDetection,
 }
 

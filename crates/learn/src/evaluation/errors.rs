@@ -15,7 +15,7 @@ use super::spread::{self, Group, Spread};
 /// Errors of estimators, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluation {
-    /// What each row looks at.
+    /// Scene of each row.
     pub scenes: Vec<Scene>,
     /// Estimators and their errors.
     pub columns: Vec<EstimatorErrors>,

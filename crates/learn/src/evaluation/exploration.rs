@@ -23,7 +23,7 @@ use super::spread::OUTLIER_M;
 /// A datapath and what it does to the depth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExploredDatapath {
-    /// What differs from the network's datapath.
+    /// Difference from the network's datapath.
     pub variant: String,
     /// Twice the standard deviation of the depth at each of the distances asked for [mm].
     pub two_sd_mm: Vec<Option<f64>>,
@@ -37,7 +37,7 @@ pub struct ExploredDatapath {
     pub saturated_sums: f64,
     /// Bits that the sums of the hidden layer and of the depth can take, with sign.
     pub sum_bits: [u32; 2],
-    /// What it takes of the device.
+    /// Resources of the device.
     #[serde(flatten)]
     pub cost: Cost,
 }

@@ -1,4 +1,4 @@
-//! What an evaluation says of one estimator.
+//! Figures of one estimator in an evaluation.
 
 use std::collections::BTreeMap;
 
@@ -48,7 +48,7 @@ pub struct BiasedScene {
     pub reflectance: f64,
     /// Its spectral irradiance [W/m^2/nm].
     pub irradiance_w_m2_nm: f64,
-    /// What the other keys of the grid are there.
+    /// Values of the other keys of the grid.
     #[serde(flatten)]
     pub keys: BTreeMap<String, f64>,
     /// Estimates of it.

@@ -1,4 +1,4 @@
-//! What a set of errors is like, whole or by a quantity of the scene.
+//! Statistics of errors, overall or by a quantity of the scene.
 
 use std::collections::BTreeMap;
 
@@ -35,7 +35,7 @@ pub struct Spread {
     pub two_sd_se_mm: Option<f64>,
     /// Least error, the quartiles and the largest error [mm].
     pub quartiles_mm: Option<[f64; 5]>,
-    /// What a box plot shows beside those.
+    /// Further quantiles of a box plot.
     #[serde(skip)]
     pub tails: Option<Tails>,
 }

@@ -6,7 +6,7 @@ pub const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 /// A row of a table: mean error and twice the standard deviation at each distance [mm].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Published {
-    /// What it is, and where it stands.
+    /// Name and place in the thesis.
     pub name: &'static str,
     /// Mean of the estimated less the true distance [mm].
     pub mean_mm: [f64; 6],

@@ -1,10 +1,10 @@
-//! What the estimator takes of the device, by its word lengths and its table.
+//! Resources of the estimator, by word lengths and table size.
 
 use serde::Serialize;
 
 use tofsim::firmware::depth_estimator::datapath::Datapath;
 
-/// What a datapath takes of the device.
+/// Resources of a datapath.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Cost {
     /// Whole block RAMs, of 36 Kb.

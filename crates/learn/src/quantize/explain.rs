@@ -20,13 +20,13 @@ use super::circuit::Circuit;
 pub struct WordAndTwin {
     /// The word as an integer.
     pub word: i64,
-    /// What the word stands for.
+    /// Value of the word.
     pub fixed: f64,
     /// The same in double precision.
     pub float: f64,
     /// Fixed less float, in units of the word's last bit.
     pub difference_lsb: f64,
-    /// What the difference alone, to first order, does to the depth [mm].
+    /// First-order effect of the difference alone on the depth [mm].
     pub difference_mm: f64,
 }
 
@@ -65,7 +65,7 @@ pub struct ExplainedNeuron {
     pub product: WordAndTwin,
 }
 
-/// What each rounding adds to the depth; the parts add up to the whole difference [mm].
+/// Contribution of each rounding to the depth; their sum is the whole difference [mm].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorBudget {
     /// W1 and B1 are rounded to their words.

@@ -1,9 +1,8 @@
-//! Networks that were trained elsewhere: their arrays, folded to raw counts in and metres out.
+//! Import of networks trained elsewhere: their arrays, converted to raw counts in and metres out.
 //!
-//! What MATLAB's `feedforwardnet(8, 'trainlm')` leaves is taken as it is: `IW{1,1}`, `LW{2,1}`,
-//! `b{1}`, `b{2}`, and the settings of `mapminmax` on both sides, `y = (x - xoffset) gain + ymin`.
-//! Whoever has other tools leaves the settings out and gives weights for raw counts and metres. `b1`
-//! says how many neurons there are.
+//! The arrays of MATLAB's `feedforwardnet(8, 'trainlm')` are accepted as they are: `IW{1,1}`, `LW{2,1}`, `b{1}`,
+//! `b{2}`, and the settings of `mapminmax` on both sides, `y = (x - xoffset) gain + ymin`. For other tools, omit the
+//! settings and give weights for raw counts and metres. The length of `b1` is the number of neurons.
 
 mod arrays;
 mod json;

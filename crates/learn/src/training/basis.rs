@@ -131,7 +131,7 @@ impl Stretch {
     }
 }
 
-/// What a bin takes from the knots around it: the first knot's place and both shares.
+/// Weights of a bin on the neighbouring knots: the first knot's index and both shares.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Mix {
     knot: usize,

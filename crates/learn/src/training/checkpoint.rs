@@ -149,7 +149,7 @@ fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'
     }
 }
 
-/// Whether its knots can be those of a basis.
+/// Returns whether the knots can be those of a basis.
 fn are_knots(scaling: &Scaling) -> bool {
     let (knots, last_bin) = (&scaling.knots, scaling.bins as f64 - 1.0);
     let ends = (knots.first(), knots.last());

@@ -43,7 +43,7 @@ impl Samples {
     }
 }
 
-/// What histograms are drawn for.
+/// Purpose of histograms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// The best block is chosen by them.
@@ -72,7 +72,7 @@ pub struct PulseTimes {
 
 /// Where the histograms of a training come from.
 pub trait TrainingMaterial: fmt::Debug + Sync {
-    /// What a training has for a purpose, in order of distance.
+    /// Draws a training's samples for a purpose, in order of distance.
     fn draw(&self, recipe: &Recipe, seed: u64, purpose: Purpose) -> Samples;
 
     /// Distances of the training, in rising order [m].
@@ -217,7 +217,7 @@ impl StageData {
         StageData { blocks: blocks(&counts, scaling), distances_m }
     }
 
-    /// What a network is trained on: these samples with their weights, and others that are held out.
+    /// Creates the training problem of a network: weighted samples, and others that are held out.
     pub fn problem<'a>(
         &'a self,
         recipe: &Recipe,

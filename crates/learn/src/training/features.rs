@@ -18,7 +18,7 @@ pub type Tile = [f32; LANES];
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scaling {
-    /// What is an input of 0 at each knot [hits].
+    /// Value of each knot that is an input of 0 [hits].
     pub centre: Vec<f64>,
     /// One over what is an input of 1 beside it; 0 where nothing varies, so that the input is
     /// 0 as well [1/hits].

@@ -40,7 +40,7 @@ pub struct NetworkProblem<'a> {
     pub held_out: Option<&'a NetworkProblem<'a>>,
 }
 
-/// What the samples of a block weigh in the sums.
+/// Weights of a block's samples in the sums.
 struct Scratch {
     pairs: BlockWeights,
     cross: BlockWeights,
@@ -178,9 +178,9 @@ impl NetworkProblem<'_> {
         sums.cross.add_block(block, &scratch.cross);
     }
 
-    /// What `add_up` makes of each run of neighbouring blocks, in order, with vectors as wide as
-    /// `arch` has them; threads share the runs. Loops in there are plain ones: the body of a `fold` or a
-    /// `for_each` may become a function of its own, and that one has narrow vectors.
+    /// Applies `add_up` to each run of neighbouring blocks, in order, with vectors as wide as `arch` allows; threads
+    /// share the runs. Loops in it are plain ones: the body of a `fold` or a `for_each` may become a separate
+    /// function, which has narrow vectors.
     fn each_run<T: Send>(
         &self,
         arch: pulp::Arch,
@@ -212,7 +212,7 @@ impl NetworkProblem<'_> {
         )
     }
 
-    /// What is summed up over the samples, run by run.
+    /// Computes the sums over the samples, run by run.
     fn sums(&self, arch: pulp::Arch, x: &[f64]) -> Vec<Sums> {
         self.each_run(
             arch,

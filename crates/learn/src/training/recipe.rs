@@ -42,7 +42,7 @@ pub struct Recipe {
     pub start: RandomStart,
     /// The tournament: each stage goes on with the best of the one before.
     pub stages: Vec<Stage>,
-    /// What is done with the winner.
+    /// Treatment of the winner.
     pub finish: Finish,
     /// Weights of the residuals.
     pub weighting: Weighting,

@@ -1,4 +1,4 @@
-//! What an epoch sums up over all samples, and the normal equations that it gives.
+//! Sums of an epoch over all samples, and the resulting normal equations.
 
 use super::basis::LANES;
 use super::cholesky::Symmetric;

@@ -41,7 +41,7 @@ pub struct Tournament<'a> {
     recipe: &'a Recipe,
     material: &'a dyn TrainingMaterial,
     seed: u64,
-    /// What decides how it goes on.
+    /// State from which it continues.
     pub state: TournamentState,
     data: StageData,
     held_out: Option<StageData>,
@@ -110,7 +110,7 @@ impl<'a> Tournament<'a> {
         (done, (0..=recipe.stages.len()).map(whole).sum())
     }
 
-    /// Whether it is between two checkpoints of the recipe.
+    /// Returns whether it is between two checkpoints of the recipe.
     pub fn is_between(&self) -> bool {
         self.state.candidates.iter().any(|candidate| candidate.made > 0)
     }

@@ -1,4 +1,4 @@
-//! What is left after subtraction, and that it does not help the detector.
+//! Tests of the residual after subtraction, and that it does not improve detection.
 
 use tofsim::kernel::pulse::Pulse;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};

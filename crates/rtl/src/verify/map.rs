@@ -22,7 +22,7 @@ use crate::golden::spec::Spec;
 pub struct RtlMap {
     /// Sizes of the design.
     pub design: Design,
-    /// What is different in each block, by our name of the block.
+    /// Deviations of each block, by the block's name here.
     pub block: BTreeMap<String, BlockMap>,
 }
 
@@ -50,7 +50,7 @@ impl Default for Design {
     }
 }
 
-/// What is different in a block.
+/// Deviations of a block.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct BlockMap {

@@ -1,7 +1,7 @@
-//! VHDL, as the Verilog that GHDL's synthesis makes of it.
+//! VHDL, converted to Verilog by GHDL's synthesis.
 //!
-//! What comes out has no parameters, so the generics are given to GHDL. Names are the user's, but VHDL does
-//! not tell upper case from lower: those that the bench connects are spelt as it spells them.
+//! The result has no parameters, so that generics are passed to GHDL. Names are the user's, but VHDL is not
+//! case-sensitive: names that the bench connects are spelled as in the bench.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

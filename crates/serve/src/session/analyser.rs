@@ -159,7 +159,7 @@ impl Ila {
     /// Continues a run with the analyser, as [`Live::advance`] does.
     ///
     /// # Errors
-    /// Those of `shots`.
+    /// Any error of `shots`.
     pub fn advance(
         &mut self,
         live: &mut Live,

@@ -40,7 +40,7 @@ pub struct Depth {
     /// The estimate.
     #[serde(flatten)]
     pub estimate: Estimate,
-    /// Whether it is the firmware's estimator.
+    /// Whether this is the firmware's estimator.
     pub in_socket: bool,
 }
 

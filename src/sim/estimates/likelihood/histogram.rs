@@ -15,7 +15,7 @@ const ENDED_LOG2: u32 = 16;
 const CHANCE_FRACTION: u32 = 24;
 /// Most of a chance that is believed, a half.
 const MOST_CHANCE: i64 = 1 << (CHANCE_FRACTION - 1);
-/// What ambient light is of an echo, to begin with: a 16th.
+/// Initial ratio of ambient light to the echo: a 16th.
 const ECHO_LOG2: u32 = 4;
 /// Largest word of a signal or an ambient hazard.
 pub const MOST: i64 = (1 << 24) - 1;
@@ -44,7 +44,7 @@ pub struct Block {
     pub exposure: i64,
 }
 
-/// What the blocks show of ambient light.
+/// Ambient light found in the blocks of bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ambient {
     /// All blocks.

@@ -12,7 +12,7 @@ use super::terms::Bin;
 
 /// Score of a box in which less than expected ended.
 const NONE: i64 = -4096;
-/// What is added to the expected count of a bin at which shots wait, 8 fraction bits: a tenth.
+/// Addition to the expected count of a bin while shots wait, 8 fraction bits: a tenth.
 const ADDED: i64 = 26;
 
 /// The highest place of the box.

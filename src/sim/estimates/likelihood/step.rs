@@ -26,7 +26,7 @@ const REST_BITS: u32 = 16;
 /// Smallest signal.
 const LEAST_SIGNAL: i64 = 16;
 
-/// What a fit knows of the scene.
+/// Parameters of the scene in a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Arrival of the echo [units / 16].
@@ -37,7 +37,7 @@ pub struct Point {
     pub ambient: i64,
 }
 
-/// What a step knew, beside where it led.
+/// Intermediate values of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Information {
     /// The rest for log S and its exponent.
@@ -88,7 +88,7 @@ impl Point {
         [part, low.slope, low.first]
     }
 
-    /// What each bin of a fit says, with its z; last all others as one.
+    /// Computes the terms of each bin of a fit, with its z, followed by all other bins as one.
     pub fn terms(&self, p: &Params, shots: &Shots) -> Vec<(Terms, i64)> {
         let window = self.window(p);
         let [mut part, mut slope, _] = match window.start {

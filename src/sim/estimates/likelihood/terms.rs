@@ -1,4 +1,4 @@
-//! What a bin says of a point: its residual, its weight, and the signal's share in its hazard.
+//! Terms of a bin at a point: its residual, its weight, and the signal's share of its hazard.
 
 use crate::firmware::likelihood_estimator::tables::{Tables, length};
 use crate::firmware::likelihood_estimator::words::{HAZARD_FRACTION, RESIDUAL_FRACTION};
@@ -28,7 +28,7 @@ pub struct Bin {
     pub ambient: i64,
 }
 
-/// What it says.
+/// Terms of a bin.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Terms {
     /// Expected count R lambda, 12 fraction bits.

@@ -1,10 +1,10 @@
-//! Names and widths of an FST file's signals.
+//! Check of the names and widths of an FST file's signals.
 
 use super::super::signals::WIDEST;
 use super::super::span::{Checked, Fault, Span, at_most, word};
 use super::unpack::{gzip, lz4, zlib};
 
-/// Bytes that the first values of each signal take, from the block that says so.
+/// Parses the width of each signal's initial value in the geometry block [bytes].
 pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
     let mut span = Span::new(body, "geometry");
     let (size, count) = (word(span.take(8)?), word(span.take(8)?));
@@ -19,7 +19,7 @@ pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
     (0..count).map(width).collect()
 }
 
-/// How the names are packed.
+/// Compression of the hierarchy block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Packed {
     Gzip,
@@ -27,7 +27,7 @@ pub(super) enum Packed {
     Lz4Twice,
 }
 
-/// That no name is of a signal beyond the first `signals`.
+/// Checks that every name belongs to one of the first `signals` signals.
 pub(super) fn check(body: &[u8], packed: Packed, signals: u64) -> Checked<()> {
     const SIZE: &str = "names' size";
     let mut span = Span::new(body, "names");
@@ -72,11 +72,11 @@ pub(super) fn check(body: &[u8], packed: Packed, signals: u64) -> Checked<()> {
     Ok(())
 }
 
-/// What stands before a name, a scope and an attribute, and at their ends.
+/// Kinds of entries in the hierarchy: the last kind of a variable, and the starts and ends of attributes and scopes.
 const LAST_KIND: u8 = 29;
 const ATTRIBUTE: u8 = 252;
 const ATTRIBUTE_END: u8 = 253;
 const SCOPE: u8 = 254;
 const SCOPE_END: u8 = 255;
-/// Attributes that have a number in place of their text.
+/// Attributes that have a number in place of their text: source stems.
 const SOURCES: [[u8; 2]; 2] = [[0, 4], [0, 5]];

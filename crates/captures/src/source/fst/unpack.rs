@@ -1,4 +1,4 @@
-//! What is packed in an FST file, unpacked if it has the size that the file says.
+//! Decompression of the parts of an FST file, with a check of the stated size.
 
 use lz4_flex::block::decompress;
 use miniz_oxide::DataFormat;
@@ -8,16 +8,16 @@ use miniz_oxide::{MZFlush, MZStatus};
 
 use super::super::span::{Checked, Fault, at_most};
 
-/// Largest part that is unpacked at once [bytes].
+/// Size limit of a decompressed part [bytes].
 pub(super) const LARGEST: u64 = 1 << 29;
-/// How many bytes each packed one can stand for at most, and how many more there may be.
+/// Largest compression ratios of deflate and of LZ4 [1], and an allowance for short parts [bytes].
 const DEFLATED: u64 = 1032;
 const LZ4: u64 = 255;
 const SOME: u64 = 64;
-/// Bytes of gzip's header where nothing optional is in it.
+/// Size of a gzip header without optional fields [bytes].
 const GZIP: usize = 10;
 
-/// The most that so many bytes can unpack to.
+/// Returns the largest size to which `packed` bytes can decompress [bytes].
 pub(super) fn most(packed: u64, is_deflated: bool) -> u64 {
     packed
         .saturating_mul(if is_deflated { DEFLATED } else { LZ4 })
@@ -25,7 +25,7 @@ pub(super) fn most(packed: u64, is_deflated: bool) -> u64 {
         .min(LARGEST)
 }
 
-/// Unpacks zlib's format; what is as long as unpacked was left as it is.
+/// Decompresses zlib's format. Data of the stated size are not compressed.
 pub(super) fn zlib(packed: &[u8], size: u64, what: &str) -> Checked<Vec<u8>> {
     if packed.len() as u64 == size {
         return Ok(packed.to_vec());
@@ -34,7 +34,7 @@ pub(super) fn zlib(packed: &[u8], size: u64, what: &str) -> Checked<Vec<u8>> {
     whole(decompress_to_vec_zlib_with_limit(packed, size as usize).ok(), size, what)
 }
 
-/// Unpacks gzip's format.
+/// Decompresses gzip's format.
 pub(super) fn gzip(packed: &[u8], size: u64, what: &str) -> Checked<Vec<u8>> {
     let body = gzip_body(packed, what)?;
     let size = at_most(what, size, most(body.len() as u64, true))?;
@@ -48,7 +48,7 @@ fn gzip_body<'a>(packed: &'a [u8], what: &str) -> Checked<&'a [u8]> {
     }
 }
 
-/// Unpacks gzip's format bit by bit, which may be much longer than it says and is not wanted further.
+/// Decompresses the first `size` bytes of gzip's format step by step, as the data may be much longer.
 pub(super) fn gzip_prefix(packed: &[u8], size: u64, what: &str) -> Checked<Vec<u8>> {
     let mut body = gzip_body(packed, what)?;
     let size = at_most(what, size, most(body.len() as u64, true))? as usize;
@@ -67,7 +67,7 @@ pub(super) fn gzip_prefix(packed: &[u8], size: u64, what: &str) -> Checked<Vec<u
     whole(Some(unpacked), size as u64, what)
 }
 
-/// Unpacks LZ4's format.
+/// Decompresses LZ4's block format.
 pub(super) fn lz4(packed: &[u8], size: u64, what: &str) -> Checked<Vec<u8>> {
     let size = at_most(what, size, most(packed.len() as u64, false))?;
     whole(decompress(packed, size as usize).ok(), size, what)

@@ -4,9 +4,9 @@ use plotters::prelude::*;
 
 use tofsim_learn::evaluation::Spread;
 
-use crate::text::svg::{Canvas, legend};
+use crate::text::svg::{Canvas, Drawn, legend};
 
-use super::{BoxPlot, Chart, Limit, Result};
+use super::{BoxPlot, Chart, Limit};
 
 type BoxPoint = (f64, f64);
 
@@ -33,7 +33,7 @@ impl BoxPlot<'_> {
     }
 
     /// Draws them on a scale of their own.
-    pub(super) fn boxes(&self, canvas: &Canvas) -> Result<()> {
+    pub(super) fn boxes(&self, canvas: &Canvas) -> Drawn {
         let highest = self.highest();
         let words = [self.quantity, "error of the depth [mm]"];
         let labels = if self.series.len() > 1 { self.series.len() } else { 0 } + self.limits.len();
@@ -69,7 +69,7 @@ impl BoxPlot<'_> {
         }
     }
 
-    fn draw_limits(&self, chart: &mut Chart, highest: f64) -> Result<()> {
+    fn draw_limits(&self, chart: &mut Chart, highest: f64) -> Drawn {
         for limit in self.limits {
             let style = limit.colour.mix(0.7).stroke_width(2);
             for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {

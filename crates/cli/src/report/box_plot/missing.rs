@@ -4,9 +4,9 @@ use plotters::prelude::*;
 
 use tofsim_learn::evaluation::{Group, Spread};
 
-use crate::text::svg::Canvas;
+use crate::text::svg::{Canvas, Drawn};
 
-use super::{BoxPlot, Result};
+use super::BoxPlot;
 
 impl BoxPlot<'_> {
     /// Whether there are any.
@@ -16,7 +16,7 @@ impl BoxPlot<'_> {
     }
 
     /// The parts without an estimate, and above them those far off.
-    pub(super) fn missing(&self, canvas: &Canvas) -> Result<()> {
+    pub(super) fn missing(&self, canvas: &Canvas) -> Drawn {
         let part = |spread: &Spread, count: u64| {
             100.0 * count as f64 / (spread.estimates + spread.failures).max(1) as f64
         };

@@ -3,6 +3,7 @@
 
 use plotters::prelude::*;
 
+use tofsim::error::Result;
 use tofsim_learn::error_budget::DepthBudget;
 use tofsim_learn::error_budget::effect::Effect;
 use tofsim_learn::error_budget::figures::ErrorChange;
@@ -27,7 +28,7 @@ struct BarPart {
 }
 
 /// The picture; an error only if the plotting library fails.
-pub fn svg(of: &DepthBudgets) -> Result<String, String> {
+pub fn svg(of: &DepthBudgets) -> Result<String> {
     let variance = |budget: &DepthBudget| budget.together.variance_mm2().unwrap_or(0.0);
     let bias = |budget: &DepthBudget| budget.together.mean_mm.unwrap_or(0.0);
     let biases = parts(of, |change| change.mean_mm, |budget| budget.none.mean_mm.unwrap_or(0.0));

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use tofsim::error::Result;
 use tofsim_learn::dataset::axis::thinned;
 
 use crate::report::curves::{Curve, curves};
@@ -28,7 +29,7 @@ fn bound(evaluation: &Value) -> Vec<(f64, f64)> {
 }
 
 /// Returns tables and pictures; an error only if the plotting library fails.
-pub fn section(evaluation: &Value) -> Result<String, String> {
+pub fn section(evaluation: &Value) -> Result<String> {
     let own = evaluation["estimators"][0]["by_distance_m"].as_array();
     let accuracy =
         Accuracy { evaluation, groups: own.map_or(&[], Vec::as_slice), bound: bound(evaluation) };
@@ -81,7 +82,7 @@ impl Accuracy<'_> {
         )
     }
 
-    fn pictures(&self) -> Result<String, String> {
+    fn pictures(&self) -> Result<String> {
         let name = self.evaluation["estimators"][0]["name"].as_str().unwrap_or("estimator");
         let (spread, mean) = (self.figure("two_sd_mm"), self.figure("mean_mm"));
         let in_firmware = format!("{name}, as the firmware computes it");

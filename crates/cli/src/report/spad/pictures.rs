@@ -2,7 +2,7 @@
 
 use plotters::prelude::*;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::sim::free_running::afterpulses::Afterpulses;
 
 use crate::text::svg::{COLOURS, chart, legend, picture};
@@ -19,18 +19,15 @@ const GREY: f64 = 0.6;
 /// # Errors
 /// When the plotting library fails.
 pub fn svg(found: &Characterisation) -> Result<Vec<NamedText>> {
-    let mut all = vec![("rates.svg", rates(found))];
+    let mut all = vec![("rates.svg".to_owned(), rates(found)?)];
     if let Some(seen) = &found.afterpulses {
-        all.push(("intervals.svg", intervals(seen)));
-        all.push(("autocorrelation.svg", autocorrelation(seen)));
+        all.push(("intervals.svg".to_owned(), intervals(seen)?));
+        all.push(("autocorrelation.svg".to_owned(), autocorrelation(seen)?));
     }
-    let named = |(name, svg): (&str, std::result::Result<String, String>)| {
-        Ok((name.to_owned(), svg.map_err(|text| Input::new(name, text))?))
-    };
-    all.into_iter().map(named).collect()
+    Ok(all)
 }
 
-fn rates(found: &Characterisation) -> std::result::Result<String, String> {
+fn rates(found: &Characterisation) -> Result<String> {
     let incident = |k: usize| found.points[k].incident_hz;
     let (first, last) = (incident(0), incident(found.points.len() - 1));
     let dead_s = found.spad.dead_time_ns * 1e-9;
@@ -71,7 +68,7 @@ fn rates(found: &Characterisation) -> std::result::Result<String, String> {
     })
 }
 
-fn intervals(seen: &Afterpulses) -> std::result::Result<String, String> {
+fn intervals(seen: &Afterpulses) -> Result<String> {
     let ends = &seen.interval_ends_s;
     let (first, last) = (ends[0], ends[ends.len() - 1]);
     let most = seen.intervals.iter().max().copied().unwrap_or(0).max(10) as f64;
@@ -107,7 +104,7 @@ fn intervals(seen: &Afterpulses) -> std::result::Result<String, String> {
     })
 }
 
-fn autocorrelation(seen: &Afterpulses) -> std::result::Result<String, String> {
+fn autocorrelation(seen: &Afterpulses) -> Result<String> {
     let bin_ns = 1e9 * seen.window_s / seen.pairs.len() as f64;
     let most = seen.pairs.iter().max().copied().unwrap_or(0) as f64;
     let top = 1.2 * most.max(2.0 * seen.chance_pairs).max(1.0);

@@ -60,6 +60,7 @@ pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String
             }
         }
     })
+    .map_err(|fault| fault.to_string())
 }
 
 /// The lines of a plot, each in rising order.

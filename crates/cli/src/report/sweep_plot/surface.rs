@@ -75,6 +75,7 @@ pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String
         let turned = text(13, &BLACK).transform(FontTransform::Rotate270).pos(below);
         canvas.draw(&Text::new(label, (14, (bottom + top) / 2), turned))
     })
+    .map_err(|fault| fault.to_string())
 }
 
 fn text<'a>(size: i32, colour: &'a RGBColor) -> TextStyle<'a> {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::Result;
 use tofsim::files::output::write_bytes;
 use tofsim::firmware::tof_top::FirmwareEstimator;
 
@@ -71,8 +71,7 @@ pub fn run(site: &Site, journal: &Journal) -> Result<Outcome> {
         verify: result(Step::Verify),
         cycles: result(Step::Cycles),
     };
-    let html = page.html().map_err(|fault| Input::new(FILE, fault)).map_err(Error::from)?;
-    write_bytes(Path::new(FILE), html)?;
+    write_bytes(Path::new(FILE), page.html()?)?;
     let lacking = page.steps.iter().filter(|step| !step.passed).count();
     let summary = match lacking {
         0 => FILE.to_owned(),

@@ -17,11 +17,12 @@ use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, captu
 
 use crate::choice::{self, words};
 use crate::record::Record;
+use crate::report::writer::{Findings, Report};
 use crate::text::table::facts;
 use crate::verbs::draws::load;
 use crate::verbs::frames::check as check_frames;
 use crate::verbs::interrupt::look_no_more;
-use crate::verbs::terminal::{Talk, print_json, stop_signal};
+use crate::verbs::terminal::{Talk, stop_signal};
 
 /// Sample a simulation as a logic analyser on the board would, and write Vivado's files
 ///
@@ -69,7 +70,7 @@ pub struct Args {
     json: bool,
 }
 
-/// Source of faults in the probe configuration's keys.
+/// Options in place of the probe configuration's keys.
 #[derive(Clone, Debug, clap::Args)]
 struct Instead {
     /// Sampling clock: clk_sys, clk_laser, clk_in, or frequency and first edge as 100MHz+250ps
@@ -153,21 +154,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     stage.commit()?;
     files.iter().for_each(|file| talk.wrote(file));
     let files = files.iter().map(|file| file.display().to_string()).collect();
-    let report = Report {
+    let findings = CaptureFindings {
         set_up: &set_up,
-        scenario: (&setup.name, setup.scenario.seed),
+        setup: &setup,
         plan: &plan,
         capture: &capture,
         trigger_times_us: triggers.into_iter().map(microseconds).collect(),
+        full,
+        end: outcome.end,
         files,
     };
-    if args.json {
-        let mut json = report.json(full, outcome.end);
-        record.put_into(&mut json, &notes);
-        print_json(&json)
-    } else {
-        talk.report(&report.text())
-    }
+    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
 }
 
 fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {
@@ -206,30 +203,33 @@ fn microseconds(time: Time) -> f64 {
 }
 
 /// Results of a capture.
-struct Report<'a> {
+struct CaptureFindings<'a> {
     set_up: &'a AnalyserSetup,
-    /// Its name and seed.
-    scenario: (&'a str, u64),
+    setup: &'a Setup,
     plan: &'a AnalyserPlan,
     capture: &'a Capture,
     /// When each window triggered, from power-up.
     trigger_times_us: Vec<f64>,
+    /// Whether every window has all its samples.
+    full: bool,
+    /// End of the run.
+    end: Time,
     files: Vec<String>,
 }
 
 /// Trigger times that are shown.
 const SHOWN: usize = 8;
 
-impl Report<'_> {
-    /// Returns the JSON object; `full` if every window has all its samples.
-    fn json(&self, full: bool, end: Time) -> Value {
+impl Findings for CaptureFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.ila_capture/1";
+
+    fn json(&self) -> Value {
         let (shape, capture) = (&self.plan.shape, self.capture);
         let probes = capture.probes.iter().zip(&self.set_up.file.probe);
         let probes = probes.map(|(probe, entry)| {
             json!({ "name": probe.head(), "signal": entry.signal, "width": probe.width })
         });
         json!({
-            "schema": "tofsim.ila_capture/1",
             "name": self.set_up.name,
             "clock": self.plan.sampling.to_string(),
             "probes": probes.collect::<Vec<_>>(),
@@ -239,8 +239,8 @@ impl Report<'_> {
             "windows_wanted": shape.windows,
             "position": shape.position,
             "trigger_times_us": self.trigger_times_us,
-            "full": full,
-            "end_us": microseconds(end),
+            "full": self.full,
+            "end_us": microseconds(self.end),
             "files": self.files,
         })
     }
@@ -257,7 +257,7 @@ impl Report<'_> {
         );
         let shown: Vec<_> = times.iter().take(SHOWN).map(|time| format!("{time} us")).collect();
         let more = if times.len() > SHOWN { ", ..." } else { "" };
-        let (scenario, seed) = self.scenario;
+        let (scenario, seed) = (&self.setup.name, self.setup.scenario.seed);
         let rows = [
             ("scenario", format!("{scenario}, seed {seed}")),
             ("clock", self.plan.sampling.to_string()),

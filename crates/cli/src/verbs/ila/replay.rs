@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
@@ -19,9 +19,10 @@ use tofsim_captures::source::Source;
 
 use crate::choice::{self, words};
 use crate::record::Record;
+use crate::report::writer::{Findings, Report};
 use crate::text::table::facts;
 use crate::verbs::compare::named_map;
-use crate::verbs::terminal::{Talk, print_json};
+use crate::verbs::terminal::Talk;
 
 /// Make a scenario of what a capture shows of the inputs, to simulate the board's own run
 ///
@@ -95,15 +96,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let files = [&place.scenario, &list].map(|name| place.folder.join(name));
     stage.commit()?;
     files.iter().for_each(|file| talk.wrote(file));
-    let report =
-        Report { replay: &replay, located: &located, files: &files, next: next(args, &located) };
-    if args.json {
-        let mut json = report.json();
-        record.put_into(&mut json, &notes);
-        print_json(&json)
-    } else {
-        talk.report(&report.text())
-    }
+    let next = next(args, &located);
+    let findings = ReplayFindings { replay: &replay, located: &located, files: &files, next };
+    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
 }
 
 fn note(text: &String) -> Note {
@@ -196,17 +191,18 @@ fn next(args: &Args, located: &Located) -> String {
 }
 
 /// Results of a replay.
-struct Report<'a> {
+struct ReplayFindings<'a> {
     replay: &'a Replay,
     located: &'a Located,
     files: &'a [PathBuf; 2],
     next: String,
 }
 
-impl Report<'_> {
-    fn json(&self) -> serde_json::Value {
+impl Findings for ReplayFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.ila_replay/1";
+
+    fn json(&self) -> Value {
         json!({
-            "schema": "tofsim.ila_replay/1",
             "kind": self.replay.kind.key(),
             "entries": self.replay.entries,
             "shots": self.replay.shots(),

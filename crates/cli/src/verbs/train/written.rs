@@ -1,9 +1,8 @@
 //! Files of a training.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
-use tofsim::error::{Error, Result};
+use tofsim::error::Result;
 use tofsim::files::output::write_bytes;
 use tofsim::kernel::Overflow;
 use tofsim::network::Fixed;
@@ -50,9 +49,7 @@ pub fn write(
     let points = &tournament.state.curve;
     let line = made.record.comment_line();
     write("curve.csv", &(line.clone() + &learning_curve::csv(points)))?;
-    let svg = learning_curve::svg(points).map_err(io::Error::other);
-    let svg = svg.map_err(Error::io(&folder.join("curve.svg"), "write"))?;
-    write("curve.svg", &made.record.in_svg(&svg))?;
+    write("curve.svg", &made.record.in_svg(&learning_curve::svg(points)?))?;
     let float = tournament.result();
     let rounded = float.round("trained network", &recipe.formats, Overflow::Saturate)?;
     if rounded.saturated > 0 {

@@ -42,7 +42,7 @@ pub struct Model {
     known: Vec<bool>,
     /// Length of a stretch, if all have the same [ps].
     step_ps: f64,
-    /// What decides which shots find the diode armed; all do without it.
+    /// Model of the shots that find the SPAD armed; without one, all do.
     pub(super) free_running: Option<FreeRunning>,
     /// Shots of the histogram [shots].
     pub(super) shots: u64,

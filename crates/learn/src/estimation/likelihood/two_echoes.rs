@@ -93,7 +93,7 @@ impl Likelihood {
         (gain > SURE_GAIN).then(|| self.in_order(&top, gain))
     }
 
-    /// What stands out most of what one echo leaves.
+    /// Returns the largest residual echo after one echo is removed.
     fn rest(&self, histogram: &[u32], echo: &Echo) -> Option<Echo> {
         let shots = self.model.shots as f64;
         let (mut left, mut sums) = (shots, vec![[0.0; 3]]);

@@ -1,4 +1,4 @@
-//! What the likelihood estimator is told of an instrument, without rounding.
+//! Parameters of the likelihood estimator for an instrument, without rounding.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ pub struct Model {
     pub delay_ps: f64,
     /// The pulse's standard deviation [ps].
     pub sigma_ps: f64,
-    /// What mu goes by where its step is one: z is 32 there [ps].
+    /// Change of mu for a step of one: z is 32 there [ps].
     pub stride_ps: f64,
     edges_ps: Vec<f64>,
     pulse: Pulse,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::model::Model;
 use super::shots::{Shots, Terms};
 
-/// What is added to the expected count of a bin at which shots wait [counts].
+/// Addition to the expected count of a bin while shots wait [counts].
 const ADDED: f64 = 0.1;
 /// Least expected count of a box.
 const LEAST_EXPECTED: f64 = 1.0 / 256.0;

@@ -14,7 +14,7 @@ const CHANCES: [f64; 2] = [1.0 / 16_777_216.0, 0.5];
 /// Smallest and largest hazard of a bin.
 const HAZARDS: [f64; 2] = [1.0 / 1_048_576.0, 16.0];
 
-/// What a bin says of a point.
+/// Terms of a bin at a point.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Terms {
     /// R lambda [counts].
@@ -53,7 +53,7 @@ pub struct Shots {
     pub exposed: Vec<f64>,
 }
 
-/// What the blocks of bins show of ambient light.
+/// Ambient light found in the blocks of bins.
 #[derive(Clone, Debug)]
 pub struct Ambient {
     /// Hazard of each block; half a hit where there is none [1 / bin].

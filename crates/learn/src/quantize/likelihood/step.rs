@@ -10,10 +10,10 @@ const IN_BOX: f64 = 0.84;
 const SIGNALS: [f64; 2] = [1.0 / 1024.0, 1024.0];
 /// Smallest and largest ambient hazard [1 / bin].
 const AMBIENTS: [f64; 2] = [1.0 / 16_777_216.0, 1.0];
-/// What mu, log S and log b are held with [counts].
+/// Regularization of mu, log S and log b [counts].
 const RIDGE: [f64; 3] = [1.0 / 16.0, 1.0 / 16.0, 1.0];
 
-/// What a fit knows of the scene.
+/// Parameters of the scene in a fit.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Point {
     /// Arrival of the echo [ps].
@@ -24,7 +24,7 @@ pub struct Point {
     pub ambient: f64,
 }
 
-/// What a step knew, beside where it led.
+/// Intermediate values of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Information {
     /// Variance of mu [ps^2].
@@ -50,7 +50,7 @@ impl Point {
         }
     }
 
-    /// What each bin of the fit says, with the slope of its part; last all others as one.
+    /// Computes the terms of each bin of the fit, with the slope of its part, followed by all other bins as one.
     pub fn terms(&self, model: &Model, shots: &Shots) -> Vec<(Terms, f64)> {
         let window = model.window(self.arrival_ps);
         let of = |bin: usize| {

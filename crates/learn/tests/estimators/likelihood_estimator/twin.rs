@@ -15,7 +15,7 @@ const REACH: f64 = 4.5;
 /// The part of a pulse within 2.8 deviations, and its inverse.
 const BOX_SIGMA: f64 = 2.8;
 const OUT_OF_BOX: f64 = 1.19;
-/// What is added to the diagonal of the information for an arrival and a signal, and for ambient light [counts].
+/// Addition to the diagonal of the information for arrival, signal and ambient light [counts].
 const RIDGE: [f64; 3] = [1.0 / 16.0, 1.0 / 16.0, 1.0];
 /// Longest step of the arrival [sigma].
 const LONGEST: f64 = 0.8;

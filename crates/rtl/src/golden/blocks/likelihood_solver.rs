@@ -47,7 +47,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     Ok(Vectors { parameters, ..run.vectors([counters]) })
 }
 
-/// What a program may be given, and which.
+/// Draws a program and its operands.
 fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
     let (count, bin) = (histogram.count_bits, histogram.bins.ilog2());
     let (start, step) = (START_PROGRAM, STEP_PROGRAM);

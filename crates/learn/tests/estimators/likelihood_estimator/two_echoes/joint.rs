@@ -17,7 +17,7 @@ pub fn likelihood(instrument: &Instrument) -> Likelihood {
     Likelihood::new(&Acquisition::new(&instrument.bins, SHOTS, pulse)).unwrap()
 }
 
-/// What fits of an echo come to.
+/// Errors of the fits of an echo.
 #[derive(Clone, Copy, Debug, Default)]
 struct Errors {
     count: f64,
