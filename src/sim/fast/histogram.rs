@@ -128,12 +128,7 @@ impl<'a> Histograms<'a> {
     /// When a sink fails or the run is stopped.
     pub fn many(&self, count: u64, observers: Observers) -> Result<Outcome> {
         let Observers { frames, stop, .. } = observers;
-        let mut ignore = |_: &Frame| Ok(());
-        let take: Callback<Frame> = match frames {
-            Some(take) => take,
-            None => &mut ignore,
-        };
-        deliver(0..count, take, stop, |index| Ok(self.frame(index)))?;
+        deliver(0..count, frames, stop, |index| Ok(self.frame(index)))?;
         let cycles = count.saturating_mul(self.frame_cycles + 1);
         Ok(Outcome {
             end: self.setup.end(count).unwrap_or(Time::NEVER),

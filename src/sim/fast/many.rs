@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use crate::error::{Error, Result};
 use crate::kernel::Time;
 use crate::scenario::effects::Method;
-use crate::sim::callback::{Callback, poll_stop};
+use crate::sim::callback::{Callback, call, poll_stop};
 use crate::sim::clockwork::Clockwork;
 use crate::sim::device::Off;
 use crate::sim::frames::Frame;
@@ -42,23 +42,18 @@ impl Run<'_> {
     /// shown, every frame in order, and no waveform.
     ///
     /// # Errors
-    /// When the control signals keep a frame from ending, a sink fails, or the run is stopped.
+    /// When the control signals keep a frame from ending, a callback fails, or the run is stopped.
     pub fn many(mut self, count: u64, observers: Observers) -> Result<Outcome> {
-        let Observers { shots, frames, stop, .. } = observers;
-        let mut ignore = |_: &Frame| Ok(());
-        let take: Callback<Frame> = match frames {
-            Some(take) => take,
-            None => &mut ignore,
-        };
+        let Observers { shots, mut frames, stop, .. } = observers;
         self.limit = self.setup.longest_run(count);
         self.clockwork.device.power_up(&mut Off, &mut Off);
         if let Some(shots) = shots {
             let shown = count.min(self.setup.frames_together());
-            self.go(shown, &mut Off, &mut Recording::new(shots), take, stop)?;
+            self.go(shown, &mut Off, &mut Recording::new(shots), &mut frames, stop)?;
         }
         if !self.setup.has_separate_frames() || rayon::current_num_threads() < 2 || count < 2 {
             if self.done() < count {
-                self.go(count, &mut Off, &mut Off, take, stop)?;
+                self.go(count, &mut Off, &mut Off, &mut frames, stop)?;
             }
             return Ok(self.outcome(Marks::default()));
         }
@@ -67,15 +62,15 @@ impl Run<'_> {
             let kind = (frame - begins[0].done()) % begins.len() as u64;
             begins[kind as usize].of_frame(frame)
         };
-        deliver(self.done()..count, take, stop, |frame| {
+        deliver(self.done()..count, frames, stop, |frame| {
             let mut run = if frame == 0 { self.clone() } else { begin(frame) };
             run.unobserved_frame(stop)
         })?;
         Ok(begin(count).outcome(Marks::default()))
     }
 
-    /// Where a frame after the first begins, and the one after it if every other frame is dark. What
-    /// is left of the frames before does not matter, so that leaps find them.
+    /// Returns the run at the begin of a frame after the first, and of the next one if every other frame is dark. They
+    /// are found by leaps, because it does not matter what is left of the frames before.
     fn begins(&self, stop: Option<&AtomicBool>) -> Result<Vec<Self>> {
         let next = |run: &Self| -> Result<Self> {
             let mut next = run.clone().stepping(Stepping::LeapShots);
@@ -89,7 +84,7 @@ impl Run<'_> {
         Ok(begins)
     }
 
-    /// Where frame `frame` begins; `self` is where an earlier one of its kind does.
+    /// Returns the run at the begin of frame `frame`; `self` is at the begin of an earlier one of its kind.
     fn of_frame(&self, frame: u64) -> Self {
         let mut run = self.clone();
         let frames = frame - self.done();
@@ -126,21 +121,21 @@ impl Clockwork {
     }
 }
 
-/// Makes the frames of a range on all threads and hands them on in order, some at a time.
+/// Makes the frames of a range on all threads, and calls back with each in order.
 pub(super) fn deliver(
-    frames: std::ops::Range<u64>,
-    take: Callback<'_, Frame>,
+    range: std::ops::Range<u64>,
+    mut frames: Option<Callback<Frame>>,
     stop: Option<&AtomicBool>,
     make: impl Fn(u64) -> Result<Frame> + Sync,
 ) -> Result<()> {
     let batch = BATCH * rayon::current_num_threads() as u64;
-    let mut next = frames.start;
-    while next < frames.end {
+    let mut next = range.start;
+    while next < range.end {
         poll_stop(stop)?;
-        let end = frames.end.min(next + batch);
+        let end = range.end.min(next + batch);
         let made: Vec<_> = (next..end).into_par_iter().map(&make).collect();
         for frame in made {
-            take(&frame?)?;
+            call(&mut frames, &frame?)?;
         }
         next = end;
     }

@@ -1,4 +1,4 @@
-//! What has to stand still for a fast way to be exact.
+//! Conditions under which fast ways are exact.
 
 use crate::firmware::reset_sync::{self, ResetSync};
 use crate::firmware::tof_top::slot::{SlotEstimator, SlotIn};
@@ -8,7 +8,7 @@ use crate::in_slot;
 use crate::kernel::{ASLEEP, Clocked, Time};
 use crate::sim::device::Device;
 
-/// Whether resets and control signals stand still as long as their pins do.
+/// Returns whether resets and control signals hold as long as their pins do.
 pub(super) fn control_is_steady(top: &TofTop) -> bool {
     let released =
         |reset: &ResetSync, i: &reset_sync::In| !reset.rst_sync && reset.quiet(i, &()) == ASLEEP;
@@ -18,7 +18,7 @@ pub(super) fn control_is_steady(top: &TofTop) -> bool {
         && top.control_sync.quiet(&Wires::control_sync(top), &()) == ASLEEP
 }
 
-/// Whether no edge would change the estimator until it is started or reset.
+/// Returns whether no edge changes the estimator until it is started or reset.
 pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
     let (mode, count) = (top.control_sync.mode_sync, top.nets.count);
     let i = SlotIn { rst: false, algo_start: false, mode, count };
@@ -26,17 +26,17 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
         && in_slot!(p.estimator, E => E::block(top).rests(&i.into(), E::params(p)))
 }
 
-/// Cycles since the edge that took `algo_start`, while the estimator in the slot works.
+/// Returns the cycles since the edge that took `algo_start`, while the estimator in the slot works.
 pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
     in_slot!(p.estimator, E => E::block(top).phase(E::params(p)))
 }
 
-/// The period of `clk_sys`, if no edge jitters.
+/// Returns the period of `clk_sys`, if no edge jitters.
 pub(super) fn even_period(device: &Device) -> Option<Time> {
     device.jitter.is_none().then_some(device.pll.cycle)
 }
 
-/// Coming cycles that end before a control signal changes, or just then.
+/// Returns the number of next cycles that end before a control signal changes, or just then.
 pub(super) fn cycles_of_steady_control(device: &Device, period: Time) -> u64 {
     let next = device.pll.clk_sys.rise(device.cycle);
     device.timeline.next_event().since(next).fs() / period.fs()

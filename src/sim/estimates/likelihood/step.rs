@@ -50,12 +50,12 @@ pub struct Information {
     pub exponent: i64,
     /// By how many bits the step was shortened.
     pub cut: u32,
-    /// How far mu went [units / 16].
+    /// Change of mu [units / 16].
     pub move_by: i64,
 }
 
 impl Point {
-    /// Where a box stands highest.
+    /// Returns the first point of a fit, where a box stands highest.
     pub fn start(p: &Params, best: &Best, ambient: i64) -> Self {
         let (from, until) = best.bins;
         let (mantissa, bits) = reciprocal(best.waiting.max(1));
