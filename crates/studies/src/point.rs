@@ -116,14 +116,13 @@ impl Point<'_> {
     /// Returns the seed of a repeat in a scene: the plan's, or one derived from it and the settings, so that it does
     /// not depend on the other points.
     fn seed(&self, scene: &[String], repeat: u64) -> u64 {
-        let first = match self.plan.file.common_random_numbers {
-            true => self.plan.seed,
-            false => {
-                let settings: Vec<_> = self.settings.iter().chain(scene).cloned().collect();
-                let settings = settings.join("\n");
-                let digest = digest_of(format_args!("{}\n{settings}", self.plan.seed));
-                ChaCha8Rng::seed_from_u64(digest).random::<u64>() >> (64 - SEED_BITS)
-            }
+        let first = if self.plan.file.common_random_numbers {
+            self.plan.seed
+        } else {
+            let settings: Vec<_> = self.settings.iter().chain(scene).cloned().collect();
+            let settings = settings.join("\n");
+            let digest = digest_of(format_args!("{}\n{settings}", self.plan.seed));
+            ChaCha8Rng::seed_from_u64(digest).random::<u64>() >> (64 - SEED_BITS)
         };
         first.wrapping_add(repeat)
     }

@@ -51,10 +51,8 @@ impl<'a> Trial<'a> {
         let kinds = &self.plan.estimators;
         let simulates = self.plan.file.fidelity != Fidelity::Budget;
         let needs_frames = |column: &&Column| !matches!(column.quantity, Quantity::Expected(_));
-        let measured = match simulates && self.columns.iter().any(needs_frames) {
-            true => Some(self.simulate(&setup)?),
-            false => None,
-        };
+        let simulates_frames = simulates && self.columns.iter().any(needs_frames);
+        let measured = simulates_frames.then(|| self.simulate(&setup)).transpose()?;
         let figure = |column: &&Column| {
             Ok(match (column.quantity, &measured) {
                 (Quantity::Expected(of), _) => Figure::new(finite(of(&setup)?), None),

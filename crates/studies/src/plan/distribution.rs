@@ -36,9 +36,10 @@ impl Quantiles {
             }
             Quantiles::Triangular([from, mode, to]) => {
                 let (rising, all) = (mode - from, to - from);
-                match u * all < rising {
-                    true => from + (u * all * rising).sqrt(),
-                    false => to - ((1.0 - u) * all * (to - mode)).sqrt(),
+                if u * all < rising {
+                    from + (u * all * rising).sqrt()
+                } else {
+                    to - ((1.0 - u) * all * (to - mode)).sqrt()
                 }
             }
         }
