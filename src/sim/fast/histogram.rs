@@ -15,7 +15,6 @@ use crate::optics::BinProbabilities;
 use crate::scenario::effects::Method;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
-use crate::sim::callback::Callback;
 use crate::sim::frames::Frame;
 use crate::sim::run::{Observers, Outcome};
 use crate::sim::setup::Setup;

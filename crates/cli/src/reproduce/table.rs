@@ -131,7 +131,9 @@ fn expanded<'de, D: Deserializer<'de>, T: DeserializeOwned>(file: D) -> Result<V
 fn labelled(entry: &Value, place: usize, label: &str) -> Value {
     match entry {
         Value::String(text) => text.replace("{each}", label).into(),
-        Value::Array(all) => all.iter().map(|one| labelled(one, place, label)).collect(),
+        Value::Array(all) => {
+            Value::Array(all.iter().map(|one| labelled(one, place, label)).collect())
+        }
         Value::Table(table) => {
             let with = |(key, value): (&String, &Value)| {
                 let value = value.get(place).filter(|_| key == "thesis").unwrap_or(value);
