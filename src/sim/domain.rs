@@ -28,7 +28,7 @@ const OWN_DELAYS: &str = "true";
 const ONES: &str = "ones";
 const DARK_RATE: &str = "spad.dark_rate_hz";
 
-/// What a note says of a network outside its domain.
+/// Text of a note on a network outside its training domain.
 const TEXT: &str = "the network was not trained for it";
 
 /// A key of the scenario, and the least and the largest value that a grid gives it.

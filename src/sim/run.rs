@@ -22,7 +22,7 @@ const POLL_INTERVAL: u64 = 1 << 14;
 /// Cycles that a fast way takes at most between two of them: a part of a second.
 const FAST_INTERVAL: u64 = 1 << 20;
 
-/// What looks at a run, and what may stop it.
+/// Observers of a run, and the flag that stops it.
 #[derive(Default)]
 pub struct Observers<'a> {
     /// The waveform, and the parts of the run that go into it.
@@ -35,7 +35,7 @@ pub struct Observers<'a> {
     pub stop: Option<&'a AtomicBool>,
 }
 
-/// What a run has come to.
+/// Result of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// When it ended.

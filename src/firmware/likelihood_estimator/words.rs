@@ -1,4 +1,4 @@
-//! What the words of the likelihood estimator mean.
+//! Number formats and status bits of the likelihood estimator.
 
 /// Units of time in a bin [1].
 pub const UNITS: i64 = 64;

@@ -80,7 +80,7 @@ pub enum HistogramSource {
     Preload(Box<histogram_preload::Rom>),
 }
 
-/// What is in the estimator's socket.
+/// Estimator in the estimator slot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Estimator {
     /// [`depth_estimator`].
@@ -138,7 +138,7 @@ pub struct Params {
     pub centroid_estimator: centroid_estimator::Params,
     /// Pulse, bins and ROMs of the likelihood.
     pub likelihood_estimator: Arc<likelihood_estimator::params::Params>,
-    /// What finds the depth.
+    /// Estimator in the estimator slot.
     pub estimator: Estimator,
     /// Source of codes.
     pub code_source: CodeSource,

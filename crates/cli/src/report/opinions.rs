@@ -17,7 +17,7 @@ pub struct Opinions {
     depths: Moments,
 }
 
-/// What they come to over two frames or more.
+/// Statistics of second opinions over at least two frames.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OpinionStatistics {
     /// Its name on the command line.
@@ -56,12 +56,12 @@ impl Opinions {
         }
     }
 
-    /// What a user has to know of them.
+    /// Returns the notes on the second opinions.
     pub fn notes(&self) -> Vec<Note> {
         self.second.as_ref().map_or(Vec::new(), |second| self.partings.notes(second))
     }
 
-    /// What two of them or more come to.
+    /// Returns the statistics of at least two second opinions.
     pub fn statistics(&self, judge: &Judge) -> Option<OpinionStatistics> {
         let Partings { frames, parted, unbelieved, .. } = self.partings;
         let mean_m = self.depths.mean();
@@ -88,7 +88,7 @@ pub fn in_words(opinion: &Opinion, truth_m: Option<f64>) -> String {
     format!("{depth_m:.6} m  {depth_raw}{error}  {estimator}, sd {sigma_m:.6} m{why}")
 }
 
-/// What several come to, on one line.
+/// Formats the statistics on one line.
 pub fn line(of: &OpinionStatistics) -> String {
     let mut text = format!("second opinion: {}", of.estimator);
     if let Some(mean_m) = of.mean_m {

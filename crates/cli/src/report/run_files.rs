@@ -72,7 +72,7 @@ impl<'a> RunFiles<'a> {
         self.folder.is_some() || self.events.is_some() || self.wants_tdc
     }
 
-    /// Whether it needs more of them than those up to the frame that is shown.
+    /// Returns whether shots after the displayed frame are needed.
     pub fn want_all_shots(&self) -> bool {
         self.events.is_some() || self.wants_tdc
     }

@@ -127,7 +127,7 @@ impl<'a, R> Sheet<'a, R> {
 }
 
 impl Column {
-    /// Whether its cells are words; all texts of the first column are.
+    /// Returns whether the column's cells are words; all texts of the first column are.
     fn is_left(&self, place: usize) -> bool {
         let is_word = |cell: &Cell| match cell {
             Cell::Text(text) => place == 0 || text == "-" || text.starts_with(char::is_alphabetic),
