@@ -17,7 +17,8 @@ use super::events::Events;
 use super::frame_log::FrameLog;
 use super::histogram_svg;
 use super::pair_table;
-use super::sheet::{Digits, Sheet};
+use super::sheet::Digits::Shortest;
+use super::sheet::Sheet;
 use super::summary::Summary;
 
 /// Files of the folder; the last one only where frames come in pairs.
@@ -169,7 +170,7 @@ fn older_files(folder: &Path, names: &[String]) -> Vec<PathBuf> {
 fn histogram_csv(histogram: &[u32]) -> String {
     let bins: Vec<_> = histogram.iter().enumerate().collect();
     Sheet::of(&bins)
-        .column("bin", Digits::Shortest, |(bin, _)| *bin)
-        .column("count", Digits::Shortest, |(_, count)| **count)
+        .column("bin", Shortest, |(bin, _)| *bin)
+        .column("count", Shortest, |(_, count)| **count)
         .csv()
 }
