@@ -1,5 +1,5 @@
-//! What a module skips and what each fast way of the device comes to is what the plain step would have
-//! given, from every state that random runs come through.
+//! Tests that skipping in modules, and every fast path of the device, equal the plain step, from all states that
+//! random runs visit.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -9,7 +9,7 @@ use crate::common::setup;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// What a step says that wants to see the next one.
+/// Return value of a step that continues the run.
 const GO_ON: Result<ControlFlow<()>> = Ok(ControlFlow::Continue(()));
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the diode does beside firing, against closed forms: free running, and in the shots of a run.
+//! Tests of the SPAD's effects against closed forms: free running, and in the shots of a run.
 
 use tofsim::optics::dark::dark_rate_hz;
 use tofsim::optics::hazard::Cause;

@@ -19,7 +19,7 @@ use tofsim::sim::{Run, Stepping};
 
 use crate::common;
 
-/// What a run comes to.
+/// Result of a run.
 #[derive(Debug, PartialEq)]
 struct Result {
     frames: Vec<Frame>,

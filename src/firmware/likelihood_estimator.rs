@@ -100,7 +100,7 @@ signals! {
         pub valid: bool,
         /// The depth is ready; one cycle.
         pub algo_done: bool,
-        /// What it does.
+        /// State of the computation.
         #[view(heading = "Likelihood", probe = true)]
         pub(crate) state: State,
         /// Cycles in this state.

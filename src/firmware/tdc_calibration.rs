@@ -82,7 +82,7 @@ signals! {
         #[only_if(Calibrated)]
         #[size(AgeBits)]
         pub calibrated_age: Word,
-        /// Returns the state.
+        /// State of the calibration.
         #[view(heading = "TDC", probe = true)]
         pub(crate) state: State,
         /// A calibration is due.

@@ -20,7 +20,7 @@ use scene::SHAPE;
 
 pub(crate) use keys::DRIFT as DRIFT_KEYS;
 
-/// What a note says of a network outside its domain.
+/// Text of a note on a network outside its training domain.
 const TEXT: &str = "the network was not trained for it";
 
 /// A key of the scenario, and the least and the largest value that a grid gives it.

@@ -51,7 +51,7 @@ impl Frame {
     }
 }
 
-/// What is counted while a frame runs.
+/// Counters of a running frame.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
     pub(super) done: u64,

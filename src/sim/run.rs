@@ -20,7 +20,7 @@ use super::wave_tracer::{WaveTracer, WindowedProbe};
 /// Cycles between two polls of whether to stop, a part of a second.
 const POLL_INTERVAL: u64 = 1 << 18;
 
-/// What looks at a run, and what may stop it.
+/// Observers of a run, and the flag that stops it.
 #[derive(Default)]
 pub struct Observers<'a> {
     /// The waveform, and the parts of the run that go into it.
@@ -33,7 +33,7 @@ pub struct Observers<'a> {
     pub stop: Option<&'a AtomicBool>,
 }
 
-/// What a run has come to.
+/// Result of a run.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// When it ended.

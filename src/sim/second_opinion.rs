@@ -1,5 +1,5 @@
-//! What another estimator says of the histogram of a frame, so that a depth is seen to be wrong even where
-//! nobody knows the truth.
+//! Second opinion: another estimator's depth from the same histogram, by which a wrong depth is detected without
+//! knowing the truth.
 
 use crate::error::Input;
 use crate::firmware::likelihood_estimator::params::Params;
@@ -31,7 +31,7 @@ pub struct SecondOpinion {
     socket: Socket,
 }
 
-/// What is in the firmware's socket.
+/// The firmware's estimator.
 #[derive(Clone, Debug)]
 struct Socket {
     name: &'static str,

@@ -41,7 +41,7 @@ enum State {
     Writing,
 }
 
-/// Writes the waveform while a window is open.
+/// Waveform file that is written while a window is open.
 pub(super) struct WaveTracer {
     waves: Waves,
     windows: Vec<Window>,

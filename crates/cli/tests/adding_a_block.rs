@@ -88,7 +88,7 @@ fn copy(to: &Path) {
     fs::write(manifest, text.replace(version, "version = \"0.0.0\"")).unwrap();
 }
 
-/// What a program writes, which has to succeed.
+/// Runs a program that must succeed, and returns its output.
 fn run(command: &mut Command) -> String {
     let output = command.output().unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);

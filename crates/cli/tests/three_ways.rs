@@ -134,7 +134,7 @@ struct Dut {
     values: &'static str,
 }
 
-/// What the Verilog finds, a line for each histogram: depth, edges, and what else is shown.
+/// Runs the Verilog, and returns a line for each histogram: depth, edges, and further outputs.
 fn simulated(folder: &Path, dut: Dut, histograms: &[Histogram]) -> Vec<String> {
     let words = histograms.iter().flatten().map(|&count| count.into());
     fs::write(folder.join("histograms.mem"), lines(words, 4)).unwrap();

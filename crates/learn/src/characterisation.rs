@@ -1,4 +1,4 @@
-//! What papers report of a TDC: code density, linearity, bubbles, precision, and what happens at the clock's edges.
+//! Characterization of a TDC: code density, linearity, bubbles, precision, and behaviour at the clock's edges.
 
 pub mod bubbles;
 pub mod decoders;
@@ -28,7 +28,7 @@ const STOPS_NS: [u64; 3] = [2, 4, 8];
 pub struct Stop {
     /// From the laser edge to the stop [ns].
     pub t2_ns: u64,
-    /// What the decoder makes of the taps.
+    /// Decoder's number for the taps.
     pub n: usize,
     /// From the laser edge to the edge that samples it [ns].
     pub t1_ns: f64,
@@ -45,7 +45,7 @@ pub struct Characterisation {
     pub raw: TimeError,
     /// The time with the converter's own ROM.
     pub calibrated: TimeError,
-    /// What the taps look like in their physical order.
+    /// Taps in their physical order.
     pub bubbles: Bubbles,
     /// A delay that goes through the window.
     pub transfer: Transfer,

@@ -1,8 +1,7 @@
-//! What an instrument's depths do while its die heats up: with a TDC calibrated once, and calibrated again and
-//! again.
+//! Depth errors while the die heats up: with a TDC calibrated once, and calibrated repeatedly.
 //!
-//! The conditions stand still within a frame: a die takes seconds for a degree. Both calibrations are right as
-//! they are made, and what is drawn at a moment is drawn from the same random numbers for both.
+//! The conditions are constant within a frame, because a die takes seconds for a degree. Both calibrations are exact
+//! when they are made, and use the same random numbers at each moment.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -18,10 +17,10 @@ use crate::dataset::{HistogramSource, Scene};
 use crate::estimation::{EstimatorInputs, EstimatorKind, Needs};
 use crate::evaluation::Spread;
 
-/// What is done at each moment of a profile.
+/// Computation at each moment of a profile.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
-    /// What finds the depths.
+    /// Estimator of the depths.
     pub kind: EstimatorKind,
     /// From one calibration to the next [s].
     pub every_s: f64,

@@ -1,4 +1,4 @@
-//! What is said of a TDC, beside closed forms and the firmware itself.
+//! Tests of a TDC's characterization against closed forms and the firmware.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -27,7 +27,7 @@ pub struct Columns {
     laser_en: Vec<bool>,
     /// Hits of each frame by their causes, if these are counted.
     pub causes: Option<Vec<Causes>>,
-    /// What the depths lie outside of.
+    /// Notes on the depths.
     pub notes: Vec<Note>,
 }
 

@@ -1,4 +1,4 @@
-//! What the status makes of scores at their limits.
+//! Tests of the status at the limits of the scores.
 
 use super::*;
 use crate::kernel::S;

@@ -1,4 +1,4 @@
-//! What the words of the likelihood estimator mean.
+//! Number formats and status bits of the likelihood estimator.
 
 use fixed::FixedU64;
 use fixed::types::extra::U8;

@@ -100,7 +100,7 @@ pub struct Params {
     pub centroid_estimator: centroid_estimator::Params,
     /// Pulse, bins and ROMs of the likelihood.
     pub likelihood_estimator: Arc<likelihood_estimator::params::Params>,
-    /// The estimator in the slot.
+    /// Estimator in the estimator slot.
     pub estimator: FirmwareEstimator,
     /// Source of codes.
     pub code_source: CodeSource,

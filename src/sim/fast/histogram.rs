@@ -55,7 +55,7 @@ pub struct Histograms<'a> {
     frame_cycles: u64,
 }
 
-/// What decides a frame of a kind, lit or dark.
+/// Distribution of a lit or of a dark frame.
 #[derive(Clone, Debug)]
 struct Kind {
     lit: bool,

@@ -153,9 +153,10 @@ pub fn afterpulses(diode: &FreeRunning, dark_hz: f64, counts: u64) -> Option<Aft
     })
 }
 
-/// The mean number of afterpulses, and of theirs in turn, that follow from an avalanche in each bin of the window [1].
+/// Returns the mean number of afterpulses, and of their afterpulses in turn, that follow an avalanche in each bin of
+/// the window [1].
 ///
-/// What follows at a time is an afterpulse of the avalanche itself, or of one that came before that: a sum over
+/// An avalanche at a given time is an afterpulse of the first avalanche, or of one that came before it: a sum over
 /// small steps.
 fn successors(diode: &FreeRunning, bin_s: f64) -> Vec<f64> {
     let step_s = bin_s / FINE as f64;
@@ -174,7 +175,7 @@ fn successors(diode: &FreeRunning, bin_s: f64) -> Vec<f64> {
     all.chunks(FINE).map(|steps| steps.iter().sum()).collect()
 }
 
-/// What the keys come to.
+/// Values expected from the keys.
 struct Expected {
     /// q [1].
     after_dead_time: f64,
@@ -221,7 +222,7 @@ pub(super) fn rate(count: u64, sum_s: f64) -> Measured {
     Measured { value, se: value / count.sqrt() }
 }
 
-/// What is summed over all batches.
+/// Sums over all batches.
 struct Sums {
     begun: u64,
     pairs: Vec<u64>,

@@ -16,7 +16,7 @@ const WARM_UP: f64 = 0.1;
 /// Incident carriers at most to each count that is asked for.
 const MOST_CARRIERS: f64 = 10.0;
 
-/// What is counted at an incident rate.
+/// Count rates at an incident rate.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
     /// Incident rate [1/s].

@@ -10,7 +10,8 @@ use tofsim_learn::calibration::candidates::{Calibration, Candidate, Kind};
 use crate::text::svg::{chart, legend, picture};
 use crate::text::table;
 
-use super::sheet::{Digits, NamedText, Sheet};
+use super::sheet::Digits::{Fixed, Scientific};
+use super::sheet::{NamedText, Sheet};
 use super::writer::Findings;
 
 /// Interval between rows of the file, of a pulse with a formula [ps].
@@ -137,9 +138,11 @@ impl Findings for PulseFindings {
                 times.map(|t_ps| (t_ps, taken.pulse.density(t_ps))).collect()
             }
         };
-        let pulse = Sheet::of(&rows)
-            .column("time_ps", Digits::Fixed(4), |(time_ps, _)| *time_ps)
-            .column("density", Digits::Scientific(6), |(_, density)| *density);
+        let pulse = Sheet::of(&rows).column("time_ps", Fixed(4), |(time_ps, _)| *time_ps).column(
+            "density",
+            Scientific(6),
+            |(_, density)| *density,
+        );
         vec![pulse.file("pulse.csv")]
     }
 

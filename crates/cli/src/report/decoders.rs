@@ -10,7 +10,8 @@ use tofsim_learn::characterisation::decoders::{Comparison, DecoderFigures, Read}
 use crate::text::svg::{COLOURS, legend, picture};
 use crate::text::table::grouped;
 
-use super::sheet::{Digits, NamedText, Sheet};
+use super::sheet::Digits::{Fixed, Shortest};
+use super::sheet::{NamedText, Sheet};
 use super::tdc::named;
 use super::writer::Findings;
 
@@ -73,54 +74,45 @@ impl DecoderFindings<'_> {
 /// The widths of the codes.
 fn widths(decoders: &[DecoderFigures]) -> Sheet<'_, DecoderFigures> {
     Sheet::of(decoders)
-        .column("decoder", Digits::Shortest, |one| one.name)
-        .shown("decoder", Digits::Shortest)
-        .column("codes", Digits::Shortest, |one| one.codes)
-        .shown("codes", Digits::Shortest)
-        .column("empty", Digits::Shortest, |one| one.empty)
-        .shown("empty", Digits::Shortest)
-        .column("lsb_ps", Digits::Fixed(4), |one| one.lsb_ps)
-        .shown("LSB [ps]", Digits::Fixed(3))
-        .column("dnl_rms_lsb", Digits::Fixed(5), |one| one.dnl.rms)
-        .shown("DNL rms", Digits::Fixed(3))
-        .column("dnl_least_lsb", Digits::Fixed(5), |one| one.dnl.least)
-        .column("dnl_largest_lsb", Digits::Fixed(5), |one| one.dnl.largest)
+        .both(("decoder", Shortest), ("decoder", Shortest), |one| one.name)
+        .both(("codes", Shortest), ("codes", Shortest), |one| one.codes)
+        .both(("empty", Shortest), ("empty", Shortest), |one| one.empty)
+        .both(("lsb_ps", Fixed(4)), ("LSB [ps]", Fixed(3)), |one| one.lsb_ps)
+        .both(("dnl_rms_lsb", Fixed(5)), ("DNL rms", Fixed(3)), |one| one.dnl.rms)
+        .column("dnl_least_lsb", Fixed(5), |one| one.dnl.least)
+        .column("dnl_largest_lsb", Fixed(5), |one| one.dnl.largest)
         .words("range [LSB]", |one| format!("{:.2} .. {:.2}", one.dnl.least, one.dnl.largest))
-        .column("widest_ps", Digits::Fixed(3), |one| one.widest_ps)
-        .shown("widest", Digits::Fixed(1))
-        .column("equivalent_ps", Digits::Fixed(4), |one| one.equivalent_ps)
-        .shown("equiv. [ps]", Digits::Fixed(2))
+        .both(("widest_ps", Fixed(3)), ("widest", Fixed(1)), |one| one.widest_ps)
+        .both(("equivalent_ps", Fixed(4)), ("equiv. [ps]", Fixed(2)), |one| one.equivalent_ps)
 }
 
 /// The times that they give, and the logic that they cost.
 fn times(decoders: &[DecoderFigures]) -> Sheet<'_, DecoderFigures> {
     Sheet::of(decoders)
         .words("decoder", |one| one.name)
-        .column("raw_precision_ps", Digits::Fixed(4), |one| one.raw_precision_ps)
-        .shown("uncalibrated [ps]", Digits::Fixed(2))
-        .column("precision_ps", Digits::Fixed(4), |one| one.precision_ps)
-        .shown("calibrated", Digits::Fixed(2))
-        .column("raw_off", Digits::Fixed(6), |one| one.raw_off_by_a_bin)
+        .both(("raw_precision_ps", Fixed(4)), ("uncalibrated [ps]", Fixed(2)), |one| {
+            one.raw_precision_ps
+        })
+        .both(("precision_ps", Fixed(4)), ("calibrated", Fixed(2)), |one| one.precision_ps)
+        .column("raw_off", Fixed(6), |one| one.raw_off_by_a_bin)
         .words("off [%]", |one| format!("{:.2}", 100.0 * one.raw_off_by_a_bin))
-        .column("off", Digits::Fixed(6), |one| one.off_by_a_bin)
+        .column("off", Fixed(6), |one| one.off_by_a_bin)
         .words("calibrated", |one| format!("{:.2}", 100.0 * one.off_by_a_bin))
-        .column("luts", Digits::Shortest, |one| one.luts)
-        .shown("LUTs", Digits::Shortest)
-        .column("ffs", Digits::Shortest, |one| one.ffs)
-        .shown("FFs", Digits::Shortest)
+        .both(("luts", Shortest), ("LUTs", Shortest), |one| one.luts)
+        .both(("ffs", Shortest), ("FFs", Shortest), |one| one.ffs)
 }
 
 /// The number that each decoder reads from a pattern.
 fn read(patterns: &[Read]) -> Sheet<'_, Read> {
     let sheet = Sheet::of(patterns)
-        .column("bubble", Digits::Shortest, |read| read.levels.as_str())
+        .column("bubble", Shortest, |read| read.levels.as_str())
         .words("bubble", |read| named(&read.levels))
-        .column("share", Digits::Fixed(6), |read| read.share)
+        .column("share", Fixed(6), |read| read.share)
         .words("phases [%]", |read| format!("{:.2}", 100.0 * read.share));
     let decoders = ["ones", "leading", "reordered"].into_iter().enumerate();
     decoders.fold(sheet, |sheet, (k, name)| {
         sheet
-            .column(name, Digits::Shortest, move |read| read.numbers[k])
+            .column(name, Shortest, move |read| read.numbers[k])
             .words(name, move |read| format!("+{}", read.numbers[k]))
     })
 }

@@ -184,17 +184,17 @@ impl FrameLog {
         self.pairs.is_none().then_some(spread)
     }
 
-    /// What other estimators made of two frames or pairs or more.
+    /// Returns the statistics of other estimators over at least two frames or pairs.
     pub fn estimators(&self) -> Vec<EstimatorStatistics> {
         self.tally.statistics(&self.judge)
     }
 
-    /// What second opinions on two frames or more come to.
+    /// Returns the statistics of second opinions over at least two frames.
     pub fn second_opinion(&self) -> Option<OpinionStatistics> {
         self.second.statistics(&self.judge)
     }
 
-    /// What a user has to know of the second opinions.
+    /// Returns the notes on second opinions.
     pub fn notes(&self) -> Vec<Note> {
         self.second.notes()
     }
@@ -246,7 +246,7 @@ struct FrameSummary<'a> {
     /// The frame's place in a pair, where frames come in pairs.
     #[serde(flatten)]
     paired: Option<PlaceInPair>,
-    /// What other estimators say of the histogram.
+    /// Results of other estimators for the histogram.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     estimates: Vec<Estimate>,
 }

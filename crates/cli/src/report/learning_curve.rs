@@ -9,19 +9,20 @@ use tofsim_learn::training::state::CurvePoint;
 
 use crate::text::svg::{chart, picture};
 
-use super::sheet::{Digits, Sheet};
+use super::sheet::Digits::{Literal, Shortest};
+use super::sheet::Sheet;
 
 /// Returns the curve as CSV, a row for each network at each checkpoint.
 pub fn csv(points: &[CurvePoint]) -> String {
     Sheet::of(points)
-        .column("stage", Digits::Shortest, |point| point.stage)
-        .column("block", Digits::Shortest, |point| point.block)
-        .column("start", Digits::Shortest, |point| point.start)
-        .column("epochs", Digits::Shortest, |point| point.epochs)
-        .column("cost", Digits::Literal, |point| point.cost)
-        .column("mu", Digits::Literal, |point| point.mu)
-        .column("validation", Digits::Literal, |point| point.validation)
-        .column("ratio", Digits::Literal, |point| point.ratio)
+        .column("stage", Shortest, |point| point.stage)
+        .column("block", Shortest, |point| point.block)
+        .column("start", Shortest, |point| point.start)
+        .column("epochs", Shortest, |point| point.epochs)
+        .column("cost", Literal, |point| point.cost)
+        .column("mu", Literal, |point| point.mu)
+        .column("validation", Literal, |point| point.validation)
+        .column("ratio", Literal, |point| point.ratio)
         .csv()
 }
 

@@ -18,7 +18,7 @@ pub struct Opinions {
     depths: Moments,
 }
 
-/// What they come to over two frames or more.
+/// Statistics of second opinions over at least two frames.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OpinionStatistics {
     /// Its name on the command line.
@@ -55,12 +55,12 @@ impl Opinions {
         opinion.depth_m.filter(|_| opinion.valid).into_iter().for_each(|m| self.depths.add(m));
     }
 
-    /// What a user has to know of them.
+    /// Returns the notes on the second opinions.
     pub fn notes(&self) -> Vec<Note> {
         self.second.as_ref().map_or(Vec::new(), |second| self.partings.notes(second))
     }
 
-    /// What two of them or more come to.
+    /// Returns the statistics of at least two second opinions.
     pub fn statistics(&self, judge: &Judge) -> Option<OpinionStatistics> {
         let Partings { frames, parted, unbelieved, .. } = self.partings;
         let mean_m = self.depths.mean();
@@ -92,7 +92,7 @@ pub fn in_words(estimate: &Estimate, truth_m: Option<f64>) -> String {
     text
 }
 
-/// What several come to, on one line.
+/// Formats the statistics on one line.
 pub fn line(of: &OpinionStatistics) -> String {
     let mut text = format!("second opinion: {}", of.estimator);
     if let Some(mean_m) = of.mean_m {

@@ -10,7 +10,8 @@ use crate::text::table::{facts, grouped};
 
 use super::frame_log::FrameLog;
 use super::pairs::{PairStatistics, mean, right_of_echo};
-use super::sheet::{Digits, Sheet};
+use super::sheet::Digits::Shortest;
+use super::sheet::Sheet;
 use super::{opinions, readings};
 
 /// The table of a run in pairs.
@@ -107,9 +108,9 @@ fn range(difference: &[i32]) -> (i32, i32) {
 pub fn csv(dark: &Frame, lit: &Frame) -> String {
     let bins: Vec<_> = difference(dark, lit).into_iter().enumerate().collect();
     Sheet::of(&bins)
-        .column("bin", Digits::Shortest, |(bin, _)| *bin)
-        .column("dark", Digits::Shortest, |(bin, _)| dark.histogram[*bin])
-        .column("lit", Digits::Shortest, |(bin, _)| lit.histogram[*bin])
-        .column("difference", Digits::Shortest, |(_, hits)| *hits)
+        .column("bin", Shortest, |(bin, _)| *bin)
+        .column("dark", Shortest, |(bin, _)| dark.histogram[*bin])
+        .column("lit", Shortest, |(bin, _)| lit.histogram[*bin])
+        .column("difference", Shortest, |(_, hits)| *hits)
         .csv()
 }

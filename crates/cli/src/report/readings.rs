@@ -1,4 +1,4 @@
-//! What estimators say of frames, in tables.
+//! Tables of the estimators' results.
 
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::Estimate;

@@ -17,7 +17,8 @@ use super::events::Events;
 use super::frame_log::FrameLog;
 use super::histogram_svg;
 use super::pair_table;
-use super::sheet::{Digits, Sheet};
+use super::sheet::Digits::Shortest;
+use super::sheet::Sheet;
 use super::summary::Summary;
 
 /// Files of the folder; the last one only where frames come in pairs.
@@ -72,7 +73,7 @@ impl<'a> RunFiles<'a> {
         self.folder.is_some() || self.events.is_some() || self.wants_tdc
     }
 
-    /// Whether it needs more of them than those up to the frame that is shown.
+    /// Returns whether shots after the displayed frame are needed.
     pub fn want_all_shots(&self) -> bool {
         self.events.is_some() || self.wants_tdc
     }
@@ -169,7 +170,7 @@ fn older_files(folder: &Path, names: &[String]) -> Vec<PathBuf> {
 fn histogram_csv(histogram: &[u32]) -> String {
     let bins: Vec<_> = histogram.iter().enumerate().collect();
     Sheet::of(&bins)
-        .column("bin", Digits::Shortest, |(bin, _)| *bin)
-        .column("count", Digits::Shortest, |(_, count)| **count)
+        .column("bin", Shortest, |(bin, _)| *bin)
+        .column("count", Shortest, |(_, count)| **count)
         .csv()
 }

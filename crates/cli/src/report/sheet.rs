@@ -51,13 +51,15 @@ impl<'a, R> Sheet<'a, R> {
         self.with(Some(name.into()), digits, None, value)
     }
 
-    /// Shows the last column to people too, under a heading.
-    pub fn shown(mut self, heading: &str, digits: Digits) -> Self {
-        if let Some(column) = self.columns.last_mut() {
-            debug_assert!(has_unit_of(heading, column.name.as_deref()), "{heading}: another unit");
-            column.shown = Some((heading.to_owned(), digits));
-        }
-        self
+    /// Adds a column of the file and of the table, with the digits in each.
+    pub fn both<C: Into<Cell>>(
+        self,
+        (name, digits): (&str, Digits),
+        (heading, shown): (&str, Digits),
+        value: impl Fn(&'a R) -> C,
+    ) -> Self {
+        debug_assert!(has_unit_of(heading, name), "{heading}: another unit than {name}");
+        self.with(Some(name.to_owned()), digits, Some((heading.to_owned(), shown)), value)
     }
 
     /// Adds a column that people alone see.
@@ -127,7 +129,7 @@ impl<'a, R> Sheet<'a, R> {
 }
 
 impl Column {
-    /// Whether its cells are words; all texts of the first column are.
+    /// Returns whether the column's cells are words; all texts of the first column are.
     fn is_left(&self, place: usize) -> bool {
         let is_word = |cell: &Cell| match cell {
             Cell::Text(text) => place == 0 || text == "-" || text.starts_with(char::is_alphabetic),
@@ -155,31 +157,27 @@ fn written(cell: &Cell, digits: Digits) -> String {
 }
 
 /// Whether the unit in brackets of a heading, if there is one, is that in the name of the column.
-fn has_unit_of(heading: &str, name: Option<&str>) -> bool {
+fn has_unit_of(heading: &str, name: &str) -> bool {
     let unit = heading.split_once('[').and_then(|(_, rest)| rest.strip_suffix(']'));
     let ends = |unit: &str| match unit {
         "degC" => "_c".to_owned(),
         "1/s" => "_hz".to_owned(),
         unit => format!("_{}", unit.to_lowercase().replace('^', "")),
     };
-    match (unit, name) {
-        (Some(unit), Some(name)) => name.ends_with(&ends(unit)),
-        _ => true,
-    }
+    unit.is_none_or(|unit| name.ends_with(&ends(unit)))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::Digits::{Fixed, Shortest};
     use super::*;
 
     const ROWS: [(&str, Option<f64>, u64); 2] = [("a, b", Some(0.125), 7), ("c", None, 12_000)];
 
     fn sheet() -> Sheet<'static, (&'static str, Option<f64>, u64)> {
         Sheet::of(&ROWS)
-            .column("name", Digits::Shortest, |row| row.0)
-            .shown("name", Digits::Shortest)
-            .column("width_ps", Digits::Fixed(4), |row| row.1)
-            .shown("width [ps]", Digits::Fixed(1))
+            .both(("name", Shortest), ("name", Shortest), |row| row.0)
+            .both(("width_ps", Fixed(4)), ("width [ps]", Fixed(1)), |row| row.1)
             .column("count", Digits::Shortest, |row| row.2)
             .words("of all", |row| format!("{} of 2", row.2))
     }
@@ -198,9 +196,7 @@ mod tests {
     #[test]
     #[should_panic(expected = "another unit")]
     fn a_heading_has_the_unit_of_its_column() {
-        sheet()
-            .column("width_ns", Digits::Shortest, |row| row.2)
-            .shown("width [ps]", Digits::Shortest);
+        sheet().both(("width_ns", Shortest), ("width [ps]", Shortest), |row| row.2);
     }
 
     #[test]

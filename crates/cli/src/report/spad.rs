@@ -10,7 +10,8 @@ use tofsim::sim::free_running::rates::Point;
 
 use crate::text::table;
 
-use super::sheet::{Digits, NamedText, Sheet};
+use super::sheet::Digits::{Fixed, Scientific, Shortest};
+use super::sheet::{NamedText, Sheet};
 use super::writer::Findings;
 
 mod pictures;
@@ -78,13 +79,13 @@ impl Findings for Characterisation<'_> {
     fn sheets(&self) -> Vec<NamedText> {
         let rates = rates(&self.points).file("rates.csv");
         let Some(seen) = &self.afterpulses else { return vec![rates] };
-        let fine = Digits::Scientific(6);
+        let fine = Scientific(6);
         let ends = seen.interval_ends_s.windows(2).zip(&seen.intervals);
         let intervals: Vec<_> = ends.collect();
         let intervals = Sheet::of(&intervals)
             .column("from_s", fine, |(ends, _)| ends[0])
             .column("until_s", fine, |(ends, _)| ends[1])
-            .column("count", Digits::Shortest, |(_, count)| **count);
+            .column("count", Shortest, |(_, count)| **count);
         let bin_s = seen.window_s / seen.pairs.len() as f64;
         let pairs = seen.pairs.iter().zip(&seen.expected_pairs).enumerate();
         let pairs: Vec<_> =
@@ -92,9 +93,9 @@ impl Findings for Characterisation<'_> {
         let autocorrelation = Sheet::of(&pairs)
             .column("from_s", fine, |(from_s, ..)| *from_s)
             .column("until_s", fine, |(from_s, ..)| from_s + bin_s)
-            .column("pairs", Digits::Shortest, |(_, pairs, _)| **pairs)
-            .column("by_chance", Digits::Fixed(3), |_| seen.chance_pairs)
-            .column("expected", Digits::Fixed(3), |(.., expected)| **expected);
+            .column("pairs", Shortest, |(_, pairs, _)| **pairs)
+            .column("by_chance", Fixed(3), |_| seen.chance_pairs)
+            .column("expected", Fixed(3), |(.., expected)| **expected);
         vec![rates, intervals.file("intervals.csv"), autocorrelation.file("autocorrelation.csv")]
     }
 
@@ -105,17 +106,21 @@ impl Findings for Characterisation<'_> {
 
 /// Count rates with a fixed and with a paralysable dead time, with their closed forms.
 fn rates(points: &[Point]) -> Sheet<'_, Point> {
-    let fine = Digits::Scientific(6);
-    let mut sheet = Sheet::of(points)
-        .column("incident_hz", fine, |at| at.incident_hz)
-        .shown("incident/s", Digits::Scientific(4));
+    let fine = Scientific(6);
+    let mut sheet =
+        Sheet::of(points)
+            .both(("incident_hz", fine), ("incident/s", Scientific(4)), |at| at.incident_hz);
     for (k, kind) in ["fixed", "paralysable"].into_iter().enumerate() {
         sheet = sheet
-            .column(format!("{kind}_hz"), fine, move |at| at.counted_hz[k].value)
-            .shown(kind, Digits::Scientific(4))
+            .both((&format!("{kind}_hz"), fine), (kind, Scientific(4)), move |at| {
+                at.counted_hz[k].value
+            })
             .column(format!("{kind}_se_hz"), fine, move |at| at.counted_hz[k].se)
-            .column(format!("{kind}_closed_form_hz"), fine, move |at| at.closed_form_hz[k])
-            .shown("closed form", Digits::Scientific(4))
+            .both(
+                (&format!("{kind}_closed_form_hz"), fine),
+                ("closed form", Scientific(4)),
+                move |at| at.closed_form_hz[k],
+            )
             .words("off", move |at| {
                 let off = at.counted_hz[k].deviations_from(at.closed_form_hz[k]);
                 format!("{off:+.1} se")

@@ -12,7 +12,8 @@ use tofsim_learn::characterisation::timing::TimeError;
 
 use crate::text::table::{self, grouped};
 
-use super::sheet::{Digits, NamedText, Sheet};
+use super::sheet::Digits::{Fixed, Shortest};
+use super::sheet::{NamedText, Sheet};
 use super::tdc_plots;
 use super::writer::Findings;
 
@@ -94,28 +95,28 @@ impl Findings for TdcFindings<'_> {
         let inl = density.inl(&dnl);
         let bins: Vec<_> = density.bins.iter().zip(dnl).zip(inl).collect();
         let bins = Sheet::of(&bins)
-            .column("n", Digits::Shortest, |((bin, _), _)| bin.n)
-            .column("count", Digits::Shortest, |((bin, _), _)| bin.count)
-            .column("width_ps", Digits::Fixed(4), |((bin, _), _)| density.width_ps(bin).0)
-            .column("width_se_ps", Digits::Fixed(4), |((bin, _), _)| density.width_ps(bin).1)
-            .column("true_width_ps", Digits::Fixed(3), |((bin, _), _)| bin.true_width_ps)
-            .column("dnl", Digits::Fixed(5), |((_, dnl), _)| *dnl)
-            .column("inl", Digits::Fixed(5), |(_, inl)| *inl);
+            .column("n", Shortest, |((bin, _), _)| bin.n)
+            .column("count", Shortest, |((bin, _), _)| bin.count)
+            .column("width_ps", Fixed(4), |((bin, _), _)| density.width_ps(bin).0)
+            .column("width_se_ps", Fixed(4), |((bin, _), _)| density.width_ps(bin).1)
+            .column("true_width_ps", Fixed(3), |((bin, _), _)| bin.true_width_ps)
+            .column("dnl", Fixed(5), |((_, dnl), _)| *dnl)
+            .column("inl", Fixed(5), |(_, inl)| *inl);
         let count =
             |n: usize| density.bins.iter().find(|bin| bin.n == n).map_or(0, |bin| bin.count);
         let counts: Vec<_> = (0..=found.taps).map(|n| (n, count(n))).collect();
-        let counts = Sheet::of(&counts).column("n", Digits::Shortest, |(n, _)| *n).column(
+        let counts = Sheet::of(&counts).column("n", Shortest, |(n, _)| *n).column(
             "count",
-            Digits::Shortest,
+            Shortest,
             |(_, count)| *count,
         );
         let transfer = Sheet::of(&found.transfer.points)
-            .column("delay_ps", Digits::Fixed(3), |at| at.delay_ps)
-            .column("coarse", Digits::Shortest, |at| at.hit.coarse)
-            .column("n", Digits::Shortest, |at| at.hit.n)
-            .column("time_ps", Digits::Fixed(3), |at| at.time_ps)
-            .column("equal_taps_time_ps", Digits::Fixed(3), |at| at.raw_time_ps)
-            .column("code", Digits::Shortest, |at| at.code);
+            .column("delay_ps", Fixed(3), |at| at.delay_ps)
+            .column("coarse", Shortest, |at| at.hit.coarse)
+            .column("n", Shortest, |at| at.hit.n)
+            .column("time_ps", Fixed(3), |at| at.time_ps)
+            .column("equal_taps_time_ps", Fixed(3), |at| at.raw_time_ps)
+            .column("code", Shortest, |at| at.code);
         vec![bins.file("bins.csv"), counts.file("counts.csv"), transfer.file("transfer.csv")]
     }
 

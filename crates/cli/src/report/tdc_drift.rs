@@ -10,7 +10,8 @@ use tofsim_learn::evaluation::Spread;
 
 use crate::text::table::number_or_dash;
 
-use super::sheet::{Digits, NamedText, Sheet, evenly};
+use super::sheet::Digits::{Fixed, Shortest};
+use super::sheet::{NamedText, Sheet, evenly};
 use super::tdc_plots::{BLUE, PlotLine, lines};
 use super::writer::Findings;
 
@@ -85,13 +86,12 @@ impl DriftFindings<'_> {
     /// A row for each moment.
     fn sheet(&self) -> Sheet<'_, Point> {
         let sheet = Sheet::of(&self.found.points)
-            .column("time_s", Digits::Shortest, |at| at.moment.time_s)
+            .column("time_s", Shortest, |at| at.moment.time_s)
             // To the microsecond, without the zeros at its end.
             .words("t [s]", |at| (at.moment.time_s * 1e6).round() / 1e6)
-            .column("temperature_c", Digits::Shortest, |at| at.moment.temperature_c)
-            .shown("degC", Digits::Fixed(2))
-            .column("supply_mv", Digits::Shortest, |at| at.moment.supply_mv)
-            .column("calibrated_s", Digits::Shortest, |at| at.calibrated_s);
+            .both(("temperature_c", Shortest), ("degC", Fixed(2)), |at| at.moment.temperature_c)
+            .column("supply_mv", Shortest, |at| at.moment.supply_mv)
+            .column("calibrated_s", Shortest, |at| at.calibrated_s);
         let sheet = spread(sheet, ["once", "once"], |at| &at.once);
         spread(sheet, ["repeated", "again"], |at| &at.repeated)
     }
@@ -109,10 +109,12 @@ fn spread<'a>(
     };
     sheet
         .words(format!("{heading} [mm]"), mean)
-        .column(format!("{name}_mean_mm"), Digits::Shortest, move |at| of(at).mean_mm)
-        .column(format!("{name}_mean_se_mm"), Digits::Shortest, move |at| of(at).mean_se_mm)
-        .column(format!("{name}_two_sd_mm"), Digits::Shortest, move |at| of(at).two_sd_mm)
-        .shown("2 sigma", Digits::Fixed(2))
-        .column(format!("{name}_failures"), Digits::Shortest, move |at| of(at).failures)
-        .shown("none", Digits::Shortest)
+        .column(format!("{name}_mean_mm"), Shortest, move |at| of(at).mean_mm)
+        .column(format!("{name}_mean_se_mm"), Shortest, move |at| of(at).mean_se_mm)
+        .both((&format!("{name}_two_sd_mm"), Shortest), ("2 sigma", Fixed(2)), move |at| {
+            of(at).two_sd_mm
+        })
+        .both((&format!("{name}_failures"), Shortest), ("none", Shortest), move |at| {
+            of(at).failures
+        })
 }

@@ -6,7 +6,8 @@ use tofsim_learn::characterisation::rom::{CalibratedRom, RomEntry};
 
 use crate::text::table::{self, grouped};
 
-use super::sheet::{Digits, Sheet, evenly};
+use super::sheet::Digits::{Fixed, Shortest};
+use super::sheet::{Sheet, evenly};
 use super::writer::Findings;
 
 /// Rows of the table, spread evenly over the words with hits.
@@ -47,12 +48,9 @@ pub fn csv(rom: &CalibratedRom) -> String {
 
 fn sheet(rom: &CalibratedRom) -> Sheet<'_, RomEntry> {
     Sheet::of(&rom.entries)
-        .column("n", Digits::Shortest, |entry| entry.n)
-        .shown("n", Digits::Shortest)
+        .both(("n", Shortest), ("n", Shortest), |entry| entry.n)
         .words("count", |entry| grouped(entry.count))
-        .column("age_ps", Digits::Fixed(3), |entry| entry.age_ps)
-        .shown("age [ps]", Digits::Fixed(2))
-        .column("age_se_ps", Digits::Fixed(3), |entry| entry.age_se_ps)
-        .shown("se [ps]", Digits::Fixed(2))
+        .both(("age_ps", Fixed(3)), ("age [ps]", Fixed(2)), |entry| entry.age_ps)
+        .both(("age_se_ps", Fixed(3)), ("se [ps]", Fixed(2)), |entry| entry.age_se_ps)
         .words("word", |entry| entry.units)
 }

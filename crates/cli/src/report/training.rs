@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 use tofsim_learn::training::accuracy::{DistanceErrors, worst_ratio};
 use tofsim_learn::training::weighting::Weighting;
 
-use super::sheet::{Digits, Sheet};
+use super::sheet::Digits::{Literal, Shortest};
+use super::sheet::Sheet;
 use super::writer::Findings;
 
 /// The accuracy of a network by distance.
@@ -51,11 +52,11 @@ pub fn hundredths(value: f64) -> f64 {
 /// Returns a row for each distance, as CSV.
 pub fn csv(rows: &[DistanceErrors]) -> String {
     Sheet::of(rows)
-        .column("distance_m", Digits::Shortest, |row| row.distance_m)
-        .column("histograms", Digits::Shortest, |row| row.count)
-        .column("mean_mm", Digits::Literal, |row| row.mean_mm)
-        .column("two_sd_mm", Digits::Literal, |row| row.two_sd_mm)
-        .column("rms_mm", Digits::Literal, |row| row.rms_mm)
+        .column("distance_m", Shortest, |row| row.distance_m)
+        .column("histograms", Shortest, |row| row.count)
+        .column("mean_mm", Literal, |row| row.mean_mm)
+        .column("two_sd_mm", Literal, |row| row.two_sd_mm)
+        .column("rms_mm", Literal, |row| row.rms_mm)
         .csv()
 }
 

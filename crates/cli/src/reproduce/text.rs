@@ -1,4 +1,4 @@
-//! What was found, for a terminal.
+//! Findings as text for a terminal.
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{ContentArrangement, Table};

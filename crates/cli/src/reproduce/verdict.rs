@@ -1,8 +1,8 @@
-//! What the thesis prints, what comes out here, and by which rule the two are the same.
+//! Comparison of the thesis's value with ours, by a stated rule.
 
 use serde::Serialize;
 
-/// What a comparison comes to.
+/// Verdict of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {

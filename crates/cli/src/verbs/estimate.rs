@@ -63,7 +63,7 @@ struct Row<'a> {
     file: &'a str,
     #[serde(flatten)]
     numbers: Numbers,
-    /// What the other estimators say.
+    /// Results of the other estimators.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     estimates: Vec<Estimate>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -128,7 +128,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 }
 
 impl Args {
-    /// What the histograms are of, as far as it is known.
+    /// Returns the setup of the histograms, as far as it is known.
     fn setup(&self) -> Result<Setup> {
         let mut loaded = scenario::load(&self.scenario, &self.set)?;
         if let Some(network) = &self.network {
@@ -149,7 +149,7 @@ impl Args {
         self.explain && (is_asked_for || !self.explains_likelihood())
     }
 
-    /// What the depths lie outside of; the network's, only where it was said what the histograms are of.
+    /// Returns the notes on the depths; those of the network only if the histograms' scenario was given.
     fn notes(&self, setup: &Setup) -> Result<Vec<Note>> {
         let is_said = self.scenario != scenario::DEFAULT || !self.set.is_empty();
         let mut notes = if is_said { setup.notes()? } else { Vec::new() };

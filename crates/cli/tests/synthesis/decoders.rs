@@ -1,4 +1,4 @@
-//! What each decoder costs is what `tofsim tdc --decoders` says of it.
+//! Test that the resources of each decoder equal those in `tofsim tdc --decoders`.
 
 use tofsim::firmware::tdc_decoder::Decoder;
 use tofsim_learn::characterisation::decoders::{COSTS, DecoderCost};

@@ -1,5 +1,5 @@
-//! What `docs/timing.json` records of place-and-route: `./check --timing` makes it, and here it is held
-//! against the Verilog, the page about it, and what there has to be.
+//! Tests of the recorded place and route in `docs/timing.json`, which `./check --timing` writes, against the Verilog,
+//! the document about it, and the required contents.
 
 use std::fs;
 use std::path::Path;

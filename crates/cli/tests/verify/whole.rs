@@ -1,4 +1,4 @@
-//! What `verify` runs without being told, and what it says of what it could not see.
+//! Tests of the default checks of `verify`, and of its report on missing coverage.
 
 use std::fs;
 use std::path::Path;

@@ -21,7 +21,7 @@ const FITTED: usize = 3;
 pub struct Goodness {
     /// Squares of residuals over their variances.
     pub chi_square: f64,
-    /// What it would be on average.
+    /// Expected value on average.
     pub degrees_of_freedom: f64,
     /// Chance that it is as large, if the pulse is right.
     pub chance: f64,

@@ -1,4 +1,4 @@
-//! What each decoder makes of the same hits on the same chain.
+//! Comparison of decoders on the same hits and the same chain.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use super::bubbles;
 use super::density::{CodeDensity, Spread};
 use super::timing::TimeError;
 
-/// What the Verilog of a decoder takes of a Kintex-7, by Yosys (`docs/resources.md`).
+/// Resources of a decoder's Verilog on a Kintex-7, by Yosys (`docs/resources.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DecoderCost {
     /// LUT1 to LUT6 and INV.

@@ -93,8 +93,8 @@ impl Phases {
     }
 }
 
-/// What the registers make of a hit so long after a laser edge, edge by edge; nothing if tap 0 is not seen before the
-/// window ends.
+/// Returns the registered taps of a hit at a time from a laser edge, edge by edge; empty if tap 0 is not reached
+/// before the window ends.
 fn sampled(
     p: &tdc::Params,
     disturbance: &mut Disturbance,

@@ -9,7 +9,7 @@ use tofsim::{Note, NoteCode};
 /// A word of the ROM.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RomEntry {
-    /// What the decoder makes of the taps.
+    /// Decoder's number for the taps.
     pub n: usize,
     /// Hits that had it.
     pub count: u64,

@@ -26,7 +26,7 @@ use super::variant::Variant;
 /// Frames between two looks at whether to stop.
 const BLOCK: u64 = 64;
 
-/// What is to be measured.
+/// Measurements to make.
 #[derive(Clone, Debug)]
 pub struct Plan {
     loaded: Loaded,
@@ -150,7 +150,7 @@ impl Plan {
         })
     }
 
-    /// What is on in every variant.
+    /// Returns the effects that are on in every variant.
     fn base(&self) -> EffectSet {
         self.states.left_out()
     }

@@ -68,7 +68,7 @@ fn network(variant: &Variant, is_rounded: bool, has_table: bool) -> Box<dyn Esti
     Box::new(NetworkEstimator::new("network", size, depth_m))
 }
 
-/// What the table has for a sum [1].
+/// Looks up a sum in the activation table [1].
 fn looked_up(params: &NetworkParams, sum: f64) -> f64 {
     let datapath = &params.forward2.datapath;
     // Beyond the table's range it has its last entry, so the largest sums need not be exact.
@@ -121,7 +121,7 @@ mod tests {
     use crate::error_budget::effect::EffectSet;
     use tofsim::scenario;
 
-    /// What a kind of estimator says of a frame of kc705 with and without some effects [m].
+    /// Returns the depths of an estimator for a frame of kc705 with some effects off [m].
     fn depths(kind: EstimatorKind, off: &[&[Effect]]) -> Vec<f64> {
         let loaded = scenario::load("kc705", &[]).unwrap();
         let all = EffectSet::of(Effect::ALL);

@@ -1,4 +1,4 @@
-//! What finds the distance of a target from a histogram, and why there may be none.
+//! Interface of estimators: the distance of a target from a histogram, or the reason for a failure.
 
 use tofsim::firmware::tof_top::status::{Status, StatusSet};
 use tofsim::network::Histogram;
@@ -40,7 +40,7 @@ pub trait Estimator: Send + Sync {
         self.estimate(histogram).map(Found::depth)
     }
 
-    /// Whether it has to have a dark histogram too.
+    /// Returns whether the estimator requires a dark histogram too.
     fn needs_dark(&self) -> bool {
         false
     }
@@ -55,7 +55,7 @@ pub trait Estimator: Send + Sync {
     }
 }
 
-/// What an estimator finds in a histogram.
+/// Result of an estimator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     /// Distance of the target, the first one if there are two [m].

@@ -23,7 +23,7 @@ const LEVEL: f64 = 1e-6;
 /// Hits that a cell of the test has to expect, or it is joined to the next.
 const CELL: f64 = 20.0;
 
-/// What came of the frames of one scene.
+/// Result of the frames of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CrossCheck {
     /// Distance of the target [m].

@@ -1,7 +1,7 @@
-//! What the likelihood estimator comes by, stage by stage: its integers beside the same algorithm in double
-//! precision.
+//! Stages of the likelihood estimator: its integers compared with the same algorithm in double precision.
 //!
-//! The twin goes its own way from the histogram on, so that a difference is what all rounding before it costs.
+//! The double-precision version is independent from the histogram on, so that a difference includes all previous
+//! roundings.
 
 mod model;
 mod scan;
@@ -29,13 +29,13 @@ use twin::Twin;
 pub struct StageValue {
     /// Where it comes out: `ambient`, `scan`, `start`, `step 1` to `step 6`, `rescan`, `end`.
     pub stage: String,
-    /// What it is.
+    /// Name of the value.
     pub value: String,
     /// Unit of the next but one and of what follows it.
     pub unit: &'static str,
     /// The word as an integer.
     pub word: i64,
-    /// What the word stands for.
+    /// Value of the word.
     pub fixed: f64,
     /// The same in double precision.
     pub float: f64,
@@ -115,7 +115,7 @@ impl LikelihoodExplainer {
     }
 }
 
-/// What is found of the stages, one after the other.
+/// Collected values of the stages, in order.
 struct Values<'a> {
     model: &'a Model,
     stage: String,
@@ -175,7 +175,7 @@ impl Values<'_> {
         self.add("depth", "m", found.depth.get(), metre, float.depth_m);
     }
 
-    /// What one of an ambient hazard's word stands for [1 / bin].
+    /// Returns the value of one in an ambient hazard's word [1 / bin].
     fn ambient_unit(&self) -> f64 {
         UNITS as f64 * (-f64::from(AMBIENT_FRACTION)).exp2()
     }

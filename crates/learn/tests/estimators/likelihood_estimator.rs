@@ -79,7 +79,7 @@ impl Scene<'_> {
     }
 }
 
-/// What many estimates come to.
+/// Statistics of many estimates.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     drawn: f64,

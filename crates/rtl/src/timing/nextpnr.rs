@@ -130,11 +130,11 @@ fn digest_file(netlist: &Path) -> Result<String> {
     Ok(format!("{:016x}", digest_of(format_args!("{text}"))))
 }
 
-/// Synthesises a block, then places and routes it with each seed from 1 to `seeds`; `done` is told of each.
-/// What `before` has of the same netlist and as many seeds is taken from there.
+/// Synthesizes a block, then places and routes it with each seed from 1 to `seeds`; `done` is called after each.
+/// Results of the same netlist in `before` are reused.
 ///
 /// # Errors
-/// When a tool is missing, refuses what it is given, or does not end.
+/// If a tool is missing, refuses its input, or does not end.
 pub fn measure(
     design: &Design,
     block: &TimedBlock,

@@ -4,7 +4,8 @@ use tofsim_learn::error_budget::DepthBudget;
 use tofsim_learn::error_budget::figures::{ErrorChange, ErrorFigures};
 use tofsim_studies::table::Cell;
 
-use crate::report::sheet::{Digits, Sheet};
+use crate::report::sheet::Digits::Shortest;
+use crate::report::sheet::Sheet;
 
 use super::DepthBudgets;
 use super::json::words;
@@ -43,9 +44,9 @@ struct EffectRow<'a> {
 pub fn csv(of: &DepthBudgets) -> String {
     let rows: Vec<_> = of.points.iter().flat_map(|(value, budget)| rows(*value, budget)).collect();
     let sheet = Sheet::of(&rows)
-        .column(of.key.unwrap_or("target.distance_m"), Digits::Shortest, |row| row.value)
-        .column("effect", Digits::Shortest, |row| row.effect)
-        .column("state", Digits::Shortest, |row| row.state);
+        .column(of.key.unwrap_or("target.distance_m"), Shortest, |row| row.value)
+        .column("effect", Shortest, |row| row.effect)
+        .column("state", Shortest, |row| row.state);
     let sheet = group(sheet, "alone", FIGURES, |row| row.alone);
     let sheet = group(sheet, "all_but", FIGURES, |row| row.all_but);
     let sheet = group(sheet, "alone_less_off", CHANGES, |row| row.adds);
@@ -60,7 +61,7 @@ fn group<'a, T>(
     of: fn(&EffectRow<'a>) -> Option<&'a T>,
 ) -> Sheet<'a, EffectRow<'a>> {
     columns.iter().fold(sheet, |sheet, (column, value)| {
-        sheet.column(format!("{name}_{column}"), Digits::Shortest, move |row| of(row).map(value))
+        sheet.column(format!("{name}_{column}"), Shortest, move |row| of(row).map(value))
     })
 }
 

@@ -22,7 +22,7 @@ const FAR: f64 = 25.0;
 /// An estimate, and all that it comes by.
 #[derive(Clone, Debug)]
 pub struct Twin {
-    /// What the blocks of bins show of ambient light.
+    /// Ambient light found in the blocks of bins.
     pub ambient: Ambient,
     /// The highest place of the box.
     pub start: Best,

@@ -33,7 +33,7 @@ fn is_unlikely(found: &Found, bins: usize) -> bool {
     found.chi_square() > bins + MOST_CHI * (2.0 * bins).sqrt()
 }
 
-/// What the firmware's estimator says of many pairs.
+/// Results of the firmware's estimator for many pairs.
 #[derive(Clone, Copy, Debug, Default)]
 struct Outcomes {
     drawn: f64,
