@@ -1,4 +1,4 @@
-//! Where codes, histogram and light come from: the optics, or files that the scenario names.
+//! Sources of codes, histogram and light: the optics, or files that the scenario names.
 
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;

@@ -13,7 +13,7 @@ use super::variant::{evened, is_even, shortest_ps};
 /// What can be said of an effect.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EffectState {
-    /// It is on, and is measured.
+    /// The effect is on, and is measured.
     On,
     /// The scenario or the estimator does not have it: why.
     Off(String),

@@ -50,7 +50,7 @@ pub struct Information {
     pub exponent: i64,
     /// By how many bits the step was shortened.
     pub cut: u32,
-    /// How far mu went [units / 16].
+    /// Change of mu [units / 16].
     pub move_by: i64,
 }
 
