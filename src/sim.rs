@@ -1,5 +1,7 @@
 //! A run: the device, the light on it and the acquisition computer, stepped in time.
 
+pub(crate) mod callback;
+mod clockwork;
 pub(crate) mod cycles;
 pub mod device;
 pub mod disturbance;
@@ -18,7 +20,6 @@ pub mod run;
 pub mod second_opinion;
 pub mod setup;
 pub mod shot_recorder;
-pub(crate) mod sinks;
 pub mod stepped;
 pub(crate) mod stepping;
 mod timeline;

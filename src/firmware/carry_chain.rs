@@ -7,10 +7,10 @@
 use crate::signals;
 
 mod delays;
-mod stop_line;
+mod transitions;
 
 pub use delays::{Delays, LENGTHS, TAPS, Taps};
-pub use stop_line::{MAX_TRANSITIONS, StopLine};
+pub use transitions::{MAX_TRANSITIONS, Transitions};
 
 signals! {
     /// Input ports.

@@ -8,10 +8,10 @@
 //! edge             e            e+1        e+2 .. e+7
 //! ```
 
-use crate::kernel::{AWAKE, Clocked, Time};
+use crate::kernel::Clocked;
 use crate::{connect, signals};
 
-use super::carry_chain::{self, CarryChain, Delays, StopLine};
+use super::carry_chain::{self, CarryChain, Delays, Taps};
 use super::coarse_counter::{self, CoarseCounter, DEFAULT_COARSE_BITS};
 use super::tdc_decoder::{self, Decoder, Encoder, TdcDecoder, TimeScale};
 use super::tdc_latch::{self, TdcLatch};
@@ -150,33 +150,30 @@ connect! {
 }
 
 impl Tdc {
-    /// The rising edge of `clk_sys` at `now`.
+    /// Takes a rising edge of `clk_sys`, at which the chain's registers sample `taps`.
     #[inline(always)]
-    pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
+    pub fn rise(&mut self, i: &In, p: &Params, taps: Taps) {
         let tdc_decoder = Wires::tdc_decoder(self, i);
 
-        self.sample(i, p, line, now);
+        self.sample(i, p, taps);
         self.tdc_decoder.tick(&tdc_decoder, &p.decoder);
     }
 
-    /// The part of all before the decoder.
+    /// Takes the edge's part of all blocks before the decoder.
     #[inline(always)]
-    pub fn sample(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
+    pub fn sample(&mut self, i: &In, p: &Params, taps: Taps) {
         let coarse_counter = Wires::coarse_counter(self, i);
         let tdc_latch = Wires::tdc_latch(self, i);
 
-        self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
+        self.carry_chain = CarryChain { taps };
         self.coarse_counter.tick(&coarse_counter, &p.coarse_counter);
         self.tdc_latch.tick(&tdc_latch, &p.tap_0);
     }
 
-    /// Coming edges at which, while the inputs hold, nothing before the decoder would move but the
-    /// coarse count.
+    /// Coming edges at which, while the inputs and the sampled taps hold, nothing before the decoder would move but
+    /// the coarse count.
     #[inline(always)]
-    pub fn quiet(&self, i: &In, p: &Params, line: &StopLine) -> u64 {
-        if !line.is_shown_by(&self.carry_chain.taps) {
-            return AWAKE;
-        }
+    pub fn quiet(&self, i: &In, p: &Params) -> u64 {
         let tdc_latch = self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0);
         let coarse_counter = &Wires::coarse_counter(self, i);
         tdc_latch.min(self.coarse_counter.quiet(coarse_counter, &p.coarse_counter))
@@ -207,22 +204,25 @@ impl Tdc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::firmware::carry_chain::TAPS;
+    use crate::firmware::carry_chain::{TAPS, Transitions};
+    use crate::kernel::Time;
 
     /// The code of a photon, with the laser edge at edge 10, and the cycle of `tdc_valid`.
     fn code_of(photon_fs: u64, count_stages: u64) -> Option<(u64, u64)> {
         let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
         let params = Params::new(delays, TimeScale::default(), DEFAULT_COARSE_BITS, count_stages);
-        let (mut tdc, mut line) = (Tdc::default(), StopLine::default());
+        let (mut tdc, mut transitions) = (Tdc::default(), Transitions::default());
+        let mut tdc_stop = false;
         let photon = Time::from_ns(80) + Time::from_fs(photon_fs);
         for edge in 0..30 {
             let now = Time::from_ns(8 * edge);
-            if photon <= now && !line.level() {
-                line.toggle(photon);
+            if photon <= now && !tdc_stop {
+                tdc_stop = true;
+                transitions.push(photon);
             }
-            let start = edge == 11;
-            let i = In { start, tdc_stop: line.level(), ..In::default() };
-            tdc.rise(&i, &params, &mut line, now);
+            let i = In { start: edge == 11, tdc_stop, ..In::default() };
+            let taps = transitions.sample(tdc_stop, now, &params.delays);
+            tdc.rise(&i, &params, taps);
             if tdc.tdc_decoder.tdc_valid {
                 return Some((edge, tdc.tdc_decoder.tdc_code.get()));
             }

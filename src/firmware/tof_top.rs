@@ -4,9 +4,9 @@
 //! (see [`crate::sim`]).
 
 use crate::connect;
-use crate::kernel::{Clocked, Time};
+use crate::kernel::Clocked;
 
-use super::carry_chain::StopLine;
+use super::carry_chain::Taps;
 use super::centroid_estimator::{self, CentroidEstimator};
 use super::code_preload::{self, CodePreload};
 use super::control_sync::{self, ControlSync};
@@ -206,10 +206,11 @@ impl TofTop {
         top
     }
 
-    /// An edge at which `clk_sys` and `clk_laser` rise, at `now`. All inputs are read in the first
-    /// block, before any register changes in the second: the order within a block decides nothing.
+    /// Takes an edge at which `clk_sys` and `clk_laser` rise and the delay line's registers sample `taps`. All inputs
+    /// are read in the first block, before any register changes in the second: the order within a block decides
+    /// nothing.
     #[inline(always)]
-    pub fn rise(&mut self, p: &Params, line: &mut StopLine, now: Time) {
+    pub fn rise(&mut self, p: &Params, taps: Taps) {
         let reset_sync_laser = self.reset_sync_laser.next(&Wires::reset_sync_laser(self), &());
         let reset_sync_sys = self.reset_sync_sys.next(&Wires::reset_sync_sys(self), &());
         let control_sync = self.control_sync.next(&Wires::control_sync(self), &());
@@ -226,7 +227,7 @@ impl TofTop {
         (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
         self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
         self.spad_control = spad_control;
-        self.convert(p, &tdc, &code_preload, line, now);
+        self.convert(p, &tdc, &code_preload, taps);
         if let Some(p) = &p.tdc_calibration {
             self.tdc_calibration.tick(&tdc_calibration, p);
         }
@@ -258,18 +259,17 @@ impl TofTop {
         self.drive_laser();
     }
 
-    /// The TDC or its stand-in.
+    /// Takes the edge's part of the TDC or of its stand-in.
     #[inline(always)]
     pub(crate) fn convert(
         &mut self,
         p: &Params,
         tdc: &tdc::In,
         code_preload: &code_preload::In,
-        line: &mut StopLine,
-        now: Time,
+        taps: Taps,
     ) {
         match &p.code_source {
-            CodeSource::Tdc => self.tdc.rise(tdc, &p.tdc, line, now),
+            CodeSource::Tdc => self.tdc.rise(tdc, &p.tdc, taps),
             CodeSource::Preload(rom) => {
                 self.code_preload = self.code_preload.next(code_preload, rom);
             }

@@ -3,7 +3,7 @@
 //! Nothing is searched for inside a cycle: an avalanche or a control change is a time to compare
 //! with, and asynchronous events go before the clock edges of the same instant.
 
-use crate::firmware::carry_chain::StopLine;
+use crate::firmware::carry_chain::{Taps, Transitions};
 use crate::firmware::pll::Pll;
 use crate::firmware::tof_top::{Params, Pins, TofTop};
 use crate::kernel::Time;
@@ -25,9 +25,10 @@ pub use super::probe::{AvalancheListener, Edge, Off, SignalProbe};
 pub struct Device {
     /// The firmware.
     pub top: TofTop,
-    /// The wire from detector to firmware.
-    pub line: StopLine,
+    /// Transitions of `tdc_stop`, the wire from the detector.
+    pub(super) transitions: Transitions,
     disturbance: Option<Box<Disturbance>>,
+    /// What reaches the SPADs.
     pub light: Light,
     pub(super) spads: Spads,
     /// From the diodes to the wire.
@@ -57,7 +58,7 @@ impl Device {
         spads.arm_all(light.next_avalanche(Time::ZERO, 1.0));
         Device {
             top: TofTop::new(pins, p),
-            line: StopLine::default(),
+            transitions: Transitions::default(),
             disturbance: disturbance.map(Box::new),
             spads,
             front_end,
@@ -138,10 +139,8 @@ impl Device {
         self.before_edge(Edge::Both, now, probe, listener);
         self.settle(now, probe, listener);
         let lit = self.top.nets.laser_on;
-        self.top.rise(p, &mut self.line, now);
-        if let Some(disturbance) = &mut self.disturbance {
-            self.top.tdc.carry_chain.taps = disturbance.sample(&self.line, now, &p.tdc.delays);
-        }
+        let taps = self.sample_taps(p, now);
+        self.top.rise(p, taps);
         if self.top.socket.algo_done {
             self.timeline.take_depth(self.pll.clk_sys.rise(self.cycle));
         }
@@ -167,6 +166,16 @@ impl Device {
         }
         self.fall_laser(middle + quarter, probe, listener);
         self.cycle += 1;
+    }
+
+    /// Samples the taps of the delay line at the edge at `now`.
+    #[inline(always)]
+    pub(super) fn sample_taps(&mut self, p: &Params, now: Time) -> Taps {
+        let (level, delays) = (self.top.pins.tdc_stop, &p.tdc.delays);
+        match &mut self.disturbance {
+            None => self.transitions.sample(level, now, delays),
+            Some(disturbance) => disturbance.sample(level, &self.transitions, now, delays),
+        }
     }
 
     /// Brings the levels of the clocks up to date where tracing begins, before the next edge.
@@ -362,9 +371,15 @@ impl Device {
     /// The wire to the firmware follows its front end.
     fn drive_stop(&mut self, now: Time) {
         let level = self.front_end.drive(self.spads.output(), now);
-        if level != self.line.level() {
-            self.line.toggle(now);
+        if level != self.top.pins.tdc_stop {
             self.top.pins.tdc_stop = level;
+            self.transitions.push(now);
         }
+    }
+
+    /// Puts `tdc_stop` low, as it has been for longer than the delay line.
+    pub(super) fn rest_stop(&mut self) {
+        self.top.pins.tdc_stop = false;
+        self.transitions = Transitions::default();
     }
 }

@@ -1,12 +1,12 @@
 //! What makes a chain another at each edge: registers that sample too early or too late, and delays that grow and
 //! shrink with the conditions of the die.
 //!
-//! The plain step knows a chain that stands still. This takes the place of what its registers took.
+//! The usual chain stands still, and its registers sample at the edge.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 
-use crate::firmware::carry_chain::{Delays, StopLine, Taps};
+use crate::firmware::carry_chain::{Delays, Taps, Transitions};
 use crate::kernel::Time;
 use crate::kernel::thermometer::CAPACITY;
 use crate::scenario::drift::Pace;
@@ -29,15 +29,20 @@ impl Disturbance {
         Disturbance { half_window: Time::from_fs(window.fs() / 2), words, pace }
     }
 
-    /// The taps at an edge, of a chain that has these delays at a pace of 1.
+    /// Samples the taps at an edge, with the pin at `level`, of a chain that has these delays at a pace of 1.
     #[cold]
-    pub fn sample(&mut self, line: &StopLine, now: Time, delays: &Delays) -> Taps {
+    pub fn sample(
+        &mut self,
+        level: bool,
+        transitions: &Transitions,
+        now: Time,
+        delays: &Delays,
+    ) -> Taps {
         let pace = self.pace.at(now);
         // A whole number stays one at a pace of 1.
         let usual = |age: Time| Time::from_fs((age.fs() as f64 / pace).round() as u64);
         let end = delays.longest() + self.half_window;
-        let ages: Vec<_> = line.ages(now).map(usual).take_while(|age| *age < end).collect();
-        let level = line.level();
+        let ages: Vec<_> = transitions.ages(now).map(usual).take_while(|age| *age < end).collect();
         if self.half_window == Time::ZERO || ages.is_empty() {
             return Taps::clipped(delays.taps(), level, ages.iter().map(|age| delays.rank(*age)));
         }

@@ -41,7 +41,7 @@ impl Photons {
 
     /// The level of `tdc_stop`.
     pub fn level(&self) -> bool {
-        self.device.line.level()
+        self.device.top.pins.tdc_stop
     }
 
     /// Goes on to where `tdc_stop` next changes before the firmware's coming edge, or on it; when that is.

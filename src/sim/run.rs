@@ -1,36 +1,34 @@
 //! Runs a device for a number of frames, and hands on what it shows.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use crate::error::{Error, Input, Result};
-use crate::firmware::tof_top::Params;
 use crate::kernel::Time;
 use crate::note::Note;
 use crate::scenario::window::Window;
 use crate::waves::{Marks, Waves};
 
-use super::device::{Device, Off};
-use super::frames::{Frame, Frames};
+use super::callback::{Callback, poll_stop};
+use super::clockwork::{Clockwork, Event};
+use super::device::Off;
+use super::frames::Frame;
 use super::setup::Setup;
-use super::shot_recorder::{Shot, ShotRecorder};
-use super::sinks::{OptionalRecorder, Sinks, Taker};
-use super::stepping::{FastForward, Stepping};
+use super::shot_recorder::{Recording, Shot, ShotListener};
+use super::stepping::Stepping;
 use super::wave_tracer::{WaveTracer, WindowedProbe};
 
-/// Cycles between two looks at whether to stop.
-const POLL_INTERVAL: u64 = 1 << 14;
-/// Cycles that a fast way takes at most between two of them: a part of a second.
-const FAST_INTERVAL: u64 = 1 << 20;
+/// Cycles between two polls of whether to stop, a part of a second.
+const POLL_INTERVAL: u64 = 1 << 18;
 
 /// Observers of a run, and the flag that stops it.
 #[derive(Default)]
 pub struct Observers<'a> {
     /// The waveform, and the parts of the run that go into it.
     pub waves: Option<(Waves, Vec<Window>)>,
-    /// Takes each shot, in order.
-    pub shots: Option<Taker<'a, Shot>>,
-    /// Takes each frame, in order.
-    pub frames: Option<Taker<'a, Frame>>,
+    /// Receives each shot, in order.
+    pub shots: Option<Callback<'a, Shot>>,
+    /// Receives each frame, in order, after its shots.
+    pub frames: Option<Callback<'a, Frame>>,
     /// Set from outside to stop the run.
     pub stop: Option<&'a AtomicBool>,
 }
@@ -46,7 +44,7 @@ pub struct Outcome {
     pub shots: u64,
     /// Where to look in the waveform.
     pub marks: Marks,
-    /// What of its inputs the run did not come to.
+    /// Inputs that the run ended before.
     pub notes: Vec<Note>,
 }
 
@@ -54,34 +52,21 @@ pub struct Outcome {
 #[derive(Clone)]
 pub struct Run<'a> {
     pub(super) setup: &'a Setup,
-    pub(super) device: Device,
-    params: &'a Params,
-    pub(super) frames: Frames,
-    /// What no run reaches but one that never ends [cycles of clk_sys].
+    pub(super) clockwork: Clockwork,
+    /// Only a run that never ends goes past it [cycles of clk_sys].
     pub(super) limit: u64,
-    pub(super) fast: FastForward,
-    /// When to look at whether to stop next [cycles of clk_sys].
-    pub(super) next_poll: u64,
 }
 
 impl<'a> Run<'a> {
     /// A run of `setup` from power-up, which skips idle cycles where nobody looks at them.
     pub fn new(setup: &'a Setup) -> Self {
-        Run {
-            setup,
-            device: setup.device(),
-            params: &setup.params,
-            frames: Frames::default(),
-            limit: 0,
-            fast: FastForward::of(Stepping::default().at_most(setup)),
-            next_poll: POLL_INTERVAL,
-        }
+        let stepping = Stepping::default().at_most(setup);
+        Run { setup, clockwork: Clockwork::new(setup.device(), stepping), limit: 0 }
     }
 
-    /// Goes through time that way while nobody looks at signals or shots; what comes of it is the
-    /// same.
+    /// Sets the fidelity for when nobody looks at signals or shots; the results are the same.
     pub fn stepping(mut self, stepping: Stepping) -> Self {
-        self.fast.stepping = stepping.at_most(self.setup);
+        self.clockwork.fast.stepping = stepping.at_most(self.setup);
         self
     }
 
@@ -106,130 +91,112 @@ impl<'a> Run<'a> {
     /// fails, or the run is stopped.
     pub fn observe(mut self, count: u64, observers: Observers) -> Result<Outcome> {
         let Observers { waves, shots, frames, stop } = observers;
-        let mut sinks = Sinks { shots, frames, stop };
-        let mut recorder = sinks.shots.is_some().then(ShotRecorder::default);
-        let mut tracer = waves.map(|(waves, windows)| WaveTracer::new(waves, windows));
-        self.limit = self.setup.longest_run(count);
-
-        match &mut tracer {
-            Some(tracer) => self.power_up(tracer),
-            None => self.power_up(&mut Off),
-        }
-        match (&mut tracer, &mut recorder) {
-            (None, None) => self.go(count, &mut Off, &mut Off, &mut sinks)?,
-            (None, Some(recorder)) => self.go(count, &mut Off, recorder, &mut sinks)?,
-            (Some(tracer), None) => self.go(count, tracer, &mut Off, &mut sinks)?,
-            (Some(tracer), Some(recorder)) => self.go(count, tracer, recorder, &mut sinks)?,
-        }
-        let (end, shots) = (self.device.next_edge(), self.frames.shots());
-        let marks = tracer.map_or(Ok(Marks::default()), |tracer| tracer.finish(end, shots))?;
+        let Some((waves, windows)) = waves else {
+            self.follow(count, &mut Off, shots, frames, stop)?;
+            return Ok(self.outcome(Marks::default()));
+        };
+        let mut tracer = WaveTracer::new(waves, windows);
+        self.follow(count, &mut tracer, shots, frames, stop)?;
+        let end = self.clockwork.device.next_edge();
+        let marks = tracer.finish(end, self.clockwork.frames.shots())?;
         Ok(self.outcome(marks))
     }
 
-    /// Simulates until `count` frames are done, or until `trace` is; it sees the signals whenever it
+    /// Simulates until `count` frames are done, or until `probe` is; it sees the signals whenever it
     /// wants to.
     ///
     /// # Errors
-    /// When the control signals keep a frame from ending, `trace` fails, or the run is stopped.
+    /// When the control signals keep a frame from ending, `probe` fails, or the run is stopped.
     #[doc(hidden)]
     pub fn traced<T: WindowedProbe>(
         mut self,
         count: u64,
-        trace: &mut T,
+        probe: &mut T,
         stop: Option<&AtomicBool>,
     ) -> Result<Outcome> {
-        let mut sinks = Sinks { shots: None, frames: None, stop };
-        self.limit = self.setup.longest_run(count);
-        self.power_up(trace);
-        self.go(count, trace, &mut Off, &mut sinks)?;
+        self.follow(count, probe, None, None, stop)?;
         Ok(self.outcome(Marks::default()))
     }
 
-    fn power_up<T: WindowedProbe>(&mut self, trace: &mut T) {
-        if trace.begins_at_power_up(&mut self.device) {
-            self.device.power_up(trace, &mut Off);
+    /// Simulates from power-up until `count` frames are done.
+    fn follow<T: WindowedProbe>(
+        &mut self,
+        count: u64,
+        probe: &mut T,
+        shots: Option<Callback<Shot>>,
+        frames: Option<Callback<Frame>>,
+        stop: Option<&AtomicBool>,
+    ) -> Result<()> {
+        self.limit = self.setup.longest_run(count);
+        let device = &mut self.clockwork.device;
+        if probe.begins_at_power_up(device) {
+            device.power_up(probe, &mut Off);
         } else {
-            self.device.power_up(&mut Off, &mut Off);
+            device.power_up(&mut Off, &mut Off);
+        }
+        let mut ignore = |_: &Frame| Ok(());
+        let take: Callback<Frame> = match frames {
+            Some(take) => take,
+            None => &mut ignore,
+        };
+        match shots {
+            None => self.go(count, probe, &mut Off, take, stop),
+            Some(shots) => self.go(count, probe, &mut Recording::new(shots), take, stop),
+        }
+    }
+
+    /// Simulates until `count` frames are done, one at least, or until `probe` is.
+    pub(super) fn go<T: WindowedProbe, S: ShotListener>(
+        &mut self,
+        count: u64,
+        probe: &mut T,
+        shots: &mut S,
+        take: Callback<Frame>,
+        stop: Option<&AtomicBool>,
+    ) -> Result<()> {
+        while let Some(frame) = self.next_frame(probe, shots, stop)? {
+            take(&frame)?;
+            if self.clockwork.frames.done() >= count {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Simulates until a frame has ended; `None` if `probe` is done before.
+    pub(super) fn next_frame<T: WindowedProbe, S: ShotListener>(
+        &mut self,
+        probe: &mut T,
+        shots: &mut S,
+        stop: Option<&AtomicBool>,
+    ) -> Result<Option<Frame>> {
+        let mut next_poll = self.clockwork.cycle();
+        loop {
+            match self.clockwork.advance(&self.setup.params, next_poll, probe, shots)? {
+                Event::FrameEnd(frame) => return Ok(Some(frame)),
+                Event::Restart => {}
+                Event::Paused if probe.is_done() => return Ok(None),
+                Event::Paused => {
+                    poll_stop(stop)?;
+                    let cycle = self.clockwork.cycle();
+                    if cycle > self.limit {
+                        return Err(self.stuck());
+                    }
+                    next_poll = cycle + POLL_INTERVAL;
+                }
+            }
         }
     }
 
     pub(super) fn outcome(mut self, marks: Marks) -> Outcome {
-        let (end, cycles, shots) =
-            (self.device.next_edge(), self.device.cycle(), self.frames.shots());
-        Outcome { end, cycles, shots, marks, notes: self.device.unused() }
+        let Clockwork { device, frames, .. } = &mut self.clockwork;
+        let (end, cycles, shots) = (device.next_edge(), device.cycle(), frames.shots());
+        Outcome { end, cycles, shots, marks, notes: device.unused() }
     }
 
-    pub(super) fn go<T: WindowedProbe, R: OptionalRecorder>(
-        &mut self,
-        count: u64,
-        probe: &mut T,
-        recorder: &mut R,
-        sinks: &mut Sinks,
-    ) -> Result<()> {
-        let mut ended = self.frames.done();
-        loop {
-            if !(T::ON || T::EDGES || R::ON) {
-                let Run { device, frames, params, fast, .. } = self;
-                fast.go(device, params, frames, device.cycle() + FAST_INTERVAL);
-            }
-            self.cycle(probe, recorder)?;
-            let frame = self.frames.edge(self.device.cycle() - 1, &self.device.top, self.params);
-            if let Some(frame) = frame {
-                sinks.frame(&frame)?;
-            }
-            if probe.is_done() {
-                return Ok(());
-            }
-            let done = self.frames.done();
-            if done > ended && !self.device.top.socket.algo_done {
-                ended = done;
-                self.device.begin_frame(done);
-                recorder.pass_on(sinks)?;
-                recorder.begin_frame(done);
-                if done >= count {
-                    return Ok(());
-                }
-            }
-            if self.device.cycle() >= self.next_poll {
-                self.next_poll = self.device.cycle() + POLL_INTERVAL;
-                recorder.pass_on(sinks)?;
-                self.poll_stop(sinks)?;
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn cycle<T: WindowedProbe, R: OptionalRecorder>(
-        &mut self,
-        probe: &mut T,
-        recorder: &mut R,
-    ) -> Result<()> {
-        if (T::ON || T::EDGES) && probe.is_wanted(&mut self.device, &self.frames, self.params)? {
-            self.device.step(self.params, probe, recorder);
-        } else {
-            self.device.step(self.params, &mut Off, recorder);
-        }
-        if R::ON {
-            recorder.after_edge(&mut self.device, self.params);
-        }
-        Ok(())
-    }
-
-    fn poll_stop(&self, sinks: &Sinks) -> Result<()> {
-        if sinks.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-            return Err(Error::Interrupted);
-        }
-        if self.device.cycle() > self.limit {
-            return Err(self.stuck());
-        }
-        Ok(())
-    }
-}
-
-impl Run<'_> {
-    /// That the control signals keep a frame from ending, and which.
+    /// Returns the error that the control signals keep a frame from ending, and which of them does.
     fn stuck(&self) -> Error {
-        let pins = &self.device.top.pins;
+        let pins = &self.clockwork.device.top.pins;
         let (pin, held) = match (pins.rst, pins.dsp_rst, pins.dsp_en) {
             (true, ..) => ("rst", "stays high"),
             (_, true, _) => ("dsp_rst", "stays high"),
@@ -245,7 +212,8 @@ impl Run<'_> {
             Some(last) => format!("control.{last}.{pin}"),
             None => format!("firmware.{pin}"),
         };
-        let expected = format!("frame {} never ends: {pin} {held}", self.frames.done());
+        let done = self.clockwork.frames.done();
+        let expected = format!("frame {done} never ends: {pin} {held}");
         Input::new(format!("scenario {}", self.setup.name), expected).field(field).into()
     }
 }

@@ -2,11 +2,14 @@
 
 use std::collections::VecDeque;
 
+use crate::error::Result;
 use crate::firmware::tof_top::{CodeSource, Params, TofTop};
 use crate::kernel::Time;
 use crate::optics::hazard::Cause;
 
-use super::device::AvalancheListener;
+use super::callback::Callback;
+use super::device::{AvalancheListener, Device, Off};
+use super::frames::Frames;
 
 /// One shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,14 +39,13 @@ pub struct Shot {
 
 /// Follows shots through the TDC's pipeline.
 #[derive(Clone, Debug, Default)]
-pub struct ShotRecorder {
+pub(super) struct ShotRecorder {
     /// Shots whose result may still come, oldest first.
     open: VecDeque<Shot>,
     /// Shots that are complete, oldest first.
-    pub(super) complete: Vec<Shot>,
+    complete: Vec<Shot>,
     avalanches: VecDeque<(Time, Option<Cause>)>,
     shot: u64,
-    pub(super) frame: u64,
     /// The driver's `enable`, as the coming shot takes it.
     laser_en: bool,
     last_edge: Time,
@@ -56,9 +58,7 @@ const OPEN: usize = 3;
 /// Avalanches that may still travel in the chain, and then some.
 const AVALANCHES: usize = 16;
 
-impl AvalancheListener for ShotRecorder {
-    const ON: bool = true;
-
+impl ShotRecorder {
     fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
         self.avalanches.push_back((at, cause));
         if self.avalanches.len() > AVALANCHES {
@@ -70,11 +70,9 @@ impl AvalancheListener for ShotRecorder {
             (shot.arrival_fs, shot.cause) = (Some(between(shot.begun, at)), cause);
         }
     }
-}
 
-impl ShotRecorder {
-    /// Looks at the registers after the edge `cycle` at `now`.
-    pub fn edge(&mut self, cycle: u64, now: Time, top: &TofTop, p: &Params) {
+    /// Looks at the registers after the edge `cycle` at `now`, in that frame.
+    fn edge(&mut self, (cycle, now): (u64, Time), frame: u64, top: &TofTop, p: &Params) {
         match p.code_source {
             CodeSource::Tdc => self.follow_tdc(cycle, top, p),
             CodeSource::Preload(_) => self.follow_preload(top),
@@ -83,7 +81,7 @@ impl ShotRecorder {
             self.laser_en = top.vcsel_driver.registers.enable;
         }
         if top.vcsel_driver.registers.start {
-            let (frame, shot, laser_en) = (self.frame, self.shot, self.laser_en);
+            let (shot, laser_en) = (self.shot, self.laser_en);
             let begun = Shot { frame, shot, laser_en, begun: now, cycle, ..Shot::default() };
             self.open.push_back(begun);
             self.shot += 1;
@@ -132,6 +130,50 @@ impl ShotRecorder {
         {
             shot.code = Some(top.code_preload.tdc_code.get());
         }
+    }
+}
+
+/// Hears of avalanches, and sees the registers after each edge.
+pub(super) trait ShotListener: AvalancheListener {
+    /// Looks at the registers after the last edge.
+    ///
+    /// # Errors
+    /// When a shot cannot be handed on.
+    fn after_edge(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<()>;
+}
+
+impl ShotListener for Off {
+    #[inline(always)]
+    fn after_edge(&mut self, _: &mut Device, _: &Frames, _: &Params) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// Hands on each shot once its result is known.
+pub(super) struct Recording<'a> {
+    pub(super) recorder: ShotRecorder,
+    pub(super) take: Callback<'a, Shot>,
+}
+
+impl<'a> Recording<'a> {
+    /// Hands every shot from power-up on to `take`.
+    pub(super) fn new(take: Callback<'a, Shot>) -> Self {
+        Recording { recorder: ShotRecorder::default(), take }
+    }
+}
+
+impl AvalancheListener for Recording<'_> {
+    const ON: bool = true;
+
+    fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
+        self.recorder.avalanche(at, cause);
+    }
+}
+
+impl ShotListener for Recording<'_> {
+    fn after_edge(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<()> {
+        self.recorder.edge(device.last_edge(), frames.done(), &device.top, p);
+        self.recorder.complete.drain(..).try_for_each(|shot| (self.take)(&shot))
     }
 }
 

@@ -8,20 +8,19 @@ use crate::hierarchy::{Entry, Part};
 use crate::kernel::Time;
 use crate::scenario::{Control, QuenchMode};
 
+use super::clockwork::Clockwork;
 use super::cycles::{Cycle, Shown, Values, entries, find};
 use super::device::{Device, Edge, Off, SignalProbe};
-use super::frames::{Frame, Frames};
+use super::frames::Frame;
 use super::setup::Setup;
+use super::stepping::Stepping;
 use super::timeline::drive;
 
 /// A run in the hands of its owner. A signal's value is the one that the last edge took, as a logic analyser sees it.
 #[derive(Clone, Debug)]
 pub struct SteppedRun {
     setup: Arc<Setup>,
-    device: Device,
-    frames: Frames,
-    /// Frames whose random numbers have been taken up.
-    begun: u64,
+    clockwork: Clockwork,
     entries: Vec<Entry>,
     seen: Seen,
     /// Instants at which the wire from the detector changed.
@@ -67,9 +66,7 @@ impl SteppedRun {
         seen.part.show(&device.top, &mut seen.values);
         SteppedRun {
             setup,
-            device,
-            frames: Frames::default(),
-            begun: 0,
+            clockwork: Clockwork::new(device, Stepping::EveryCycle),
             entries,
             seen,
             stops,
@@ -88,28 +85,23 @@ impl SteppedRun {
         self.keeps_stops.then(|| std::mem::take(&mut self.stops))
     }
 
-    /// Takes an edge of `clk_sys`; the frame that it finished, if it did.
+    /// Takes an edge of `clk_sys`; returns the frame whose depth it made ready, if it did.
     pub fn step(&mut self) -> Option<Frame> {
-        let SteppedRun { setup, device, frames, seen, stops, .. } = self;
-        let past = device.line.since(Time::ZERO).next().unwrap_or(Time::ZERO);
-        device.step(&setup.params, seen, &mut Off);
+        let SteppedRun { setup, clockwork, seen, stops, .. } = self;
+        let last = |clockwork: &Clockwork| clockwork.device.transitions.since(Time::ZERO).next();
+        let past = last(clockwork).unwrap_or(Time::ZERO);
+        clockwork.edge(&setup.params, seen, &mut Off);
         if self.keeps_stops {
             let begin = stops.len();
-            stops.extend(device.line.since(past));
+            stops.extend(clockwork.device.transitions.since(past));
             stops[begin..].reverse();
         }
-        let frame = frames.edge(device.cycle() - 1, &device.top, &setup.params);
-        let done = frames.done();
-        if done > self.begun && !device.top.socket.algo_done {
-            self.begun = done;
-            device.begin_frame(done);
-        }
-        frame
+        clockwork.ready().cloned()
     }
 
     /// The last edge.
     pub fn cycle(&self) -> Option<Cycle> {
-        let number = self.device.cycle().checked_sub(1)?;
+        let number = self.clockwork.cycle().checked_sub(1)?;
         Some(Cycle { number, begin: self.seen.begin })
     }
 
@@ -135,7 +127,7 @@ impl SteppedRun {
     /// Drives pins of the acquisition computer from now on, as a `[[control]]` of the scenario does; its time is not
     /// looked at.
     pub fn drive(&mut self, control: &Control) {
-        drive(control, &mut self.device.top.pins);
+        drive(control, &mut self.clockwork.device.top.pins);
     }
 
     /// One pin of the acquisition computer with a value, as [`SteppedRun::drive`] takes it.
@@ -174,9 +166,9 @@ impl SteppedRun {
 fn power_up(device: &mut Device) -> Vec<Time> {
     let (until, mut changes) = (device.pll.locked_at, Vec::new());
     while device.next_event() <= until {
-        let (now, level) = (device.next_event(), device.line.level());
+        let (now, level) = (device.next_event(), device.top.pins.tdc_stop);
         device.settle(now, &mut Off, &mut Off);
-        changes.extend((device.line.level() != level).then_some(now));
+        changes.extend((device.top.pins.tdc_stop != level).then_some(now));
     }
     device.power_up(&mut Off, &mut Off);
     changes

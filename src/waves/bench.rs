@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
+use crate::firmware::carry_chain::{Delays, TAPS, Transitions};
 use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
@@ -70,7 +70,7 @@ pub(super) struct Bench {
     /// Current state of the firmware.
     pub(super) top: TofTop,
     params: Params,
-    line: StopLine,
+    transitions: Transitions,
     cycle: u64,
     shot: u64,
     photon: Time,
@@ -82,8 +82,8 @@ impl Bench {
         let pins = Pins { laser_freq: U::new(3), laser_en: true, dsp_en: true, ..Pins::default() };
         let mut top = TofTop::new(pins, &params);
         top.pll.locked = true;
-        let line = StopLine::default();
-        Bench { top, params, line, cycle: 0, shot: 0, photon: Time::NEVER }
+        let transitions = Transitions::default();
+        Bench { top, params, transitions, cycle: 0, shot: 0, photon: Time::NEVER }
     }
 
     /// Returns the time of the next cycle's first edge.
@@ -96,11 +96,14 @@ impl Bench {
         let start = self.now();
         for quarter in 0..4 {
             let now = start + Time::from_ns(2 * quarter);
-            let held = self.line.level();
+            let held = self.top.pins.tdc_stop;
             self.top.clocks.clk_laser = quarter % 2 == 0;
             self.top.clocks.clk_sys = quarter < 2;
             match quarter {
-                0 => self.top.rise(&self.params, &mut self.line, now),
+                0 => {
+                    let taps = self.transitions.sample(held, now, &self.params.tdc.delays);
+                    self.top.rise(&self.params, taps);
+                }
                 2 => self.top.rise_laser(&self.params),
                 _ => self.top.fall_laser(),
             }
@@ -122,8 +125,8 @@ impl Bench {
     }
 
     fn stop(&mut self, now: Time) {
-        self.line.toggle(now);
-        self.top.pins.tdc_stop = self.line.level();
+        self.top.pins.tdc_stop ^= true;
+        self.transitions.push(now);
     }
 
     /// Runs cycles of `clk_sys`, sampled by each of `waves`.

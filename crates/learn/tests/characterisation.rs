@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use tofsim::Setup;
-use tofsim::firmware::carry_chain::StopLine;
+use tofsim::firmware::carry_chain::Transitions;
 use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim_learn::characterisation::Characterisation;
@@ -150,14 +150,14 @@ fn the_standard_error_of_an_age_is_what_tests_spread_by() {
 /// The time of a hit as the registers have it: line, taps at tap 0's place, ones, ROM.
 fn sampled(t: u64, p: &tdc::Params) -> Option<f64> {
     let (scale, delays) = (&p.decoder.scale, &p.delays);
-    let mut line = StopLine::default();
-    line.toggle(Time::from_fs(t));
+    let mut transitions = Transitions::default();
+    transitions.push(Time::from_fs(t));
     for coarse in 0..p.coarse_counter.window() {
         let edge = Time::from_fs((coarse + 1) * scale.period().fs());
         if edge.fs() < t {
             continue;
         }
-        let taps = line.sample(edge, delays);
+        let taps = transitions.sample(true, edge, delays);
         if taps.tap(delays.tap_0_position()) {
             let age = p.decoder.cal[taps.ones(delays.taps())].get() as i64;
             return Some(scale.ps((scale.cycle() * (coarse + 1)) as i64 - age));

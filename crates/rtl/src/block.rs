@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use tofsim::Setup;
 use tofsim::error::{Input, Result, hint};
-use tofsim::firmware::carry_chain::StopLine;
+use tofsim::firmware::carry_chain::Transitions;
 use tofsim::firmware::tof_top::{CodeSource, HistogramSource, Pins, TofTop};
 use tofsim::hierarchy::{self, Kind, Part};
 use tofsim::kernel::Time;
@@ -29,7 +29,7 @@ pub struct Block {
     setup: Arc<Setup>,
     ports: Vec<Port>,
     top: TofTop,
-    line: StopLine,
+    transitions: Transitions,
     inputs: Inputs,
     input_layout: Layout,
     part: Part,
@@ -86,7 +86,8 @@ impl Block {
         let ids: Vec<_> = own.map(|entry| (entry.id, entry.signal.name)).collect();
         let part = Part::of(ids.iter().map(|(id, _)| *id));
         let outputs = Outputs::new(output_layout, &ids, taps());
-        let (top, line) = (TofTop::new(Pins::default(), &setup.params), StopLine::default());
+        let (top, transitions) =
+            (TofTop::new(Pins::default(), &setup.params), Transitions::default());
         let reset = spec.reset.and_then(|name| input_layout.find(name)).map(|place| place.low);
         let quiet = if reset.is_some() { None } else { Some(settles(spec, &setup)?) };
         Ok(Block {
@@ -95,7 +96,7 @@ impl Block {
             setup,
             ports,
             top,
-            line,
+            transitions,
             inputs,
             input_layout,
             part,
@@ -186,8 +187,9 @@ impl Block {
     /// `tdc_stop` changes; an instant before the last one is taken for that one.
     pub fn stop(&mut self, now: Time, level: bool) {
         self.last_stop = now.max(self.last_stop);
-        if level != self.line.level() {
-            self.line.toggle(self.last_stop);
+        if level != self.top.pins.tdc_stop {
+            self.top.pins.tdc_stop = level;
+            self.transitions.push(self.last_stop);
         }
     }
 
@@ -205,7 +207,7 @@ impl Block {
             top,
             params,
             pll,
-            line: &mut self.line,
+            transitions: &mut self.transitions,
             now,
             edge,
             inputs: &mut self.inputs,

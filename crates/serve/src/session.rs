@@ -193,7 +193,7 @@ impl Session {
             causes.add(shot);
             Ok(())
         };
-        let shots: Option<tofsim::Taker<Shot>> = match self.options.fidelity {
+        let shots: Option<tofsim::Callback<Shot>> = match self.options.fidelity {
             Fidelity::Cycle => Some(&mut take),
             Fidelity::Shot => None,
         };

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
+use crate::firmware::carry_chain::{Delays, TAPS, Transitions};
 use crate::kernel::U;
 use crate::optics::Budget;
 
@@ -29,11 +29,11 @@ fn uneven() -> Delays {
 /// Determines the code as the firmware does: edge by edge, tap by tap.
 fn sampled(t: Time, p: &tdc::Params) -> Option<u16> {
     let delays = &p.delays;
-    let mut line = StopLine::default();
-    line.toggle(t);
+    let mut transitions = Transitions::default();
+    transitions.push(t);
     for coarse in 0..8 {
         let edge = Time::from_fs((coarse + 1) * PERIOD.fs());
-        let taps = line.sample(edge.max(t), delays);
+        let taps = transitions.sample(true, edge.max(t), delays);
         if edge >= t && taps.tap(delays.tap_0_position()) {
             let code = p.decoder.code(coarse, taps.ones(TAPS));
             return code.map(|code| code.get() as u16);

@@ -1,7 +1,7 @@
 use rand_chacha::rand_core::SeedableRng;
 
 use super::*;
-use crate::firmware::carry_chain::{StopLine, TAPS};
+use crate::firmware::carry_chain::{TAPS, Transitions};
 
 const WINDOW: Time = Time::from_fs(40_000);
 
@@ -13,31 +13,36 @@ fn disturbance(window: Time, seed: u64, pace: Pace) -> Disturbance {
     Disturbance::new(window, ChaCha8Rng::seed_from_u64(seed), pace)
 }
 
-/// A line with one hit, which is so old at `now`.
-fn hit(age: Time, now: Time) -> StopLine {
-    let mut line = StopLine::default();
-    line.toggle(now - age);
-    line
+/// One hit, which is so old at `now`.
+fn hit(age: Time, now: Time) -> Transitions {
+    let mut transitions = Transitions::default();
+    transitions.push(now - age);
+    transitions
 }
 
 #[test]
 fn without_a_window_and_at_a_steady_pace_taps_are_the_usual_ones() {
-    let (delays, mut line) = (delays(), StopLine::default());
+    let (delays, mut level, mut transitions) = (delays(), false, Transitions::default());
     let mut disturbance = disturbance(Time::ZERO, 1, Pace::new(vec![(Time::ZERO, 1.0)]));
-    // From power-up on; pulses of all lengths, some of them of none, and sometimes more than the line keeps.
+    // From power-up on; pulses of all lengths, some of them of none, and sometimes more than are kept.
     let mut now = Time::ZERO;
     for k in 0..5_000u64 {
         if k % 3 > 0 {
             let at = now + Time::from_fs(k * 7_919_000 % 1_900_000);
             let burst = if k % 40 == 1 { 9 } else { 0 };
             let last = at + Time::from_fs(burst * 9_000);
-            (0..=burst).for_each(|nth| line.toggle(at + Time::from_fs(nth * 9_000)));
+            let mut toggle = |at| {
+                level = !level;
+                transitions.push(at);
+            };
+            (0..=burst).for_each(|nth| toggle(at + Time::from_fs(nth * 9_000)));
             if k % 7 == 0 || burst > 0 {
-                line.toggle(last);
+                toggle(last);
             }
         }
         now += Time::from_ns(2);
-        assert_eq!(disturbance.sample(&line, now, &delays), line.sample(now, &delays), "{k}");
+        let found = disturbance.sample(level, &transitions, now, &delays);
+        assert_eq!(found, transitions.sample(level, now, &delays), "{k}");
     }
 }
 
@@ -50,9 +55,9 @@ fn a_chain_of_another_pace_shows_what_a_stretched_one_does() {
         for k in 0..2_000u64 {
             // Off the boundaries by more than rounding.
             let age = Time::from_fs(k * 6_007 + 3);
-            let mut line = hit(age, now);
-            let found = disturbance.sample(&line, now, &self::delays());
-            assert_eq!(found, line.sample(now, delays), "{now:?} {k}");
+            let mut hit = hit(age, now);
+            let found = disturbance.sample(true, &hit, now, &self::delays());
+            assert_eq!(found, hit.sample(true, now, delays), "{now:?} {k}");
         }
     }
 }
@@ -66,7 +71,7 @@ fn a_tap_within_the_window_is_high_as_often_as_its_register_samples_late() {
     let mut high = [0u64; 6];
     for k in 0..draws {
         let now = Time::from_ns(1000 + 40 * k);
-        let taps = disturbance.sample(&hit(age, now), now, &delays);
+        let taps = disturbance.sample(true, &hit(age, now), now, &delays);
         (0..6).for_each(|tap| high[tap] += u64::from(taps.tap(99 + tap)));
     }
     for (tap, chance) in
@@ -90,7 +95,7 @@ fn registers_draw_by_themselves_and_the_same_again() {
         let age = Time::from_fs(delays.boundary(100).fs() + 15_000);
         let of = |k: u64| {
             let now = Time::from_ns(1000 + 40 * k);
-            disturbance.sample(&hit(age, now), now, &delays)
+            disturbance.sample(true, &hit(age, now), now, &delays)
         };
         (0..1000).map(of).collect::<Vec<_>>()
     };
@@ -101,10 +106,10 @@ fn registers_draw_by_themselves_and_the_same_again() {
     let bubbles = first.iter().filter(|taps| !taps.tap(101) && taps.tap(102)).count();
     assert!((bubbles as f64 - 130.0).abs() < 4.0 * (1000.0f64 * 0.13 * 0.87).sqrt(), "{bubbles}");
     // Both edges of a pulse, and an edge of the other kind.
-    let (mut line, now) = (StopLine::default(), Time::from_ns(500));
-    line.toggle(now - Time::from_ns(7));
-    line.toggle(now - Time::from_ns(4));
-    let taps = disturbance(WINDOW, 1, Pace::default()).sample(&line, now, &delays);
+    let now = Time::from_ns(500);
+    let mut pulse = hit(Time::from_ns(7), now);
+    pulse.push(now - Time::from_ns(4));
+    let taps = disturbance(WINDOW, 1, Pace::default()).sample(false, &pulse, now, &delays);
     let (from, to) = (delays.rank(Time::from_ns(4)), delays.rank(Time::from_ns(7)));
     assert!((0..from - 2).chain(to + 2..TAPS).all(|tap| !taps.tap(tap)));
     assert!((from + 2..to - 2).all(|tap| taps.tap(tap)));
@@ -116,13 +121,14 @@ fn however_many_transitions_there_are_taps_have_room_for_them() {
     let (window, half_fs) = (Time::from_fs(32_000), 16_000);
     let [mut none, mut wide] =
         [Time::ZERO, window].map(|window| disturbance(window, 1, Pace::default()));
-    let (mut line, mut now) = (StopLine::default(), Time::from_ns(100));
+    let (mut transitions, mut now) = (Transitions::default(), Time::from_ns(100));
     for k in 0..20_000u64 {
-        line.toggle(now + Time::from_fs(k * 104_729_000 % 1_900_000));
+        transitions.push(now + Time::from_fs(k * 104_729_000 % 1_900_000));
         now += Time::from_ns(2);
-        let (taps, expected) = (wide.sample(&line, now, &delays), none.sample(&line, now, &delays));
+        let [taps, expected] = [&mut wide, &mut none]
+            .map(|disturbance| disturbance.sample(k % 2 == 0, &transitions, now, &delays));
         // Every tap more than half a window from a transition is what it should be.
-        let ages: Vec<_> = line.ages(now).collect();
+        let ages: Vec<_> = transitions.ages(now).collect();
         let near = |tap: usize| {
             let at = delays.boundary(tap).fs();
             ages.iter().any(|age| at.abs_diff(age.fs()) <= half_fs)

@@ -49,9 +49,10 @@ pub fn acquire(
         let emits = emitter_wakes <= device.cycle;
         if converter_wakes <= device.cycle {
             hits.skip(&mut device.top, p, device.cycle - converter_at);
-            hits.convert(&mut device.top, p, &mut device.line, (device.cycle, now));
+            let taps = device.sample_taps(p, now);
+            hits.convert(&mut device.top, p, taps, device.cycle);
             frames.count_hit(&device.top);
-            let quiet = converter_quiet(&device.top, p, &device.line);
+            let quiet = converter_quiet(device, p);
             converter_at = device.cycle + 1;
             converter_wakes = converter_at.saturating_add(quiet);
         } else if !emits {
@@ -70,7 +71,7 @@ pub fn acquire(
         }
         pulse.emit(device, p, now);
         emitter_wakes = device.cycle.saturating_add(pulse.emitter_quiet(&device.top, p));
-        if rouses_converter(&device.top, &device.line) {
+        if rouses_converter(device) {
             converter_wakes = device.cycle;
         }
         now += period;

@@ -24,10 +24,12 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
     let ctrl = &device.top.frame_ctrl;
     let last_bin = p.histogram.last_bin();
     let clearing = ctrl.state == State::Clear && ctrl.clear_addr != last_bin;
-    let cycles = match clearing {
-        true => last_bin - ctrl.clear_addr.get(),
-        false if estimation_phase(&device.top, p) == Some(0) => p.estimator_cycles() - 1,
-        false => return,
+    let cycles = if clearing {
+        last_bin - ctrl.clear_addr.get()
+    } else if estimation_phase(&device.top, p) == Some(0) {
+        p.estimator_cycles() - 1
+    } else {
+        return;
     };
     let end = device.pll.clk_sys.rise(device.cycle + cycles);
     let alone = device.jitter.is_none()
@@ -38,9 +40,10 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
     if !alone || end >= device.timeline.next_event() {
         return;
     }
-    match clearing {
-        true => land_in_clear(&mut device.top, last_bin),
-        false => land_in_estimation(&mut device.top, p),
+    if clearing {
+        land_in_clear(&mut device.top, last_bin);
+    } else {
+        land_in_estimation(&mut device.top, p);
     }
     device.top.settle(p);
     device.cycle += cycles;

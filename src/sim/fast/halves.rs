@@ -5,12 +5,13 @@
 //! emitter's `start` is all that passes between the halves, so the converter goes first and sees what
 //! it was. Either may be quiet.
 
-use crate::firmware::carry_chain::StopLine;
+use crate::firmware::carry_chain::Taps;
 use crate::firmware::tof_top::{CodeSource, Params, TofTop, Wires};
 use crate::firmware::{
     code_preload, frame_ctrl, histogram_builder, spad_control, tdc, vcsel_driver,
 };
-use crate::kernel::{AWAKE, Clocked, Time};
+use crate::kernel::{AWAKE, Clocked};
+use crate::sim::device::Device;
 
 /// Coming cycles in which nothing of the emitter would move but the laser's count.
 #[inline(always)]
@@ -26,40 +27,49 @@ pub(super) fn emitter_quiet_without_pulse(top: &TofTop, p: &Params) -> u64 {
 
 #[inline(always)]
 fn emitter_quiet_if(top: &TofTop, laser_quiet: u64) -> u64 {
-    match laser_quiet {
-        AWAKE => AWAKE,
-        edges => edges.min(top.spad_control.quiet(&spad_inputs(top), &())),
+    if laser_quiet == AWAKE {
+        return AWAKE;
     }
+    laser_quiet.min(top.spad_control.quiet(&spad_inputs(top), &()))
 }
 
 /// Coming cycles in which nothing of the converter would move but the coarse count and hits on their way
 /// to their words, while `tdc_stop` holds.
 #[inline(always)]
-pub(super) fn converter_quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
+pub(super) fn converter_quiet(device: &Device, p: &Params) -> u64 {
+    let top = &device.top;
     match &p.code_source {
-        CodeSource::Tdc => top.tdc.quiet(&tdc_inputs(top), &p.tdc, line),
+        CodeSource::Tdc if !taps_hold(device) => AWAKE,
+        CodeSource::Tdc => top.tdc.quiet(&tdc_inputs(top), &p.tdc),
         CodeSource::Preload(rom) => top.code_preload.quiet(&preload_inputs(top), rom),
     }
 }
 
 /// Whether the emitter has just given a sleeping converter something to do.
 #[inline(always)]
-pub(super) fn rouses_converter(top: &TofTop, line: &StopLine) -> bool {
-    top.vcsel_driver.registers.start || !line.is_shown_by(&top.tdc.carry_chain.taps)
+pub(super) fn rouses_converter(device: &Device) -> bool {
+    device.top.vcsel_driver.registers.start || !taps_hold(device)
+}
+
+/// Whether every edge samples the same taps as the last one, while `tdc_stop` holds.
+#[inline(always)]
+fn taps_hold(device: &Device) -> bool {
+    let top = &device.top;
+    device.transitions.are_over(top.pins.tdc_stop, &top.tdc.carry_chain.taps)
 }
 
 /// The converter's part of an edge at which both clocks rise.
 #[inline(always)]
-pub(super) fn convert(top: &mut TofTop, p: &Params, line: &mut StopLine, now: Time) {
+pub(super) fn convert(top: &mut TofTop, p: &Params, taps: Taps) {
     count(top, p);
-    top.convert(p, &tdc_inputs(top), &preload_inputs(top), line, now);
+    top.convert(p, &tdc_inputs(top), &preload_inputs(top), taps);
     top.take_code(p);
 }
 
 /// The part of it that samples and keeps hits.
 #[inline(always)]
-pub(super) fn sample(top: &mut TofTop, p: &Params, line: &mut StopLine, now: Time) {
-    top.tdc.sample(&tdc_inputs(top), &p.tdc, line, now);
+pub(super) fn sample(top: &mut TofTop, p: &Params, taps: Taps) {
+    top.tdc.sample(&tdc_inputs(top), &p.tdc, taps);
 }
 
 /// The emitter's part of `clk_sys` at the same edge.

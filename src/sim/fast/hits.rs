@@ -6,11 +6,11 @@
 
 use std::collections::VecDeque;
 
-use crate::firmware::carry_chain::{StopLine, Taps};
+use crate::firmware::carry_chain::Taps;
 use crate::firmware::coarse_counter::Coarse;
 use crate::firmware::tdc_decoder;
 use crate::firmware::tof_top::{CodeSource, Params, TofTop};
-use crate::kernel::{Clocked, Time};
+use crate::kernel::Clocked;
 
 use super::halves::{convert, count, count_hits, sample, skip_converter, skip_sampling};
 
@@ -30,20 +30,14 @@ struct Hit {
 pub struct Hits(VecDeque<Hit>);
 
 impl Hits {
-    /// The converter's part of edge `cycle` at `now`.
+    /// Takes the converter's part of edge `cycle`, which samples `taps`.
     #[inline(always)]
-    pub(super) fn convert(
-        &mut self,
-        top: &mut TofTop,
-        p: &Params,
-        line: &mut StopLine,
-        (cycle, now): (u64, Time),
-    ) {
+    pub(super) fn convert(&mut self, top: &mut TofTop, p: &Params, taps: Taps, cycle: u64) {
         let from_tdc = matches!(p.code_source, CodeSource::Tdc);
         if !from_tdc || self.0.is_empty() && (top.tdc.has_hit() | top.histogram_builder.has_hit()) {
-            return convert(top, p, line, now);
+            return convert(top, p, taps);
         }
-        sample(top, p, line, now);
+        sample(top, p, taps);
         let latch = &top.tdc.tdc_latch;
         if latch.hit {
             let (coarse, taps) = (latch.hit_coarse, latch.hit_taps);
@@ -58,9 +52,10 @@ impl Hits {
     /// Stands for that many cycles of the converter, all of them quiet.
     #[inline(always)]
     pub(super) fn skip(&self, top: &mut TofTop, p: &Params, cycles: u64) {
-        match self.0.is_empty() {
-            true => skip_converter(top, p, cycles),
-            false => skip_sampling(top, p, cycles),
+        if self.0.is_empty() {
+            skip_converter(top, p, cycles);
+        } else {
+            skip_sampling(top, p, cycles);
         }
     }
 

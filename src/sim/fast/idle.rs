@@ -3,8 +3,7 @@
 //! Exact while every module is quiet, no pin changes and the detector does nothing: nothing would move
 //! but counters whose values no other module acts on, and [`Clocked::skip`] moves those.
 
-use crate::firmware::carry_chain::StopLine;
-use crate::firmware::tof_top::{Params, TofTop, Wires};
+use crate::firmware::tof_top::{Params, Wires};
 use crate::kernel::{AWAKE, Clocked, Time};
 use crate::sim::device::Device;
 
@@ -16,7 +15,7 @@ use super::steady::{cycles_of_steady_control, estimator_rests, even_period};
 #[inline(always)]
 pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
     let Some(period) = even_period(device) else { return };
-    let quiet = quiet(&device.top, p, &device.line);
+    let quiet = quiet(device, p);
     let cycles =
         quiet.min(cycles_of_steady_control(device, period)).min(limit.saturating_sub(device.cycle));
     if cycles != AWAKE {
@@ -35,14 +34,16 @@ pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
 #[inline(always)]
 pub(super) fn cycles_until_event(device: &Device, quiet: u64, now: Time, period: Time) -> u64 {
     let event = device.spads.next_event();
-    match event < now.saturating_add(Time::from_fs(quiet * period.fs())) {
-        true => event.since(now).fs().div_ceil(period.fs()),
-        false => quiet,
+    if event < now.saturating_add(Time::from_fs(quiet * period.fs())) {
+        event.since(now).fs().div_ceil(period.fs())
+    } else {
+        quiet
     }
 }
 
 /// Coming cycles in which nothing would move but hidden counters, while all pins hold.
-fn quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
+fn quiet(device: &Device, p: &Params) -> u64 {
+    let top = &device.top;
     let frame_ctrl = top.frame_ctrl.quiet(&Wires::frame_ctrl(top), &p.frame_ctrl);
     if frame_ctrl == AWAKE || top.nets.rst_dsp {
         return AWAKE;
@@ -52,6 +53,6 @@ fn quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
         .min(top.reset_sync_laser.quiet(&Wires::reset_sync_laser(top), &()))
         .min(top.control_sync.quiet(&Wires::control_sync(top), &()))
         .min(emitter_quiet(top, p))
-        .min(converter_quiet(top, p, line));
+        .min(converter_quiet(device, p));
     if quiet != AWAKE && estimator_rests(top, p) { quiet } else { AWAKE }
 }

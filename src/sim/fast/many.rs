@@ -6,7 +6,7 @@
 //! frames later. The results are those of one after the other, and come in that order, whatever the
 //! number of threads.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
@@ -15,12 +15,13 @@ use crate::firmware::tof_top::CodeSource;
 use crate::kernel::Time;
 use crate::scenario::QuenchMode;
 use crate::sensor::light::Light;
-use crate::sim::device::{Device, Off};
+use crate::sim::callback::{Callback, poll_stop};
+use crate::sim::clockwork::Clockwork;
+use crate::sim::device::Off;
 use crate::sim::frames::Frame;
 use crate::sim::run::{Observers, Outcome, Run};
 use crate::sim::setup::Setup;
-use crate::sim::shot_recorder::ShotRecorder;
-use crate::sim::sinks::{Sinks, Taker};
+use crate::sim::shot_recorder::Recording;
 use crate::sim::stepping::Stepping;
 use crate::waves::Marks;
 
@@ -56,28 +57,31 @@ impl Run<'_> {
     /// When the control signals keep a frame from ending, a sink fails, or the run is stopped.
     pub fn many(mut self, count: u64, observers: Observers) -> Result<Outcome> {
         let Observers { shots, frames, stop, .. } = observers;
-        let mut sinks = Sinks { shots, frames, stop };
+        let mut ignore = |_: &Frame| Ok(());
+        let take: Callback<Frame> = match frames {
+            Some(take) => take,
+            None => &mut ignore,
+        };
         self.limit = self.setup.longest_run(count);
-        self.device.power_up(&mut Off, &mut Off);
-        if sinks.shots.is_some() {
+        self.clockwork.device.power_up(&mut Off, &mut Off);
+        if let Some(shots) = shots {
             let shown = count.min(self.setup.frames_together());
-            self.go(shown, &mut Off, &mut ShotRecorder::default(), &mut sinks)?;
+            self.go(shown, &mut Off, &mut Recording::new(shots), take, stop)?;
         }
         if !self.setup.has_frames_apart() || rayon::current_num_threads() < 2 || count < 2 {
-            if self.frames.done() < count {
-                self.go(count, &mut Off, &mut Off, &mut sinks)?;
+            if self.done() < count {
+                self.go(count, &mut Off, &mut Off, take, stop)?;
             }
             return Ok(self.outcome(Marks::default()));
         }
         let begins = self.begins(stop)?;
         let begin = |frame: u64| {
-            let kind = (frame - begins[0].frames.done()) % begins.len() as u64;
+            let kind = (frame - begins[0].done()) % begins.len() as u64;
             begins[kind as usize].of_frame(frame)
         };
-        let take = &mut |frame: &Frame| sinks.frame(frame);
-        deliver(self.frames.done()..count, take, stop, |frame| match frame {
-            0 => self.clone().next_frame(stop),
-            _ => begin(frame).next_frame(stop),
+        deliver(self.done()..count, take, stop, |frame| {
+            let mut run = if frame == 0 { self.clone() } else { begin(frame) };
+            run.unobserved_frame(stop)
         })?;
         Ok(begin(count).outcome(Marks::default()))
     }
@@ -87,10 +91,10 @@ impl Run<'_> {
     fn begins(&self, stop: Option<&AtomicBool>) -> Result<Vec<Self>> {
         let next = |run: &Self| -> Result<Self> {
             let mut next = run.clone().stepping(Stepping::LeapShots);
-            next.next_frame(stop)?;
-            Ok(next.stepping(run.fast.stepping))
+            next.unobserved_frame(stop)?;
+            Ok(next.stepping(run.clockwork.fast.stepping))
         };
-        let mut begins = vec![if self.frames.done() == 0 { next(self)? } else { self.clone() }];
+        let mut begins = vec![if self.done() == 0 { next(self)? } else { self.clone() }];
         while (begins.len() as u64) < self.setup.frames_together() {
             begins.push(next(&begins[begins.len() - 1])?);
         }
@@ -100,54 +104,51 @@ impl Run<'_> {
     /// Where frame `frame` begins; `self` is where an earlier one of its kind does.
     fn of_frame(&self, frame: u64) -> Self {
         let mut run = self.clone();
-        let frames = frame - self.frames.done();
+        let frames = frame - self.done();
         let cycles = frames * (self.setup.frame_cycles(self.setup.laser_period()) + 1);
-        pass(&mut run.device, cycles, frame);
-        let counts = &mut run.frames;
-        counts.done = frame;
-        counts.shots += self.setup.shots(frames);
-        (counts.clear_at, counts.start_at) = (counts.clear_at + cycles, counts.start_at + cycles);
+        run.clockwork.pass(cycles, frame);
+        run.clockwork.frames.shots += self.setup.shots(frames);
         run
     }
 
-    /// Simulates until one more frame is done.
-    fn next_frame(&mut self, stop: Option<&AtomicBool>) -> Result<Frame> {
-        let mut found = None;
-        let mut take = |frame: &Frame| {
-            found = Some(frame.clone());
-            Ok(())
-        };
-        let mut sinks = Sinks { shots: None, frames: Some(&mut take), stop };
-        let done = self.frames.done() + 1;
-        self.next_poll = self.device.cycle();
-        self.go(done, &mut Off, &mut Off, &mut sinks)?;
-        found.ok_or(Error::Interrupted)
+    /// Simulates until a frame has ended.
+    fn unobserved_frame(&mut self, stop: Option<&AtomicBool>) -> Result<Frame> {
+        self.next_frame(&mut Off, &mut Off, stop)?.ok_or(Error::Interrupted)
+    }
+
+    fn done(&self) -> u64 {
+        self.clockwork.frames.done()
     }
 }
 
-/// So many cycles later, at the begin of `frame`, with a detector that has been quiet for long.
-fn pass(device: &mut Device, cycles: u64, frame: u64) {
-    let begun = device.pll.clk_sys.rise(device.cycle);
-    device.cycle += cycles;
-    device.timeline.pass(device.pll.clk_sys.rise(device.cycle) - begun);
-    device.begin_frame(frame);
-    device.spads.arm_all(Time::NEVER);
-    device.line.settle();
+impl Clockwork {
+    /// Moves from the begin of a frame to that of a later one, so many cycles on, with a detector that has been
+    /// quiet for long.
+    fn pass(&mut self, cycles: u64, frame: u64) {
+        let Clockwork { device, frames, .. } = self;
+        let begun = device.pll.clk_sys.rise(device.cycle);
+        device.cycle += cycles;
+        device.timeline.pass(device.pll.clk_sys.rise(device.cycle) - begun);
+        device.begin_frame(frame);
+        device.spads.arm_all(Time::NEVER);
+        device.rest_stop();
+        frames.done = frame;
+        frames.clear_at += cycles;
+        frames.start_at += cycles;
+    }
 }
 
 /// Makes the frames of a range on all threads and hands them on in order, some at a time.
 pub(super) fn deliver(
     frames: std::ops::Range<u64>,
-    take: Taker<'_, Frame>,
+    take: Callback<'_, Frame>,
     stop: Option<&AtomicBool>,
     make: impl Fn(u64) -> Result<Frame> + Sync,
 ) -> Result<()> {
     let batch = BATCH * rayon::current_num_threads() as u64;
     let mut next = frames.start;
     while next < frames.end {
-        if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-            return Err(Error::Interrupted);
-        }
+        poll_stop(stop)?;
         let end = frames.end.min(next + batch);
         let made: Vec<_> = (next..end).into_par_iter().map(&make).collect();
         for frame in made {

@@ -62,10 +62,7 @@ impl Pulse {
     /// Coming cycles in which nothing of the emitter would move but the laser's count.
     #[inline(always)]
     pub(super) fn emitter_quiet(&self, top: &TofTop, p: &Params) -> u64 {
-        match self.stepped {
-            true => emitter_quiet(top, p),
-            false => emitter_quiet_without_pulse(top, p),
-        }
+        if self.stepped { emitter_quiet(top, p) } else { emitter_quiet_without_pulse(top, p) }
     }
 
     /// Brings those registers to where they are when `cycle` cycles are done.

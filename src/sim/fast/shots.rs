@@ -77,7 +77,7 @@ pub fn leap_shots(
     let now = device.pll.clk_sys.rise(device.cycle - 1);
     device.light.begin_shot(now, lit);
     device.spads.arm_all(device.light.next_avalanche(now, 1.0));
-    device.line.settle();
+    device.rest_stop();
     frames.shots += shots;
     frames.tdc_hits += shots - u64::from(counts[NO_HIT as usize]);
 }

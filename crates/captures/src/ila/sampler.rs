@@ -13,7 +13,7 @@ use tofsim::sim::device::{Edge, SignalProbe};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Device, Live, Outcome, Progress, Run, WindowedProbe};
-use tofsim::{Shot, Taker};
+use tofsim::{Callback, Shot};
 
 use crate::condition::{Bound, Level};
 
@@ -175,7 +175,7 @@ pub fn capture_live(
     live: &mut Live,
     cycles: u64,
     analyser: &mut Analyser,
-    shots: Option<Taker<Shot>>,
+    shots: Option<Callback<Shot>>,
 ) -> Result<Progress> {
     match analyser.plan.every_change {
         true => live.advance(cycles, &mut Tap::<true>(analyser), shots),

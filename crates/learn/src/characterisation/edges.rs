@@ -3,7 +3,7 @@
 use rand::RngExt;
 use serde::Serialize;
 
-use tofsim::firmware::carry_chain::StopLine;
+use tofsim::firmware::carry_chain::Transitions;
 use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::sensor::streams::{Source, stream};
@@ -102,12 +102,13 @@ fn sampled(
     delay_fs: u64,
 ) -> Option<Hit> {
     let period = p.decoder.scale.period().fs();
-    let mut line = StopLine::default();
-    line.toggle(Time::from_fs(laser_fs + delay_fs));
+    let mut transitions = Transitions::default();
+    transitions.push(Time::from_fs(laser_fs + delay_fs));
     let first = delay_fs.div_ceil(period).max(1);
     (first..=p.coarse_counter.window()).find_map(|edge| {
         let edge_fs = edge * period;
-        let taps = disturbance.sample(&line, Time::from_fs(laser_fs + edge_fs), &p.delays);
+        let taps =
+            disturbance.sample(true, &transitions, Time::from_fs(laser_fs + edge_fs), &p.delays);
         let hit = || {
             let rank = p.delays.rank(Time::from_fs(edge_fs - delay_fs));
             Hit { edge_fs, coarse: edge - 1, rank, n: p.decoder.number(&taps) }

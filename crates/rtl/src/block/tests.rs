@@ -93,7 +93,7 @@ fn first_mismatch(
         for (sample, edge) in edges.iter().enumerate() {
             let now = vectors.edge(row) - timing.before_edge(sample, vectors.pll.cycle);
             while let Some(&at) = stops.next_if(|at| **at <= now) {
-                let level = !block.line.level();
+                let level = !block.top.pins.tdc_stop;
                 block.stop(at, level);
             }
             let late = timing == timing::OWN_WITH_RESET && sample > 1;

@@ -1,6 +1,6 @@
 //! Steps a block of the model by itself, with inputs from elsewhere.
 
-use tofsim::firmware::carry_chain::StopLine;
+use tofsim::firmware::carry_chain::{Taps, Transitions};
 use tofsim::firmware::pll::Pll;
 use tofsim::firmware::tof_top::{Params, TofTop};
 use tofsim::kernel::Time;
@@ -50,8 +50,8 @@ pub struct Stepping<'a> {
     pub params: &'a Params,
     /// The clocks.
     pub pll: &'a Pll,
-    /// The wire of `tdc_stop`.
-    pub line: &'a mut StopLine,
+    /// The transitions of `tdc_stop`.
+    pub transitions: &'a mut Transitions,
     /// The instant.
     pub now: Time,
     /// Edge that is taken.
@@ -63,5 +63,10 @@ impl Stepping<'_> {
     /// The inputs.
     pub fn input<S: Signals>(&mut self) -> S {
         S::given(0, self.inputs)
+    }
+
+    /// Samples the taps at the edge.
+    pub fn taps(&mut self) -> Taps {
+        self.transitions.sample(self.top.pins.tdc_stop, self.now, &self.params.tdc.delays)
     }
 }

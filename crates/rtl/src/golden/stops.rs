@@ -1,6 +1,6 @@
 //! The changes of `tdc_stop` in a stimulus, in step with the clock of a bench.
 
-use tofsim::firmware::carry_chain::{Delays, StopLine};
+use tofsim::firmware::carry_chain::{Delays, Taps, Transitions};
 use tofsim::kernel::Time;
 
 use super::draw::Draw;
@@ -10,8 +10,7 @@ use super::draw::Draw;
 pub struct Stops {
     /// Period of the clock.
     pub cycle: Time,
-    /// The wire.
-    pub line: StopLine,
+    transitions: Transitions,
     times: Vec<Time>,
     applied: usize,
 }
@@ -19,7 +18,7 @@ pub struct Stops {
 impl Stops {
     /// Nothing is planned yet, where the clock has that period.
     pub fn new(cycle: Time) -> Self {
-        Stops { cycle, line: StopLine::default(), times: Vec::new(), applied: 0 }
+        Stops { cycle, transitions: Transitions::default(), times: Vec::new(), applied: 0 }
     }
 
     /// Instant of the edge that ends a line.
@@ -52,9 +51,19 @@ impl Stops {
     /// Lets what is planned up to and at `now` come to pass.
     pub fn advance(&mut self, now: Time) {
         while self.times.get(self.applied).is_some_and(|at| *at <= now) {
-            self.line.toggle(self.times[self.applied]);
+            self.transitions.push(self.times[self.applied]);
             self.applied += 1;
         }
+    }
+
+    /// Returns the level of `tdc_stop`.
+    pub fn level(&self) -> bool {
+        self.applied % 2 == 1
+    }
+
+    /// Samples the taps of a chain at an edge.
+    pub fn sample(&mut self, now: Time, delays: &Delays) -> Taps {
+        self.transitions.sample(self.level(), now, delays)
     }
 
     /// An instant before the edge at `edge`: such that a tap is reached exactly then, or 1 fs beside

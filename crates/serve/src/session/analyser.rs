@@ -9,7 +9,7 @@ use tofsim::error::{Error, Input, Result};
 use tofsim::kernel::Time;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Live, Progress};
-use tofsim::{Shot, Taker};
+use tofsim::{Callback, Shot};
 use tofsim_captures::ila::builtin::SET_UPS;
 use tofsim_captures::ila::export::{CaptureFormat, export};
 use tofsim_captures::ila::setup::AnalyserSetupFile;
@@ -164,7 +164,7 @@ impl Ila {
         &mut self,
         live: &mut Live,
         cycles: u64,
-        shots: Option<Taker<Shot>>,
+        shots: Option<Callback<Shot>>,
     ) -> Result<Progress> {
         match &mut self.armed {
             Some(armed) => capture_live(live, cycles, &mut armed.analyser, shots),

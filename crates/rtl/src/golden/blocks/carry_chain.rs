@@ -8,7 +8,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     latency: &[Latency { from: "tdc_stop", to: "taps", cycles: |_| 0 }],
     model: Some(Model::new::<In>(|at| {
-        let taps = at.line.sample(at.now, &at.params.tdc.delays);
+        let taps = at.taps();
         at.top.tdc.carry_chain = CarryChain { taps };
     })),
     ..Spec::new("carry_chain", "tdc.carry_chain", record)
@@ -30,7 +30,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.sample();
         let now = stops.edge(line);
         stops.advance(now);
-        let taps = stops.line.sample(now, delays);
+        let taps = stops.sample(now, delays);
         run.top.tdc.carry_chain = CarryChain { taps };
         ones.see(taps.ones(count) as u64);
         let changes = (1..count).filter(|&tap| taps.tap(tap) != taps.tap(tap - 1)).count();

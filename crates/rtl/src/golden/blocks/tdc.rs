@@ -24,8 +24,9 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[COUNT_STAGES_2, LEADING, REORDERED, CALIBRATED],
     model: Some(Model::new::<In>(|at| {
-        let i = In { tdc_stop: at.line.level(), ..at.input() };
-        at.top.tdc.rise(&i, &at.params.tdc, at.line, at.now);
+        let i = In { tdc_stop: at.top.pins.tdc_stop, ..at.input() };
+        let taps = at.taps();
+        at.top.tdc.rise(&i, &at.params.tdc, taps);
     })),
     ..Spec::new("tdc", "tdc", record)
 };
@@ -127,8 +128,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&Stimulus { rst, start, free, calibrated_age });
         let (now, stops) = (light.stops.edge(cycle), &mut light.stops);
         stops.advance(now);
-        let i = In { rst, start, tdc_stop: stops.line.level(), free, calibrated_age };
-        run.top.tdc.rise(&i, &rom, &mut stops.line, now);
+        let i = In { rst, start, tdc_stop: stops.level(), free, calibrated_age };
+        run.top.tdc.rise(&i, &rom, stops.sample(now, &rom.delays));
     }
     let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&rom.decoder)];
     let mut parameters = files(["DelaysFile", "CalFile"], memories);

@@ -33,9 +33,12 @@ pub(super) const SPEC: Spec = Spec {
         // It is looked at once its clocks run.
         settle: |at| at.top.pll.locked = true,
         ..Model::new::<Pins>(|at| {
-            at.top.pins = Pins { tdc_stop: at.line.level(), ..at.input() };
+            at.top.pins = Pins { tdc_stop: at.top.pins.tdc_stop, ..at.input() };
             match at.edge {
-                Edge::Rise => at.top.rise(at.params, at.line, at.now),
+                Edge::Rise => {
+                    let taps = at.taps();
+                    at.top.rise(at.params, taps)
+                },
                 Edge::Middle => at.top.rise_laser(at.params),
                 Edge::Fall => at.top.fall_laser(),
             }

@@ -1,0 +1,14 @@
+//! How a run reports, and how it is stopped.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::error::{Error, Result};
+
+/// Receives the results of a run one by one; an error ends the run.
+pub type Callback<'a, T> = &'a mut dyn FnMut(&T) -> Result<()>;
+
+/// Fails once `stop` is set from outside.
+pub(super) fn poll_stop(stop: Option<&AtomicBool>) -> Result<()> {
+    let stopped = stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+    if stopped { Err(Error::Interrupted) } else { Ok(()) }
+}
