@@ -55,7 +55,7 @@ impl Run<'_> {
     }
 }
 
-/// Every signal, words of the RAM among them if there is one.
+/// Returns every signal, with the words of the RAM if there is one.
 pub(super) fn entries(params: &Params) -> Vec<Entry> {
     let (mut entries, ram) =
         (hierarchy::entries(params), hierarchy::ram_entries(&params.histogram));
@@ -65,7 +65,7 @@ pub(super) fn entries(params: &Params) -> Vec<Entry> {
     entries
 }
 
-/// The signal of that path, with the top or without.
+/// Finds a signal by its path, with or without the top.
 pub(super) fn find<'a>(entries: &'a [Entry], name: &str) -> Result<&'a Entry> {
     let wanted = below_top(name);
     let paths: Vec<_> = entries.iter().map(Entry::below_top).collect();
@@ -80,11 +80,11 @@ pub(super) fn find<'a>(entries: &'a [Entry], name: &str) -> Result<&'a Entry> {
     Err(Input::new("signal", format!("there is none of that name{hint}")).value(name).into())
 }
 
-/// How a value is read.
+/// Place and sign of a signal among [`Values`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
     pub(super) id: usize,
-    /// Bits above the word, if it has a sign.
+    /// Bits above the word if it is signed, or else 0.
     unused: u32,
 }
 
@@ -100,16 +100,16 @@ impl Shown {
     }
 }
 
-/// The value of each id.
+/// The values of all signals by id.
 #[derive(Clone, Debug)]
 pub(super) struct Values {
     of_id: Box<[u64; IDS]>,
-    /// Length of the chain.
+    /// Length of the chain [taps].
     taps: usize,
 }
 
 impl Values {
-    /// All 0, with a chain of so many taps.
+    /// Zeros, for a chain of so many taps.
     pub(super) fn new(taps: usize) -> Self {
         Values { of_id: Box::new([0; IDS]), taps }
     }
@@ -125,7 +125,7 @@ impl Sink for Values {
     }
 }
 
-/// Hands on the values at each edge.
+/// Calls `each` with the values at each edge.
 struct Stepper<F, const N: usize> {
     shown: [Shown; N],
     part: Part,

@@ -20,7 +20,7 @@ use super::timeline::Timeline;
 
 pub use super::probe::{AvalancheListener, Edge, Off, SignalProbe};
 
-/// Everything that has a state in a run.
+/// The state of a run: firmware, detector, light and clocks.
 #[derive(Clone, Debug)]
 pub struct Device {
     /// The firmware.
@@ -28,24 +28,24 @@ pub struct Device {
     /// Transitions of `tdc_stop`, the wire from the detector.
     pub(super) transitions: Transitions,
     disturbance: Option<Box<Disturbance>>,
-    /// What reaches the SPADs.
+    /// The light on the SPADs.
     pub light: Light,
     pub(super) spads: Spads,
-    /// From the diodes to the wire.
+    /// The shaper or ring oscillator between the diodes and the wire.
     front_end: FrontEnd,
     pub(super) timeline: Timeline,
     pub(super) pll: Pll,
     pub(super) jitter: Option<Jitter>,
     /// Edges of `clk_sys` so far.
     pub(super) cycle: u64,
-    /// From a rising edge of `clk_laser` to its fall.
+    /// Time from a rising edge of `clk_laser` to its fall.
     quarter: Time,
-    /// Kept up only while tracing.
+    /// The board's oscillator, advanced only while tracing.
     oscillator: Oscillator,
 }
 
 impl Device {
-    /// At power-up.
+    /// A device at power-up.
     pub fn new(
         (pins, p): (Pins, &Params),
         pll: Pll,
@@ -72,7 +72,7 @@ impl Device {
         }
     }
 
-    /// What has not come due: control changes and given photons.
+    /// Returns notes on the inputs that have not come due: control changes and given photons.
     pub fn unused(&self) -> Vec<Note> {
         let left = [
             ("control", self.timeline.left(), "the last of the changes of control"),
@@ -91,30 +91,30 @@ impl Device {
         left.into_iter().filter_map(note).collect()
     }
 
-    /// Rising edges of `clk_sys` so far.
+    /// Returns the number of rising edges of `clk_sys` so far.
     pub fn cycle(&self) -> u64 {
         self.cycle
     }
 
-    /// The last rising edge of `clk_sys`: its number and instant.
+    /// Returns number and instant of the last rising edge of `clk_sys`.
     pub fn last_edge(&mut self) -> (u64, Time) {
         let cycle = self.cycle - 1;
         (cycle, self.rise_laser_at(2 * cycle))
     }
 
-    /// Begin and end of the coming cycle of `clk_sys`.
+    /// Returns begin and end of the next cycle of `clk_sys`.
     pub fn coming_cycle(&mut self) -> (Time, Time) {
         let end = self.rise_laser_at(2 * self.cycle + 2);
         (self.next_edge(), end)
     }
 
-    /// Instant of the next rising edge of `clk_sys`.
+    /// Returns the instant of the next rising edge of `clk_sys`.
     #[inline(always)]
     pub fn next_edge(&mut self) -> Time {
         self.rise_laser_at(2 * self.cycle)
     }
 
-    /// From power-up until just before the first clock edge.
+    /// Advances from power-up to just before the first clock edge.
     pub fn power_up<T: SignalProbe, R: AvalancheListener>(
         &mut self,
         probe: &mut T,
@@ -127,7 +127,7 @@ impl Device {
         }
     }
 
-    /// One cycle: the edge at which both clocks rise, and the one in its middle.
+    /// Takes one cycle: the edge at which both clocks rise, and the one in its middle.
     #[inline(always)]
     pub fn step<T: SignalProbe, R: AvalancheListener>(
         &mut self,
@@ -178,13 +178,13 @@ impl Device {
         }
     }
 
-    /// Brings the levels of the clocks up to date where tracing begins, before the next edge.
+    /// Updates the levels of the clocks where tracing begins, before the next edge.
     pub fn resume_clocks(&mut self, now: Time) {
         self.top.clocks.clk_in = self.oscillator.seek(now);
         self.clocks(false, false);
     }
 
-    /// Shows what an edge takes: all that happens strictly before it has happened.
+    /// Shows `probe` the signals as an edge takes them, after all that happens strictly before it.
     #[inline(always)]
     fn before_edge<T: SignalProbe, R: AvalancheListener>(
         &mut self,
@@ -230,7 +230,7 @@ impl Device {
         (self.top.clocks.clk_sys, self.top.clocks.clk_laser) = (clk_sys, clk_laser);
     }
 
-    /// Instant of rising edge `n` of `clk_laser`.
+    /// Returns the instant of rising edge `n` of `clk_laser`.
     #[inline(always)]
     fn rise_laser_at(&mut self, n: u64) -> Time {
         let ideal = self.pll.clk_laser.rise(n);
@@ -240,8 +240,8 @@ impl Device {
         }
     }
 
-    /// Asynchronous events up to and at `until`, in order of time; whether there was one at that
-    /// very instant, which is not sampled yet, beside edges of the oscillator.
+    /// Handles asynchronous events up to and at `until`, in order of time. Returns whether there was one at `until`
+    /// itself, which is not sampled yet; edges of the oscillator do not count.
     #[inline(always)]
     pub fn settle<T: SignalProbe, R: AvalancheListener>(
         &mut self,
@@ -273,7 +273,7 @@ impl Device {
         }
     }
 
-    /// When something next happens between edges.
+    /// Returns the instant of the next asynchronous event.
     #[inline(always)]
     pub(super) fn next_event(&self) -> Time {
         let next = self.spads.next_event().min(self.timeline.next_event());
@@ -293,7 +293,7 @@ impl Device {
         }
     }
 
-    /// A new frame begins: its random numbers are taken up with the next shot.
+    /// Begins a frame: the next shot takes up its random numbers.
     pub(super) fn begin_frame(&mut self, frame: u64) {
         self.light.begin_frame(frame);
         if let Some(row) = self.spads.row() {
@@ -301,7 +301,7 @@ impl Device {
         }
     }
 
-    /// The detector does what is due.
+    /// Handles the detector's event that is due.
     #[inline(always)]
     pub(super) fn detect<R: AvalancheListener>(&mut self, listener: &mut R) {
         let now = self.spads.next_event();
@@ -324,8 +324,8 @@ impl Device {
         }
     }
 
-    /// What the detector and the light do about the signals that the edge at `now` changed; `laser` if that
-    /// switched the laser on.
+    /// Passes the signals that the edge at `now` changed to the detector and the light; `laser` if it switched the
+    /// laser on.
     #[inline(always)]
     pub(super) fn react(&mut self, now: Time, laser: bool) {
         let passive = self.top.control_sync.mode_sync;
@@ -362,13 +362,13 @@ impl Device {
         }
     }
 
-    /// The next avalanche of the diodes that are armed at `now`.
+    /// Draws the next avalanche of the diodes that are armed at `now`.
     #[inline(always)]
     fn draw(&mut self, now: Time) {
         self.spads.arm(self.light.next_avalanche(now, self.spads.share()));
     }
 
-    /// The wire to the firmware follows its front end.
+    /// Sets `tdc_stop` to the level of the front end.
     fn drive_stop(&mut self, now: Time) {
         let level = self.front_end.drive(self.spads.output(), now);
         if level != self.top.pins.tdc_stop {

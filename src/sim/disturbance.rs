@@ -1,7 +1,7 @@
-//! What makes a chain another at each edge: registers that sample too early or too late, and delays that grow and
-//! shrink with the conditions of the die.
+//! A delay line that differs from edge to edge: its registers sample too early or too late, and its delays follow the
+//! conditions of the die.
 //!
-//! The usual chain stands still, and its registers sample at the edge.
+//! Without it delays are constant and registers sample at the edge.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -12,12 +12,12 @@ use crate::kernel::thermometer::CAPACITY;
 use crate::scenario::drift::Pace;
 use crate::sensor::streams::uniform;
 
-/// The state of it.
+/// The sampling window of the registers, and the pace of the delays.
 #[derive(Clone, Debug)]
 pub struct Disturbance {
-    /// Half of the time about an edge within which a register samples, at any instant alike.
+    /// Half of the window about an edge within which a register samples, uniformly distributed.
     half_window: Time,
-    /// Where in it: for each edge a block of words of its own.
+    /// Random words for the instants: each edge has a block of its own.
     words: ChaCha8Rng,
     pace: Pace,
 }
@@ -49,11 +49,10 @@ impl Disturbance {
         self.metastable(level, &ages, now, delays)
     }
 
-    /// The same with taps about each transition, whose ages are given, the newest first, that are high or low at
-    /// random.
+    /// Samples taps of which those near each transition are high or low at random. `ages` are those of the
+    /// transitions, newest first.
     ///
-    /// Where more transitions travel than [`Taps`] have room for the taps about, those nearest to the edge are
-    /// random, and the others are by the tie rule.
+    /// If [`Taps`] has no room for all of those, only the taps nearest to each transition are random.
     fn metastable(&mut self, level: bool, ages: &[Time], now: Time, delays: &Delays) -> Taps {
         let most = (CAPACITY / ages.len()).saturating_sub(1);
         let unsure = |age: &Time| {
@@ -91,7 +90,7 @@ impl Disturbance {
         taps
     }
 
-    /// How much later than the edge a register samples [fs].
+    /// Draws how much later than the edge a register samples [fs].
     fn instant(&mut self) -> i64 {
         let half = self.half_window.fs() as i64;
         (uniform(self.words.next_u64()) * (2 * half + 1) as f64) as i64 - half

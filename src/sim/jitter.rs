@@ -6,7 +6,7 @@ use rand_chacha::rand_core::Rng;
 use crate::kernel::Time;
 use crate::sensor::streams::{Source, normal, seek, stream};
 
-/// The source, with the last edge asked for.
+/// The source of jitter, with the last edge asked for.
 #[derive(Clone, Debug)]
 pub struct Jitter {
     rms_fs: f64,
@@ -17,13 +17,13 @@ pub struct Jitter {
 }
 
 impl Jitter {
-    /// Of `rms_ps` for each edge.
+    /// Jitter of `rms_ps` for each edge.
     pub fn new(rms_ps: f64, seed: u64) -> Self {
         let stream = stream(seed, Source::Jitter, 0);
         Jitter { rms_fs: rms_ps * 1e3, stream, position: 0, last: (u64::MAX, 0) }
     }
 
-    /// Edge `n` of `clk_laser`, which would be at `ideal`.
+    /// Returns the instant of edge `n` of `clk_laser`, which would be at `ideal`.
     pub fn shift(&mut self, ideal: Time, n: u64) -> Time {
         if self.last.0 != n {
             if self.position != n {

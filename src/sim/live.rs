@@ -1,4 +1,4 @@
-//! A run without an end, whose control signals and scene are changed from outside on the way.
+//! A run without an end, whose control signals and scene can be changed on the way.
 
 use std::sync::Arc;
 
@@ -72,22 +72,22 @@ impl Live {
         &self.clockwork.device
     }
 
-    /// Frames done.
+    /// Returns the number of frames done.
     pub fn done(&self) -> u64 {
         self.clockwork.frames.done()
     }
 
-    /// Frames that ended before their depth, with a shot or more.
+    /// Returns the number of frames that ended before their depth, with a shot or more.
     pub fn abandoned(&self) -> u64 {
         self.abandoned
     }
 
-    /// Shots begun since power-up.
+    /// Returns the number of shots begun since power-up.
     pub fn shots(&self) -> u64 {
         self.clockwork.frames.shots()
     }
 
-    /// Shots of the present frame.
+    /// Returns the number of shots of the present frame.
     pub fn shots_of_frame(&self) -> u64 {
         self.shots() - self.shots_before
     }
@@ -97,8 +97,8 @@ impl Live {
         self.clockwork.device.next_edge()
     }
 
-    /// Changes control signals so long after the coming edge of `clk_sys`, as a scenario's `[[control]]` does; returns
-    /// the change with its instant, a whole number of nanoseconds and later than the one before.
+    /// Changes control signals `after` the next edge of `clk_sys`, as a scenario's `[[control]]` does. Returns the
+    /// change with its instant, a whole number of nanoseconds and later than the one before.
     pub fn control(&mut self, change: Control, after: Time) -> Control {
         let earliest = (self.now() + after).max(self.changed);
         let at_us = (earliest.fs() / 1_000_000 + 1) as f64 / 1e3;
@@ -107,27 +107,27 @@ impl Live {
         change
     }
 
-    /// Whether a change made by [`Live::control`] is still to come.
+    /// Returns whether a change made by [`Live::control`] is still to come.
     pub fn is_changing(&self) -> bool {
         self.clockwork.device.timeline.next_event() <= self.changed
     }
 
-    /// Makes a change of another run in this one, which has not come to its instant.
+    /// Repeats a change of another run, whose instant this run has not reached.
     pub fn repeat(&mut self, change: &Control) {
         self.changed = Time::from_ps_f64(change.at_us * 1e6);
         self.clockwork.device.timeline.insert(self.changed, change.clone());
     }
 
-    /// Whether the present frame is in Clear, before its first shot.
+    /// Returns whether the present frame is in Clear, before its first shot.
     pub fn is_clearing(&self) -> bool {
         self.clockwork.device.top.frame_ctrl.clear
     }
 
-    /// Has another scene from the next frame on, or from the present one if that is in Clear; whether the light can
-    /// change, which given photons cannot.
+    /// Changes the scene from the next frame on, or from the present one if that is in Clear. Returns `false` without
+    /// a change where photons are given.
     ///
-    /// All but the scene (target, air, ambient light) and the control signals at power-up has to be the same. Draws
-    /// go on where they are.
+    /// `setup` may differ only in the scene (target, air, ambient light) and in the control signals at power-up.
+    /// Random draws continue where they are.
     pub fn change_scene(&mut self, setup: Arc<Setup>) -> bool {
         let changes = self.clockwork.device.light.can_change();
         if changes {

@@ -1,4 +1,4 @@
-//! The oscillator of the board, which only waveforms show.
+//! The board's oscillator, which only waveforms show.
 
 use crate::kernel::Time;
 use crate::kernel::clock::Clock;
@@ -13,24 +13,24 @@ pub struct Oscillator {
 }
 
 impl Oscillator {
-    /// At power-up.
+    /// An oscillator at power-up.
     pub fn new(clock: Clock) -> Self {
         Oscillator { at: clock.rise(0), clock, next: 0 }
     }
 
-    /// When the next edge is.
+    /// Returns the instant of the next edge.
     #[inline(always)]
     pub fn next_edge(&self) -> Time {
         self.at
     }
 
-    /// Goes on by an edge, to the level that is returned.
+    /// Takes an edge; returns the level after it.
     #[inline(always)]
     pub fn edge(&mut self) -> bool {
         self.go_to(self.next + 1)
     }
 
-    /// Goes to `now`, after an edge that is there; returns the level.
+    /// Advances to `now`, after an edge at that instant; returns the level.
     pub fn seek(&mut self, now: Time) -> bool {
         // The first edge is half a period after power-up.
         let mut next = now.fs() / self.clock.rise(0).fs();
@@ -49,7 +49,7 @@ impl Oscillator {
         next % 2 == 1
     }
 
-    /// Instant of an edge, rising and falling counted.
+    /// Returns the instant of edge `n`, rising and falling counted.
     #[inline(always)]
     fn instant(&self, n: u64) -> Time {
         if n.is_multiple_of(2) { self.clock.rise(n / 2) } else { self.clock.fall(n / 2) }

@@ -1,4 +1,4 @@
-//! The light, the detector and its wire for firmware that is somebody else's.
+//! Light, detector and `tdc_stop` for custom firmware.
 
 use crate::kernel::Time;
 
@@ -9,13 +9,13 @@ use super::setup::Setup;
 #[derive(Clone, Debug)]
 pub struct Photons {
     device: Device,
-    /// Until then no edge can come between.
+    /// The earliest that the next edge can come.
     until: Time,
     cycle: Time,
     frames: u64,
 }
 
-/// What firmware shows the laser and the detector after an edge of `clk_sys`.
+/// Outputs of the firmware to laser and detector after an edge of `clk_sys`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shown {
     /// A shot begins.
@@ -26,25 +26,25 @@ pub struct Shown {
     pub spad_rst: bool,
     /// SPAD quench mode, as the SPAD has it: MODE 1 is free running.
     pub mode: bool,
-    /// `tdc_stop` is to come from the ring oscillator.
+    /// `tdc_stop` comes from the ring oscillator.
     pub ring_on: bool,
-    /// A frame has ended: the random numbers of the next one are taken up, which are those of a run's.
+    /// A frame has ended: the next shot takes up the random numbers of the next frame, as in a run.
     pub frame_done: bool,
 }
 
 impl Photons {
-    /// From power-up.
+    /// The detector of a scenario at power-up.
     pub fn new(setup: &Setup) -> Self {
         let (device, cycle) = (setup.device(), setup.cycle());
         Photons { device, until: setup.pll().locked_at, cycle, frames: 0 }
     }
 
-    /// The level of `tdc_stop`.
+    /// Returns the level of `tdc_stop`.
     pub fn level(&self) -> bool {
         self.device.top.pins.tdc_stop
     }
 
-    /// Goes on to where `tdc_stop` next changes before the firmware's coming edge, or on it; when that is.
+    /// Advances to the next change of `tdc_stop` before or at the firmware's next edge, and returns its instant.
     pub fn next_change(&mut self) -> Option<Time> {
         let level = self.level();
         while self.device.next_event() <= self.until {
@@ -57,7 +57,7 @@ impl Photons {
         None
     }
 
-    /// An edge of `clk_sys` at `now`, after which the firmware shows that.
+    /// Takes an edge of `clk_sys` at `now`, after which the firmware's outputs are `shown`.
     pub fn edge(&mut self, now: Time, shown: Shown) {
         self.device.settle(now, &mut Off, &mut Off);
         let top = &mut self.device.top;

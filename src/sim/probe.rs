@@ -4,18 +4,19 @@ use crate::firmware::tof_top::TofTop;
 use crate::kernel::Time;
 use crate::optics::hazard::Cause;
 
-/// Sees the signals after every instant at which one may have changed.
+/// An observer of signals, called after every instant at which one may have changed.
 pub trait SignalProbe {
     /// Whether the probe observes signals at all.
     const ON: bool;
     /// Whether the probe also observes signals just before each rising edge of `clk_sys` and `clk_laser`.
     const EDGES: bool = false;
-    /// The signals as they are from `now` on.
+    /// Receives the signals as they are from `now` on.
     fn sample(&mut self, now: Time, top: &TofTop);
-    /// The outputs of the row of SPADs as they are in the samples to come, a bit each, where the diodes are told apart.
+    /// Receives the outputs of the row of SPADs for the next samples, a bit each, where diodes are simulated one by
+    /// one.
     #[inline(always)]
     fn outputs(&mut self, _outputs: u64) {}
-    /// The same where only levels of clocks have changed since the last sample or tick.
+    /// Receives the signals where only levels of clocks have changed since the last sample or tick.
     #[inline(always)]
     fn tick(&mut self, now: Time, top: &TofTop) {
         self.sample(now, top);
@@ -25,8 +26,8 @@ pub trait SignalProbe {
     fn looks_before(&self, _edge: Edge) -> bool {
         Self::EDGES
     }
-    /// The signals as the edge at `now` takes them: an asynchronous change at that very instant is
-    /// not there yet. Without [`SignalProbe::ON`], `clk_in` stands still.
+    /// Receives the signals as the edge at `now` takes them, before asynchronous changes at that instant. Without
+    /// [`SignalProbe::ON`], `clk_in` does not move.
     #[inline(always)]
     fn before_edge(&mut self, _edge: Edge, _now: Time, _top: &TofTop) {}
 }
@@ -40,15 +41,15 @@ pub enum Edge {
     Middle,
 }
 
-/// Hears of every avalanche.
+/// An observer of avalanches.
 pub trait AvalancheListener {
     /// Whether the probe observes avalanches at all.
     const ON: bool;
-    /// An avalanche at `at`, `None` of a known cause.
+    /// Receives an avalanche at `at`, with its cause if that is known.
     fn avalanche(&mut self, at: Time, cause: Option<Cause>);
 }
 
-/// Neither looks nor listens.
+/// An observer of nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Off;
 

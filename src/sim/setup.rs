@@ -57,25 +57,25 @@ pub struct Setup {
     /// The triangles of the target, if it is a mesh.
     #[doc(hidden)]
     pub mesh: Option<Arc<Mesh>>,
-    /// What elaboration fixes in the firmware.
+    /// Parameters of the firmware.
     #[doc(hidden)]
     pub params: Params,
     /// The delays that the TDC was calibrated by, if it has drifted since.
     calibrated: Option<Delays>,
     /// The converter as its calibration has it, if it is another.
     known_tdc: Option<tdc::Params>,
-    /// What becomes of the delays in a run, if something does.
+    /// Course of the delays over a run, if they change.
     pub(super) course: Option<Course>,
-    /// What makes the chain another at each edge, if something does.
+    /// Disturbance of the chain from edge to edge, if there is one.
     disturbance: Option<Disturbance>,
     /// The network in the estimator.
     pub network: Network,
     /// Why no depth of a run can be that of the target, if none can.
     no_depth: Option<Note>,
     pll: Pll,
-    /// What reaches the SPADs on the TDC.
+    /// Light on the SPADs that are on the TDC.
     pub(super) light: Light,
-    /// What reaches all that are simulated, if these are more.
+    /// Light on all SPADs that are simulated, if these are more.
     row_light: Option<Light>,
     pins: Pins,
 }
@@ -108,7 +108,7 @@ impl Setup {
         Ok(setup)
     }
 
-    /// Whether the network has as many inputs as the histogram has bins.
+    /// Checks that the network has as many inputs as the histogram has bins.
     ///
     /// # Errors
     /// When it has not.
@@ -154,7 +154,7 @@ impl Setup {
         )
     }
 
-    /// What reaches all SPADs that are simulated.
+    /// Returns the light on all SPADs that are simulated.
     pub(super) fn light_of_row(&self) -> &Light {
         self.row_light.as_ref().unwrap_or(&self.light)
     }
@@ -164,25 +164,25 @@ impl Setup {
         Bins::of_tdc(&self.params.tdc)
     }
 
-    /// The same as the calibration has it, for who reckons with the bins: not what they have drifted to, nor what a
-    /// code density could not see.
+    /// Returns the bins of the calibration, which estimators use: without drift since, and without what a code density
+    /// could not see.
     pub fn known_bins(&self) -> Bins {
         self.known_tdc.as_ref().map_or_else(|| self.bins(), Bins::of_tdc)
     }
 
-    /// What makes the chain another at each edge, if something does: registers that sample at any instant of a set-up
-    /// window, or delays that follow conditions.
+    /// Returns the disturbance of the chain, if there is one: registers that sample at any instant of a set-up window,
+    /// or delays that follow conditions.
     #[doc(hidden)]
     pub fn disturbance(&self) -> Option<&Disturbance> {
         self.disturbance.as_ref()
     }
 
-    /// Whether the chain has drifted since its calibration.
+    /// Returns whether the chain has drifted since its calibration.
     pub fn has_drifted(&self) -> bool {
         self.calibrated.is_some()
     }
 
-    /// The delays that the TDC was calibrated by.
+    /// Returns the delays that the TDC was calibrated by.
     pub fn known_delays(&self) -> &Delays {
         self.calibrated.as_ref().unwrap_or(&self.params.tdc.delays)
     }

@@ -1,4 +1,4 @@
-//! What became of each shot: its photon, and the TDC's result.
+//! Records of shots: the photon, and the TDC's result.
 
 use std::collections::VecDeque;
 
@@ -21,7 +21,7 @@ pub struct Shot {
     /// The avalanche that the TDC kept, or else the first one: from the laser edge [fs]. Negative
     /// if it came before (MODE 1).
     pub arrival_fs: Option<i64>,
-    /// What set it off; unknown for given photons.
+    /// Its cause; unknown for given photons.
     pub cause: Option<Cause>,
     /// Ones count of the taps.
     pub n: Option<u64>,
@@ -29,7 +29,7 @@ pub struct Shot {
     pub coarse: Option<u64>,
     /// TDC code, which is also the histogram's bin.
     pub code: Option<u64>,
-    /// Whether the laser driver was told to fire.
+    /// `laser_en` as the driver took it.
     pub laser_en: bool,
     begun: Time,
     cycle: u64,
@@ -49,7 +49,7 @@ pub(super) struct ShotRecorder {
     /// The driver's `enable`, as the coming shot takes it.
     laser_en: bool,
     last_edge: Time,
-    /// Whether this edge decides on the code of a hit.
+    /// `true` if this edge decides on the code of a hit.
     decides: bool,
 }
 
@@ -71,7 +71,7 @@ impl ShotRecorder {
         }
     }
 
-    /// Looks at the registers after the edge `cycle` at `now`, in that frame.
+    /// Updates shots from the registers after edge `cycle` at `now`.
     fn edge(&mut self, (cycle, now): (u64, Time), frame: u64, top: &TofTop, p: &Params) {
         match p.code_source {
             CodeSource::Tdc => self.follow_tdc(cycle, top, p),
@@ -133,12 +133,12 @@ impl ShotRecorder {
     }
 }
 
-/// Hears of avalanches, and sees the registers after each edge.
+/// An observer of shots: of avalanches, and of the registers after each edge.
 pub(super) trait ShotListener: AvalancheListener {
-    /// Looks at the registers after the last edge.
+    /// Receives the registers after an edge.
     ///
     /// # Errors
-    /// When a shot cannot be handed on.
+    /// When the callback of a shot fails.
     fn after_edge(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<()>;
 }
 
@@ -149,14 +149,14 @@ impl ShotListener for Off {
     }
 }
 
-/// Hands on each shot once its result is known.
+/// Calls back with each shot once its result is known.
 pub(super) struct Recording<'a> {
     pub(super) recorder: ShotRecorder,
     pub(super) take: Callback<'a, Shot>,
 }
 
 impl<'a> Recording<'a> {
-    /// Hands every shot from power-up on to `take`.
+    /// Calls `take` with every shot from power-up on.
     pub(super) fn new(take: Callback<'a, Shot>) -> Self {
         Recording { recorder: ShotRecorder::default(), take }
     }

@@ -1,4 +1,4 @@
-//! A device that its owner steps edge by edge, and whose pins and signals are at hand in between.
+//! A run that its owner steps edge by edge, reading signals and driving pins in between.
 
 use std::sync::Arc;
 
@@ -16,19 +16,19 @@ use super::setup::Setup;
 use super::stepping::Stepping;
 use super::timeline::drive;
 
-/// A run in the hands of its owner. A signal's value is the one that the last edge took, as a logic analyser sees it.
+/// A run stepped edge by edge. Signals have the values that the last edge took, as a logic analyser sees them.
 #[derive(Clone, Debug)]
 pub struct SteppedRun {
     setup: Arc<Setup>,
     clockwork: Clockwork,
     entries: Vec<Entry>,
     seen: Seen,
-    /// Instants at which the wire from the detector changed.
+    /// Instants at which `tdc_stop` changed.
     stops: Vec<Time>,
     keeps_stops: bool,
 }
 
-/// What the last edge took.
+/// The signals as the last edge took them.
 #[derive(Clone, Debug)]
 struct Seen {
     part: Part,
@@ -53,7 +53,7 @@ impl SignalProbe for Seen {
 }
 
 impl SteppedRun {
-    /// From power-up, just before the first edge.
+    /// A run just before its first edge.
     pub fn new(setup: Arc<Setup>) -> Self {
         let mut device = setup.device();
         let stops = power_up(&mut device);
@@ -74,13 +74,13 @@ impl SteppedRun {
         }
     }
 
-    /// The same, not yet stepped, but it keeps when `tdc_stop` changes, for [`SteppedRun::take_stops`].
+    /// Records from now on when `tdc_stop` changes, for [`SteppedRun::take_stops`]; to be called before the first step.
     pub fn keeping_stops(self) -> Self {
         SteppedRun { keeps_stops: true, ..self }
     }
 
-    /// The instants at which `tdc_stop` changed since they were last taken, in order, if they are kept; the first of all
-    /// is a rise. A step goes on past its edge for three quarters of a cycle, and has what changes until then.
+    /// Returns the instants at which `tdc_stop` changed since the last call, in order, if they are recorded. The first
+    /// of all is a rise. A step covers three quarters of a cycle after its edge, and the changes in that time.
     pub fn take_stops(&mut self) -> Option<Vec<Time>> {
         self.keeps_stops.then(|| std::mem::take(&mut self.stops))
     }
@@ -99,38 +99,37 @@ impl SteppedRun {
         clockwork.ready().cloned()
     }
 
-    /// The last edge.
+    /// Returns number and instant of the last edge, if there was one.
     pub fn cycle(&self) -> Option<Cycle> {
         let number = self.clockwork.cycle().checked_sub(1)?;
         Some(Cycle { number, begin: self.seen.begin })
     }
 
-    /// Every signal.
+    /// Returns every signal.
     pub fn signals(&self) -> &[Entry] {
         &self.entries
     }
 
-    /// How the signal of that name is read, with its path or a part of it that
-    /// [`Run::step_cycles`](crate::Run::step_cycles) takes.
+    /// Finds a signal by name or path, as [`Run::step_cycles`](crate::Run::step_cycles) does.
     ///
     /// # Errors
-    /// When there is none.
+    /// When there is no such signal.
     pub fn find(&self, name: &str) -> Result<SignalHandle> {
         find(&self.entries, name).map(|entry| SignalHandle(Shown::new(entry)))
     }
 
-    /// The value that the last edge took.
+    /// Returns a signal's value as the last edge took it.
     pub fn value(&self, signal: SignalHandle) -> i64 {
         signal.0.value(&self.seen.values)
     }
 
-    /// Drives pins of the acquisition computer from now on, as a `[[control]]` of the scenario does; its time is not
-    /// looked at.
+    /// Drives pins of the acquisition computer from now on, as a `[[control]]` of the scenario does; its time is
+    /// ignored.
     pub fn drive(&mut self, control: &Control) {
         drive(control, &mut self.clockwork.device.top.pins);
     }
 
-    /// One pin of the acquisition computer with a value, as [`SteppedRun::drive`] takes it.
+    /// Returns the change of one pin of the acquisition computer to `value`, for [`SteppedRun::drive`].
     ///
     /// # Errors
     /// When there is no such pin, or it has no such value.
@@ -162,7 +161,7 @@ impl SteppedRun {
     }
 }
 
-/// From power-up until just before the first edge; when the wire changes in that time.
+/// Advances from power-up to just before the first edge; returns when `tdc_stop` changes in that time.
 fn power_up(device: &mut Device) -> Vec<Time> {
     let (until, mut changes) = (device.pll.locked_at, Vec::new());
     while device.next_event() <= until {
@@ -174,7 +173,7 @@ fn power_up(device: &mut Device) -> Vec<Time> {
     changes
 }
 
-/// A signal that was found by its name.
+/// A signal found by its name.
 #[derive(Clone, Copy, Debug)]
 pub struct SignalHandle(Shown);
 

@@ -4,14 +4,14 @@ use crate::firmware::tof_top::Pins;
 use crate::kernel::{Time, U};
 use crate::scenario::{Control, Firmware, QuenchMode, Scenario};
 
-/// Changes still to come, in order of time.
+/// Control changes still to come, in order of time.
 #[derive(Clone, Debug)]
 pub struct Timeline {
     changes: std::vec::IntoIter<(Time, Control)>,
     next: Time,
-    /// How long after a depth the acquisition computer turns the laser on or off, if it does.
+    /// Delay after a depth of the acquisition computer's answer, which turns the laser on or off.
     response: Option<Time>,
-    /// When it does so next.
+    /// The next answer.
     turn: Time,
 }
 
@@ -29,13 +29,13 @@ impl Timeline {
         timeline
     }
 
-    /// When the next change comes.
+    /// Returns the instant of the next change.
     #[inline(always)]
     pub fn next_event(&self) -> Time {
         self.next
     }
 
-    /// A depth is ready from the edge at `now` on.
+    /// Schedules the answer to a depth that is ready from the edge at `now` on.
     #[inline]
     pub fn take_depth(&mut self, now: Time) {
         if let Some(response) = self.response {
@@ -44,7 +44,7 @@ impl Timeline {
         }
     }
 
-    /// The answer to a depth comes so much later.
+    /// Delays the answer to a depth.
     pub fn pass(&mut self, time: Time) {
         self.turn = self.turn.saturating_add(time);
         self.look_ahead();
@@ -60,7 +60,7 @@ impl Timeline {
         self.look_ahead();
     }
 
-    /// Adds a change, behind those of the same instant.
+    /// Adds a change, after those of the same instant.
     pub fn insert(&mut self, at: Time, change: Control) {
         let mut changes: Vec<_> = self.changes.by_ref().collect();
         let place = changes.partition_point(|(other, _)| *other <= at);
@@ -69,7 +69,7 @@ impl Timeline {
         self.look_ahead();
     }
 
-    /// Changes still to come.
+    /// Returns the number of changes still to come.
     pub fn left(&self) -> usize {
         self.changes.len()
     }
@@ -80,7 +80,7 @@ impl Timeline {
     }
 }
 
-/// Makes a change.
+/// Applies a change to the pins.
 pub(super) fn drive(change: &Control, pins: &mut Pins) {
     pins.laser_freq = change.laser_freq.map_or(pins.laser_freq, U::new);
     pins.mode = change.mode.map_or(pins.mode, |mode| mode == QuenchMode::FreeRunning);
@@ -90,7 +90,7 @@ pub(super) fn drive(change: &Control, pins: &mut Pins) {
     pins.rst = change.rst.unwrap_or(pins.rst);
 }
 
-/// The pins at power-up.
+/// Returns the pins at power-up.
 pub fn pins_at_power_up(firmware: &Firmware) -> Pins {
     Pins {
         rst: firmware.rst,

@@ -10,19 +10,18 @@ use crate::waves::{Marks, Waves};
 use super::device::{Device, Off, SignalProbe};
 use super::frames::Frames;
 
-/// A trace that is on only within windows, or none.
+/// A probe that is on only within windows of the run.
 pub trait WindowedProbe: SignalProbe {
-    /// Begins at power-up, if it is to see what happens before the first edge of `clk_sys`; whether
-    /// it does.
+    /// Begins at power-up if a window includes the time before the first edge of `clk_sys`; returns whether it does.
     fn begins_at_power_up(&mut self, _device: &mut Device) -> bool {
         false
     }
-    /// Whether the coming cycle is to be traced.
+    /// Returns whether to trace the next cycle.
     ///
     /// # Errors
-    /// When what it has seen could not be kept.
+    /// When the trace could not be written.
     fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool>;
-    /// Whether the run may end here.
+    /// Returns whether the run may end here.
     fn is_done(&self) -> bool {
         false
     }
@@ -53,12 +52,12 @@ pub(super) struct WaveTracer {
     began: Option<Time>,
     /// Windows that the cycle under way belongs to; the viewer first shows what one of them has.
     wanting: usize,
-    /// Until then that number holds, whatever the device does.
+    /// Instant until which that number holds, whatever the device does.
     wanting_until: Time,
 }
 
 impl WaveTracer {
-    /// For a waveform and its windows.
+    /// A tracer of those windows.
     pub(super) fn new(waves: Waves, windows: Vec<Window>) -> Self {
         let (marks, shot, began) = (Marks::default(), None, None);
         WaveTracer {
@@ -194,13 +193,13 @@ impl WindowedProbe for WaveTracer {
     }
 }
 
-/// Whether a shot begins in four cycles: two before `pre_start` rises.
+/// Returns whether a shot begins in four cycles: two before `pre_start` rises.
 fn shot_is_near(top: &TofTop) -> bool {
     let laser = &top.vcsel_driver.registers;
     top.frame_ctrl.acquire && laser.count + 3 == laser.last
 }
 
-/// Whether the estimator works, is about to, or has just finished.
+/// Returns whether the estimator works, is about to, or has just finished.
 fn is_estimating(ctrl: &FrameCtrl, p: &frame_ctrl::Params) -> bool {
     const NEAR: u64 = 2;
     match ctrl.state {

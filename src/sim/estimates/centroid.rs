@@ -4,20 +4,20 @@
 use crate::firmware::centroid_estimator::{POSITION_FRACTION, Params, SURPLUS};
 use crate::firmware::forward2::Depth;
 
-/// What an estimation finds.
+/// The result of an estimation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Found {
     /// Depth word, 0 where nothing stands out [m].
     pub depth: Depth,
     /// Height of the highest bin above the background, 0 where nothing stands out [hits].
     pub best: u32,
-    /// That bin.
+    /// Bin of that height.
     pub peak: usize,
     /// Hits in its window.
     pub best_sum: u64,
 }
 
-/// The estimate of a histogram.
+/// Estimates the depth of a histogram.
 pub fn locate(p: &Params, histogram: &[u32]) -> Found {
     let w = p.half_width as usize;
     let (mut best, mut peak) = (0, 0);

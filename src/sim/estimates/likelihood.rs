@@ -20,29 +20,29 @@ pub use scan::Best;
 pub use step::{Information, Point};
 pub use verdict::Found;
 
-/// An estimate, and all that it comes by.
+/// An estimate with its intermediate results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trace {
-    /// What the blocks of bins show of ambient light.
+    /// Ambient light by blocks of bins.
     pub ambient: Ambient,
     /// The highest place of the box.
     pub start: Best,
-    /// Where the fit begins.
+    /// First point of the fit.
     pub begin: Point,
-    /// Where each step leads, and what it knew.
+    /// The point and the information of each step.
     pub steps: [(Point, Information); STEPS],
     /// The highest place of the box outside of the fit.
     pub other: Best,
-    /// What comes out.
+    /// The result.
     pub found: Found,
 }
 
-/// The estimate of a histogram.
+/// Estimates the depth of a histogram.
 pub fn estimate(p: &Params, histogram: &[u32]) -> Found {
     trace(p, histogram).found
 }
 
-/// The same, with what each stage comes to.
+/// Estimates the depth of a histogram, and returns each stage's result.
 pub fn trace(p: &Params, histogram: &[u32]) -> Trace {
     let shots = Shots::new(p, histogram);
     let ambient = shots.ambient(p);

@@ -1,7 +1,7 @@
-//! The device while it only acquires: most of a run, and the same cycle again and again.
+//! Acquisition by parts: a fast way for most of a run, in which the same cycle repeats.
 //!
-//! Exact as [`halves`](super::halves) says, with an even clock; what can end that ends the loop: the
-//! last shot, a change of a control signal, or a limit of the caller's. Each half sleeps as long as
+//! Exact under the conditions of [`halves`](super::halves), with a clock without jitter; whatever ends those ends the
+//! loop: the last shot, a change of a control signal, or the caller's limit. Each half sleeps as long as
 //! it is quiet; an avalanche or a `start` wakes the converter. Cycles in which both sleep are
 //! counted and not stepped.
 
@@ -16,9 +16,8 @@ use super::idle::cycles_until_event;
 use super::pulse::Pulse;
 use super::steady::{control_is_steady, cycles_of_steady_control, estimator_rests, even_period};
 
-/// Goes on until `limit`, or until something else begins than an acquisition [cycles of clk_sys].
-/// Does nothing if that is so from the start. `at_shot` may move the device on in each cycle in which
-/// a shot has begun.
+/// Advances to `limit` or to the end of the acquisition, whichever is first [cycles of clk_sys]; does nothing outside
+/// of an acquisition. `at_shot` may advance the device further in each cycle in which a shot has begun.
 #[inline(always)]
 pub fn acquire(
     device: &mut Device,

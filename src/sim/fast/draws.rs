@@ -1,10 +1,10 @@
-//! From a random word straight to the outcome of a shot.
+//! A table from random words to outcomes of shots.
 //!
 //! An avalanche comes later, the smaller its word is, so that the staircase of outcomes over time is
 //! one over words too: a step that begins at T is reached by words below exp(-H(T)) 2^64. A table
-//! over a word's upper bits knows the outcome, or the one place where it changes. What lies within
-//! [`guard`] of such a place is worked out as the cycle-accurate model does it, and so is what lies
-//! where steps crowd: the outcome is the same to the last bit.
+//! over a word's upper bits knows the outcome, or the one place where it changes. Words within
+//! [`guard`] of such a place are computed as the cycle-accurate model does it, and so are those in cells
+//! with several steps: the outcome is the same to the last bit.
 
 use crate::kernel::Time;
 use crate::optics::Hazard;
@@ -15,7 +15,7 @@ use super::outcomes::{ShotOutcome, ShotOutcomes};
 /// Bits of a word that choose a cell.
 const CELL_BITS: u32 = 12;
 
-/// To be worked out.
+/// Stands for an outcome that has to be computed.
 const EXACTLY: ShotOutcome = ShotOutcome::MAX;
 
 /// A part of all words.
@@ -23,13 +23,13 @@ const EXACTLY: ShotOutcome = ShotOutcome::MAX;
 struct Cell {
     /// First word of `above`.
     split: u64,
-    /// ShotOutcome of the cell's words before that.
+    /// Outcome of the cell's words before that.
     below: ShotOutcome,
-    /// ShotOutcome of the others.
+    /// Outcome of the others.
     above: ShotOutcome,
 }
 
-/// The outcomes of all words, in one kind of light.
+/// The outcomes of all words under one illumination.
 #[derive(Clone, Debug)]
 pub struct Draws {
     cells: Vec<Cell>,
@@ -39,7 +39,7 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// For shots with that hazard.
+    /// A table for shots with that hazard.
     pub fn new(outcomes: ShotOutcomes, hazard: Hazard) -> Self {
         let guard = guard(&hazard);
         let (mut cells, mut places) = (Vec::with_capacity(1 << CELL_BITS), Vec::new());
@@ -73,7 +73,7 @@ impl Draws {
         Draws { cells, guard, outcomes, hazard }
     }
 
-    /// The outcome of a shot whose first avalanche is drawn by `word`.
+    /// Returns the outcome of a shot whose first avalanche is drawn by `word`.
     #[inline(always)]
     pub fn outcome(&self, word: u64) -> ShotOutcome {
         let cell = &self.cells[(word >> (u64::BITS - CELL_BITS)) as usize];
@@ -82,24 +82,24 @@ impl Draws {
         if near | (outcome == EXACTLY) { self.exactly(word) } else { outcome }
     }
 
-    /// The outcome of an avalanche so long after the laser edge.
+    /// Returns the outcome of an avalanche `arrival` after the laser edge.
     pub fn outcome_at(&self, arrival: Time) -> ShotOutcome {
         self.outcomes.of(arrival)
     }
 
-    /// As the cycle-accurate model has it: the draw, its time, the outcome.
+    /// Computes the outcome as the cycle-accurate model does: the draw, its time, the outcome.
     #[cold]
     fn exactly(&self, word: u64) -> ShotOutcome {
         self.outcomes.of(self.hazard.inverse(exponential(word)))
     }
 }
 
-/// exp(`exponent`) of all words.
+/// Returns exp(`exponent`) of the range of words.
 fn word(exponent: f64) -> u64 {
     (libm::exp(exponent) * 2f64.powi(64)) as u64
 }
 
-/// Words either side of a change of outcome that are worked out: what a time is off by rounding,
+/// Number of words on either side of a change of outcome that have to be computed: the rounding error of a time,
 /// less than 1e-7 fs, as a part of all words, and ten times that. The other roundings are below
 /// 2^-40 of all words.
 fn guard(hazard: &Hazard) -> u64 {

@@ -1,4 +1,4 @@
-//! Clear and estimation, each as a whole.
+//! Clear and estimation, each as one leap.
 //!
 //! Exact while no control signal changes and nothing else goes on: a word of the RAM is zero after
 //! its cycle of Clear, and an estimation is sums of integers. The TDC's window is closed, so that it sees

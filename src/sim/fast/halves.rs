@@ -1,4 +1,4 @@
-//! The top while it only acquires, as two halves: the emitter (laser, SPAD control, count of shots) and
+//! The firmware during an acquisition, as two halves: the emitter (laser, SPAD control, count of shots) and
 //! the converter (TDC or its stand-in, histogram).
 //!
 //! Exact while `acquire` is high, resets and control signals stand still and the estimator rests. The
@@ -13,13 +13,13 @@ use crate::firmware::{
 use crate::kernel::{AWAKE, Clocked};
 use crate::sim::device::Device;
 
-/// Coming cycles in which nothing of the emitter would move but the laser's count.
+/// Returns the number of next cycles in which only the laser's count moves in the emitter.
 #[inline(always)]
 pub(super) fn emitter_quiet(top: &TofTop, p: &Params) -> u64 {
     emitter_quiet_if(top, top.vcsel_driver.quiet(&laser_inputs(top), &p.vcsel_driver))
 }
 
-/// The same while no pulse is on its way.
+/// Returns [`emitter_quiet`] while no laser pulse is on its way.
 #[inline(always)]
 pub(super) fn emitter_quiet_without_pulse(top: &TofTop, p: &Params) -> u64 {
     emitter_quiet_if(top, top.vcsel_driver.registers.quiet(&laser_inputs(top), &p.vcsel_driver))
@@ -33,8 +33,8 @@ fn emitter_quiet_if(top: &TofTop, laser_quiet: u64) -> u64 {
     laser_quiet.min(top.spad_control.quiet(&spad_inputs(top), &()))
 }
 
-/// Coming cycles in which nothing of the converter would move but the coarse count and hits on their way
-/// to their words, while `tdc_stop` holds.
+/// Returns the number of next cycles in which only the coarse count and hits on their way to their words move in the
+/// converter, while `tdc_stop` holds.
 #[inline(always)]
 pub(super) fn converter_quiet(device: &Device, p: &Params) -> u64 {
     let top = &device.top;
@@ -45,20 +45,20 @@ pub(super) fn converter_quiet(device: &Device, p: &Params) -> u64 {
     }
 }
 
-/// Whether the emitter has just given a sleeping converter something to do.
+/// Returns whether the emitter has just woken the converter.
 #[inline(always)]
 pub(super) fn rouses_converter(device: &Device) -> bool {
     device.top.vcsel_driver.registers.start || !taps_hold(device)
 }
 
-/// Whether every edge samples the same taps as the last one, while `tdc_stop` holds.
+/// Returns whether every edge samples the same taps as the last one, while `tdc_stop` holds.
 #[inline(always)]
 fn taps_hold(device: &Device) -> bool {
     let top = &device.top;
     device.transitions.are_over(top.pins.tdc_stop, &top.tdc.carry_chain.taps)
 }
 
-/// The converter's part of an edge at which both clocks rise.
+/// Takes the converter's part of an edge at which both clocks rise.
 #[inline(always)]
 pub(super) fn convert(top: &mut TofTop, p: &Params, taps: Taps) {
     count(top, p);
@@ -66,13 +66,13 @@ pub(super) fn convert(top: &mut TofTop, p: &Params, taps: Taps) {
     top.take_code(p);
 }
 
-/// The part of it that samples and keeps hits.
+/// Takes the part of the converter that samples and keeps hits.
 #[inline(always)]
 pub(super) fn sample(top: &mut TofTop, p: &Params, taps: Taps) {
     top.tdc.sample(&tdc_inputs(top), &p.tdc, taps);
 }
 
-/// The emitter's part of `clk_sys` at the same edge.
+/// Takes the emitter's part of the same edge of `clk_sys`.
 #[inline(always)]
 pub(super) fn emit(top: &mut TofTop, p: &Params) {
     let laser = laser_inputs(top);
@@ -85,14 +85,14 @@ pub(super) fn emit(top: &mut TofTop, p: &Params) {
     top.vcsel_driver.registers.tick(&laser, &p.vcsel_driver);
 }
 
-/// The edge of `clk_laser` that comes with it; before [`emit`], whose `fire` it does not see yet.
+/// Takes the emitter's part of the edge of `clk_laser`; before [`emit`], whose `fire` it does not see yet.
 #[inline(always)]
 pub(super) fn emit_light(top: &mut TofTop, p: &Params) {
     top.vcsel_driver.rise_laser(&laser_inputs(top), &p.vcsel_driver);
     top.drive_laser();
 }
 
-/// The rest of the cycle: `clk_laser` falls, rises and falls.
+/// Takes the rest of the cycle: `clk_laser` falls, rises and falls.
 #[inline(always)]
 pub(super) fn rest_of_cycle(top: &mut TofTop, p: &Params) {
     top.vcsel_driver.fall_laser();
@@ -101,20 +101,20 @@ pub(super) fn rest_of_cycle(top: &mut TofTop, p: &Params) {
     top.drive_laser();
 }
 
-/// Stands for that many cycles of the emitter, all of them quiet.
+/// Skips quiet cycles of the emitter.
 #[inline(always)]
 pub(super) fn skip_emitter(top: &mut TofTop, p: &Params, cycles: u64) {
     top.vcsel_driver.skip(&laser_inputs(top), &p.vcsel_driver, cycles);
 }
 
-/// Stands for that many cycles of the converter, all of them quiet.
+/// Skips quiet cycles of the converter.
 #[inline(always)]
 pub(super) fn skip_converter(top: &mut TofTop, p: &Params, cycles: u64) {
     count_hits(top, p, cycles);
     skip_sampling(top, p, cycles);
 }
 
-/// Stands for that many cycles of the part of it that samples and keeps hits.
+/// Skips quiet cycles of the part of the converter that samples and keeps hits.
 #[inline(always)]
 pub(super) fn skip_sampling(top: &mut TofTop, p: &Params, cycles: u64) {
     if let CodeSource::Tdc = p.code_source {
@@ -122,7 +122,7 @@ pub(super) fn skip_sampling(top: &mut TofTop, p: &Params, cycles: u64) {
     }
 }
 
-/// Takes the hits that the TDC has kept so many cycles on, towards their words.
+/// Advances hits that the TDC has kept by `cycles` towards their words.
 #[inline(always)]
 pub(super) fn count_hits(top: &mut TofTop, p: &Params, cycles: u64) {
     let mut left = cycles;
@@ -136,7 +136,7 @@ pub(super) fn count_hits(top: &mut TofTop, p: &Params, cycles: u64) {
     }
 }
 
-/// The histogram's part of an edge while nothing is read.
+/// Takes the histogram's part of an edge while nothing is read.
 #[inline(always)]
 pub(super) fn count(top: &mut TofTop, p: &Params) {
     let (clear, read_en) = (false, false);

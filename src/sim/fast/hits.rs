@@ -25,7 +25,7 @@ struct Hit {
     taps: Taps,
 }
 
-/// Those that the registers behind the latch have not seen, the oldest first.
+/// Hits that the registers behind the latch have not seen, oldest first.
 #[derive(Default)]
 pub struct Hits(VecDeque<Hit>);
 
@@ -49,7 +49,7 @@ impl Hits {
         }
     }
 
-    /// Stands for that many cycles of the converter, all of them quiet.
+    /// Skips quiet cycles of the converter.
     #[inline(always)]
     pub(super) fn skip(&self, top: &mut TofTop, p: &Params, cycles: u64) {
         if self.0.is_empty() {
@@ -59,7 +59,7 @@ impl Hits {
         }
     }
 
-    /// Brings the registers to where they are when `cycle` edges are done.
+    /// Brings the registers to their state after `cycle` edges.
     pub(super) fn replay(&mut self, top: &mut TofTop, p: &Params, cycle: u64) {
         let Some(first) = self.0.front() else { return };
         let mut done = first.taken;
@@ -87,7 +87,7 @@ impl Hits {
         }
     }
 
-    /// What the oldest leaves where none after it may: a count, and the last code.
+    /// Counts the oldest hit, and keeps its code as the last one.
     #[inline(always)]
     fn count_oldest(&mut self, top: &mut TofTop, p: &Params) {
         let Some(hit) = self.0.pop_front() else { return };
@@ -100,7 +100,7 @@ impl Hits {
     }
 }
 
-/// That many edges of all behind the latch, with no hit.
+/// Takes so many edges of the registers behind the latch, without a hit.
 fn come_to_rest(top: &mut TofTop, p: &Params, edges: u64) {
     let mut left = edges;
     while left > 0 && (top.tdc.tdc_decoder.has_hit() | top.histogram_builder.has_hit()) {
@@ -109,7 +109,7 @@ fn come_to_rest(top: &mut TofTop, p: &Params, edges: u64) {
     }
 }
 
-/// An edge of all behind the latch.
+/// Takes an edge of the registers behind the latch.
 fn decode(top: &mut TofTop, p: &Params, i: &tdc_decoder::In) {
     count(top, p);
     top.tdc.tdc_decoder.tick(i, &p.tdc.decoder);

@@ -1,4 +1,4 @@
-//! Idle cycles, counted and not stepped.
+//! Idle cycles, skipped as a whole.
 //!
 //! Exact while every module is quiet, no pin changes and the detector does nothing: nothing would move
 //! but counters whose values no other module acts on, and [`Clocked::skip`] moves those.
@@ -29,8 +29,8 @@ pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
     }
 }
 
-/// Of that many quiet cycles, the first of them at `now`, those whose edge of `clk_sys` comes before the
-/// detector's next event.
+/// Returns how many of `quiet` cycles, the first of them at `now`, have their edge of `clk_sys` before the detector's
+/// next event.
 #[inline(always)]
 pub(super) fn cycles_until_event(device: &Device, quiet: u64, now: Time, period: Time) -> u64 {
     let event = device.spads.next_event();
@@ -41,7 +41,7 @@ pub(super) fn cycles_until_event(device: &Device, quiet: u64, now: Time, period:
     }
 }
 
-/// Coming cycles in which nothing would move but hidden counters, while all pins hold.
+/// Returns the number of next cycles in which only hidden counters move, while all pins hold.
 fn quiet(device: &Device, p: &Params) -> u64 {
     let top = &device.top;
     let frame_ctrl = top.frame_ctrl.quiet(&Wires::frame_ctrl(top), &p.frame_ctrl);

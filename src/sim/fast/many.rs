@@ -54,7 +54,7 @@ impl Run<'_> {
     /// shown, every frame in order, and no waveform.
     ///
     /// # Errors
-    /// When the control signals keep a frame from ending, a sink fails, or the run is stopped.
+    /// When the control signals keep a frame from ending, a callback fails, or the run is stopped.
     pub fn many(mut self, count: u64, observers: Observers) -> Result<Outcome> {
         let Observers { shots, frames, stop, .. } = observers;
         let mut ignore = |_: &Frame| Ok(());
@@ -86,8 +86,8 @@ impl Run<'_> {
         Ok(begin(count).outcome(Marks::default()))
     }
 
-    /// Where a frame after the first begins, and the one after it if every other frame is dark. What
-    /// is left of the frames before does not matter, so that leaps find them.
+    /// Returns the run at the begin of a frame after the first, and of the next one if every other frame is dark. They
+    /// are found by leaps, because it does not matter what is left of the frames before.
     fn begins(&self, stop: Option<&AtomicBool>) -> Result<Vec<Self>> {
         let next = |run: &Self| -> Result<Self> {
             let mut next = run.clone().stepping(Stepping::LeapShots);
@@ -101,7 +101,7 @@ impl Run<'_> {
         Ok(begins)
     }
 
-    /// Where frame `frame` begins; `self` is where an earlier one of its kind does.
+    /// Returns the run at the begin of frame `frame`; `self` is at the begin of an earlier one of its kind.
     fn of_frame(&self, frame: u64) -> Self {
         let mut run = self.clone();
         let frames = frame - self.done();
@@ -138,7 +138,7 @@ impl Clockwork {
     }
 }
 
-/// Makes the frames of a range on all threads and hands them on in order, some at a time.
+/// Makes the frames of a range on all threads, and calls `take` with each in order.
 pub(super) fn deliver(
     frames: std::ops::Range<u64>,
     take: Callback<'_, Frame>,

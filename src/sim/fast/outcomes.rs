@@ -25,17 +25,17 @@ pub const OUTCOMES: usize = MOST_BINS + 2;
 /// them by then: a leap counts what it has kept, however far it is from its word [cycles of clk_sys].
 const TO_KEEP: u64 = 2;
 
-/// The staircase: its steps in order of time.
+/// Outcomes as a staircase over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShotOutcomes {
     /// Begin of each step, the first one 0, and its outcome; neighbours differ.
     steps: Vec<(Time, ShotOutcome)>,
-    /// Where hits end, and where in the last shot of a frame.
+    /// End of the hits, and that in the last shot of a frame.
     ends: [Time; 2],
 }
 
 impl ShotOutcomes {
-    /// For shots that follow each other after `period` cycles.
+    /// Outcomes of shots that follow each other after `period` cycles.
     ///
     /// The last shot of a frame differs: no reset ends it, so that its window lasts to its end.
     ///
@@ -65,23 +65,23 @@ impl ShotOutcomes {
         Some(outcomes)
     }
 
-    /// The outcome of an avalanche so long after the laser edge.
+    /// Returns the outcome of an avalanche `arrival` after the laser edge.
     pub fn of(&self, arrival: Time) -> ShotOutcome {
         let next = self.steps.partition_point(|&(begin, _)| begin <= arrival);
         self.steps[next - 1].1
     }
 
-    /// The steps in order of time: begin and outcome.
+    /// Returns begin and outcome of each step, in order of time.
     pub fn steps(&self) -> &[(Time, ShotOutcome)] {
         &self.steps
     }
 
-    /// Before it no hit is lost, from it on every one; the same for the last shot of a frame.
+    /// Returns the time from which on every hit is lost and before which none is, and that of the last shot of a frame.
     pub fn ends(&self) -> [Time; 2] {
         self.ends
     }
 
-    /// From `begin` on, which is not before the last step's, it is `outcome`.
+    /// Adds a step to `outcome` at `begin`, which is not before the last step's.
     fn step(&mut self, begin: Time, outcome: ShotOutcome) {
         if self.steps.last().is_some_and(|last| last.0 == begin) {
             self.steps.pop();

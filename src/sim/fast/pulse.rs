@@ -19,22 +19,22 @@ const SHORT: u32 = 3;
 pub(super) struct Pulse {
     /// The cycle in which the driver fired last.
     fired: Option<u64>,
-    /// Whether every edge of `clk_laser` is stepped.
+    /// `true` if every edge of `clk_laser` is stepped.
     stepped: bool,
 }
 
-/// Whether pulses are too long to be replayed, or one is on its way whose begin was not seen.
+/// Returns whether pulses are too long to be replayed, or one is on its way whose begin was not seen.
 fn is_stepped(top: &TofTop, p: &Params) -> bool {
     p.vcsel_driver.pulse_half_cycles > SHORT || top.vcsel_driver.has_pulse()
 }
 
 impl Pulse {
-    /// At the beginning.
+    /// No pulse yet in an acquisition.
     pub(super) fn new(top: &TofTop, p: &Params) -> Self {
         Pulse { fired: None, stepped: is_stepped(top, p) }
     }
 
-    /// The emitter's part of the cycle that ends as `device.cycle`, which begins at `now`.
+    /// Takes the emitter's part of the cycle that ends as `device.cycle` and begins at `now`.
     #[inline(always)]
     pub(super) fn emit(&mut self, device: &mut Device, p: &Params, now: Time) {
         if self.stepped {
@@ -48,7 +48,7 @@ impl Pulse {
         }
     }
 
-    /// The same, edge by edge.
+    /// Takes the emitter's part of the cycle edge by edge.
     #[inline(never)]
     fn step(&mut self, device: &mut Device, p: &Params, now: Time) {
         let lit = device.top.nets.laser_on;
@@ -59,13 +59,13 @@ impl Pulse {
         self.stepped = is_stepped(&device.top, p);
     }
 
-    /// Coming cycles in which nothing of the emitter would move but the laser's count.
+    /// Returns the number of next cycles in which only the laser's count moves in the emitter.
     #[inline(always)]
     pub(super) fn emitter_quiet(&self, top: &TofTop, p: &Params) -> u64 {
         if self.stepped { emitter_quiet(top, p) } else { emitter_quiet_without_pulse(top, p) }
     }
 
-    /// Brings those registers to where they are when `cycle` cycles are done.
+    /// Brings the registers of `clk_laser` to their state after `cycle` cycles.
     pub(super) fn replay(&self, top: &mut TofTop, p: &Params, cycle: u64) {
         let Some(fired) = self.fired.filter(|fired| fired + FLIGHT >= cycle) else { return };
         let registers = top.vcsel_driver.registers;

@@ -1,4 +1,4 @@
-//! Shots of an undisturbed acquisition as a whole: a draw, a code and a count each.
+//! Shots of an undisturbed acquisition, each as one leap: a draw, a code and a count.
 //!
 //! Exact where the first avalanche of a shot is all that decides: the light of optics, the same in every shot,
 //! MODE 0, diodes that only fire (an afterpulse of one shot may be the first avalanche of the next), a chain that
@@ -26,7 +26,7 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// The outcomes at a laser rate; `None` where shots are not independent, or where something else
+    /// Returns the outcomes at a laser rate; `None` where shots are not independent, or where something else
     /// than the light of optics, which the TDC measures, decides.
     fn find(&mut self, rate: Rate, lit: bool, p: &Params, light: &Light) -> Option<Arc<Draws>> {
         let Light::Optics(optics) = light else { return None };
@@ -82,7 +82,7 @@ pub fn leap_shots(
     frames.tdc_hits += shots - u64::from(counts[NO_HIT as usize]);
 }
 
-/// The laser rate of the shot that has just begun and whether the laser fires in those after it, if
+/// Returns the laser rate of the shot that has just begun and whether the laser fires in those after it, if
 /// the first avalanche of each is all that decides. Control signals have held since before the laser
 /// edge: they are what the driver took with it, and the SPAD's output fell a cycle before it at last.
 fn independent_shot(device: &Device) -> Option<(Rate, bool)> {
@@ -93,7 +93,7 @@ fn independent_shot(device: &Device) -> Option<(Rate, bool)> {
     independent.then_some((rate, lit))
 }
 
-/// The top in the cycle of a laser edge, `shots` shots after another, which have counted `counts`.
+/// Sets the top to the cycle of a laser edge, `shots` shots later, which have counted `counts`.
 fn land(top: &mut TofTop, shots: u64, counts: &[u32]) {
     for (word, &count) in top.histogram_builder.ram.iter_mut().zip(counts) {
         *word = *word + u64::from(count);

@@ -1,4 +1,4 @@
-//! What has to stand still for a fast way to be exact.
+//! Conditions under which fast ways are exact.
 
 use crate::firmware::reset_sync::{self, ResetSync};
 use crate::firmware::tof_top::{Estimator, Params, TofTop, Wires};
@@ -6,7 +6,7 @@ use crate::firmware::{centroid_estimator, depth_estimator, likelihood_estimator}
 use crate::kernel::{ASLEEP, Clocked, Time};
 use crate::sim::device::Device;
 
-/// Whether resets and control signals stand still as long as their pins do.
+/// Returns whether resets and control signals hold as long as their pins do.
 pub(super) fn control_is_steady(top: &TofTop) -> bool {
     let released =
         |reset: &ResetSync, i: &reset_sync::In| !reset.rst_sync && reset.quiet(i, &()) == ASLEEP;
@@ -16,7 +16,7 @@ pub(super) fn control_is_steady(top: &TofTop) -> bool {
         && top.control_sync.quiet(&Wires::control_sync(top), &()) == ASLEEP
 }
 
-/// Whether no edge would change the estimator until it is started or reset.
+/// Returns whether no edge changes the estimator until it is started or reset.
 pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
     if estimation_phase(top, p).is_some() {
         return false;
@@ -41,7 +41,7 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
     }
 }
 
-/// Cycles since the edge that took `algo_start`, while the estimator in the socket works.
+/// Returns the cycles since the edge that took `algo_start`, while the estimator in the slot works.
 pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
     match p.estimator {
         Estimator::Network => top.depth_estimator.estimator_ctrl.phase(&p.depth_estimator.ctrl()),
@@ -50,12 +50,12 @@ pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
     }
 }
 
-/// The period of `clk_sys`, if no edge jitters.
+/// Returns the period of `clk_sys`, if no edge jitters.
 pub(super) fn even_period(device: &Device) -> Option<Time> {
     device.jitter.is_none().then_some(device.pll.cycle)
 }
 
-/// Coming cycles that end before a control signal changes, or just then.
+/// Returns the number of next cycles that end before a control signal changes, or just then.
 pub(super) fn cycles_of_steady_control(device: &Device, period: Time) -> u64 {
     let next = device.pll.clk_sys.rise(device.cycle);
     device.timeline.next_event().since(next).fs() / period.fs()

@@ -20,7 +20,7 @@ const MOST_UNSURE: usize = 4;
 pub(super) struct Converter {
     /// Parameters of `tdc`.
     pub tdc: tdc::Params,
-    /// The same of `tdc_calibration`, if the firmware calibrates itself.
+    /// Parameters of `tdc_calibration`, if the firmware calibrates itself.
     pub tdc_calibration: Option<tdc_calibration::Params>,
     /// The delays that the TDC was calibrated by, if they are others at power-up.
     pub calibrated: Option<Delays>,

@@ -22,7 +22,7 @@ pub(super) fn spads(scenario: &Scenario, dark: &DarkRates) -> Spads {
     Spads::new(count, dead_time, Time::NEVER).with_effects(effects(spad, dark), scenario.seed)
 }
 
-/// What makes the pulses on `tdc_stop`, if not the diodes alone.
+/// Returns the parameters of the shaper of pulses on `tdc_stop`, if there is one.
 pub(super) fn shaper(spad: &Spad) -> Option<shaper::Params> {
     // However short, it is none of no length.
     let span = |ns: f64| Time::from_ps_f64(ns * 1e3).max(Time::from_fs(1));
@@ -32,18 +32,18 @@ pub(super) fn shaper(spad: &Spad) -> Option<shaper::Params> {
     spad.shaping().next().map(|_| params)
 }
 
-/// What drives `tdc_stop`, at power-up, with a ring if the firmware calibrates itself.
+/// Returns the driver of `tdc_stop` at power-up, with a ring if the firmware calibrates itself.
 pub(super) fn front_end(scenario: &Scenario, calibrates: bool) -> FrontEnd {
     let ring = calibrates.then(|| recalibration::ring(&scenario.tdc));
     FrontEnd::new(Ring::new(ring, scenario.seed), shaper(&scenario.spad).map(Shaper::new))
 }
 
-/// Light of the link budget.
+/// Returns the light of the link budget.
 pub(super) fn by_budget(budget: &Budget, seed: u64) -> Light {
     Light::Optics(Box::new(Optics::new(Hazard::new(budget), Hazard::dark(budget), seed)))
 }
 
-/// What a scenario's diodes do beside firing.
+/// Returns what a scenario's diodes do besides firing.
 pub(crate) fn effects(spad: &Spad, dark: &DarkRates) -> Effects {
     Effects {
         afterpulse_probability: spad.afterpulse_probability,

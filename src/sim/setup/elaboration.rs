@@ -1,4 +1,4 @@
-//! What the scenario's keys and files come to: firmware, optics, light.
+//! Elaborates a scenario's keys and files into firmware, optics and light.
 
 use std::sync::Arc;
 

@@ -48,14 +48,14 @@ impl Setup {
         Exposure::new(LONGEST_S, average_w, self.scenario.laser.wavelength_nm)
     }
 
-    /// The same as eq. 3.3 has it, at the rate at which the laser's power is stated.
+    /// Exposure of an eye as eq. 3.3 has it, at the rate at which the laser's power is stated.
     pub fn exposure_at_the_optics_rate(&self) -> Exposure {
         let laser = &self.scenario.laser;
         let exposure_s = self.pulses() / laser.repetition_rate_hz;
         Exposure::new(exposure_s, laser.average_power_w, laser.wavelength_nm)
     }
 
-    /// That an exposure to `what` is above its limit, or that there is none to tell. `None` if it is within.
+    /// Returns a note if an exposure to `what` is above its limit, or has no known limit; `None` if it is within.
     pub fn eye_safety_note(&self, what: &str, exposure: &Exposure) -> Option<Note> {
         let laser = &self.scenario.laser;
         let &Exposure { exposure_s, average_w, limit_w } = exposure;

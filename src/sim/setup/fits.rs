@@ -1,5 +1,5 @@
-//! Whether the sizes of the firmware fit each other: what its chain asks of laser periods, of Drain, of pulses, and of
-//! the ring that calibrates it.
+//! Checks that the sizes of the firmware fit each other: the chain with laser periods, Drain, pulses, and the ring that
+//! calibrates it.
 
 use crate::error::{Input, Result};
 use crate::firmware::carry_chain::MAX_TRANSITIONS;

@@ -20,7 +20,7 @@ impl Setup {
         self.likelihood_by(shots, Params::new)
     }
 
-    /// The same for what is made of the instrument by `make`.
+    /// Returns what `make` makes of the likelihood estimator's instrument.
     ///
     /// # Errors
     /// As for [`Setup::likelihood`].
@@ -32,7 +32,7 @@ impl Setup {
         self.likelihood_of(shots, &self.known_bins(), make)
     }
 
-    /// The same for bins that are not the chain's.
+    /// Returns what `make` makes of the likelihood estimator's instrument with other bins than the chain's.
     ///
     /// # Errors
     /// As for [`Setup::likelihood`].

@@ -1,12 +1,12 @@
-//! How long the frames of a setup and its runs are.
+//! Lengths of a setup's frames and runs.
 
 use crate::kernel::{Time, U};
 
 use super::{Setup, recalibration};
 
-/// Cycles of a frame beside its shots, Clear, Drain and the estimator: the hand-overs.
+/// Hand-overs of a frame, besides its shots, Clear, Drain and the estimator [cycles of clk_sys].
 const HAND_OVERS: u64 = 2;
-/// The same with a preloaded histogram.
+/// Hand-overs of a frame with a preloaded histogram [cycles of clk_sys].
 const HAND_OVERS_PRELOADED: u64 = 1;
 
 /// 2.4 hours, well within what [`Time`] can count.
@@ -30,7 +30,7 @@ impl Setup {
         clear + shots + ctrl.drain_cycles + HAND_OVERS + estimator
     }
 
-    /// Whether frames come in pairs, the first of each a dark one.
+    /// Returns whether frames come in pairs, the first of each a dark one.
     pub fn has_pairs(&self) -> bool {
         self.scenario.firmware.dark_frames
     }

@@ -1,4 +1,4 @@
-//! What the results of a setup lie outside of.
+//! Notes on a setup whose results are outside of the model's validity.
 
 use crate::error::Result;
 use crate::firmware::tof_top::{Estimator, HistogramSource};
@@ -23,8 +23,8 @@ impl Setup {
         self.no_depth.is_none().then_some(self.scenario.target.distance_m)
     }
 
-    /// What the depths of a run lie outside of: what the scenario makes impossible, or else what the
-    /// network was trained for, and that the TDC was calibrated under other conditions.
+    /// Returns notes on depths outside of the model's validity: impossible ones, or else those outside of the
+    /// network's training, and those of a TDC that was calibrated under other conditions.
     ///
     /// # Errors
     /// When the network's file has a domain that is none.
@@ -44,7 +44,7 @@ impl Setup {
         Ok(notes)
     }
 
-    /// That the ring's hits leave ages out, if they do.
+    /// Returns a note if the ring's hits leave ages out.
     fn ring_in_step(&self) -> Option<Note> {
         let (p, keys) = (self.params.tdc_calibration.as_ref()?, &self.scenario.tdc);
         let (cycle, delays) = (self.cycle(), &self.params.tdc.delays);
@@ -59,8 +59,8 @@ impl Setup {
         Some(Note::new(NoteCode::RingInStep, "tdc.ring_ns", keys.ring_ns, expected, text))
     }
 
-    /// That the chain has drifted since the TDC was calibrated, if it has; of estimators that are all the network, with
-    /// those notes of what it was trained for. It has learnt the drift that it was trained with.
+    /// Returns a note if the chain has drifted since the TDC was calibrated. For estimators that are all the network,
+    /// `of_network` has the notes on its training: it has learnt the drift that it was trained with.
     pub fn drift_for(&self, of_network: Option<&[Note]>) -> Option<Note> {
         let is_of_drift = |note: &Note| domain::OF_DRIFT.contains(&note.key.as_str());
         let has_learnt = of_network
@@ -68,7 +68,7 @@ impl Setup {
         if has_learnt && self.course.is_none() { None } else { self.drift() }
     }
 
-    /// That the chain drifts within a run, or has drifted since the TDC was calibrated, if it does.
+    /// Returns a note if the chain drifts within a run, or has drifted since the TDC was calibrated.
     fn drift(&self) -> Option<Note> {
         self.drift_in_run().or_else(|| self.drift_before())
     }
@@ -117,7 +117,7 @@ impl Setup {
         Some(Note::new(NoteCode::ChainDrifted, key, value, then.to_string(), text))
     }
 
-    /// What makes it impossible that a depth is that of the target, if something does.
+    /// Returns a note if no depth can be that of the target.
     pub fn no_depth(&self) -> Option<&Note> {
         self.no_depth.as_ref()
     }
@@ -180,7 +180,7 @@ impl Setup {
         self.bins().spans().last().map_or(Time::ZERO, |span| span.until)
     }
 
-    /// That only a part of the target's light comes before the end of the last bin.
+    /// Returns a note if only a part of the target's light comes before the end of the last bin.
     fn partly_past_the_end(&self) -> Option<Note> {
         let (end, [first, last]) = (self.last_bin_ends(), self.budget.target_ends());
         if last < end || first >= end {

@@ -49,16 +49,16 @@ pub struct Block {
 pub struct Ambient {
     /// All blocks.
     pub blocks: [Block; BLOCKS],
-    /// The one that is believed.
+    /// The block that is taken for ambient light alone.
     pub chosen: usize,
-    /// Whether no other one has shots left.
+    /// `true` if no other block has shots left.
     pub lone: bool,
-    /// Its hazard [1 / unit, 30 fraction bits].
+    /// Hazard of the chosen block [1 / unit, 30 fraction bits].
     pub hazard: i64,
 }
 
 impl<'a> Shots<'a> {
-    /// Of a histogram.
+    /// Shots of a histogram.
     pub fn new(p: &Params, ended: &'a [u32]) -> Self {
         let mut left = p.shots as i64;
         let waiting: Vec<i64> = ended

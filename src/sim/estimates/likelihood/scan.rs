@@ -1,4 +1,4 @@
-//! Where a box stands highest above ambient light.
+//! Search for the place where a box of bins stands highest above ambient light.
 
 use std::ops::Range;
 

@@ -55,7 +55,7 @@ pub struct Information {
 }
 
 impl Point {
-    /// Where a box stands highest.
+    /// Returns the first point of a fit, where a box stands highest.
     pub fn start(p: &Params, best: &Best, ambient: i64) -> Self {
         let (from, until) = best.bins;
         let (mantissa, bits) = reciprocal(best.waiting.max(1));

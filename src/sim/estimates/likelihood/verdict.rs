@@ -26,14 +26,14 @@ const FAR: i64 = 25;
 /// The part of a chi-square's term that is kept: 16 bits and its fraction.
 const MOST_TERM: i64 = (1 << 24) - 1;
 
-/// What an estimation finds.
+/// The result of an estimation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Found {
     /// Depth word [m].
     pub depth: Depth,
     /// Its standard deviation, with as many fraction bits [m].
     pub sigma: u64,
-    /// Why not to believe it: bits of [`status`](crate::firmware::likelihood_estimator::words::status).
+    /// Reasons to reject it: bits of [`status`](crate::firmware::likelihood_estimator::words::status).
     pub status: u8,
     /// Sum of squared residuals over their variances, 8 fraction bits [1].
     pub chi_square: u64,
@@ -51,7 +51,7 @@ impl Found {
     }
 }
 
-/// What the estimation comes to.
+/// Computes the result of an estimation.
 pub fn verdict(
     p: &Params,
     shots: &Shots,
