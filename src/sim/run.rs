@@ -8,7 +8,7 @@ use crate::note::Note;
 use crate::scenario::window::Window;
 use crate::waves::{Marks, Waves};
 
-use super::callback::{Callback, poll_stop};
+use super::callback::{Callback, call, poll_stop};
 use super::clockwork::{Clockwork, Event};
 use super::device::Off;
 use super::frames::Frame;
@@ -124,7 +124,7 @@ impl<'a> Run<'a> {
         count: u64,
         probe: &mut T,
         shots: Option<Callback<Shot>>,
-        frames: Option<Callback<Frame>>,
+        mut frames: Option<Callback<Frame>>,
         stop: Option<&AtomicBool>,
     ) -> Result<()> {
         self.limit = self.setup.longest_run(count);
@@ -134,14 +134,9 @@ impl<'a> Run<'a> {
         } else {
             device.power_up(&mut Off, &mut Off);
         }
-        let mut ignore = |_: &Frame| Ok(());
-        let take: Callback<Frame> = match frames {
-            Some(take) => take,
-            None => &mut ignore,
-        };
         match shots {
-            None => self.go(count, probe, &mut Off, take, stop),
-            Some(shots) => self.go(count, probe, &mut Recording::new(shots), take, stop),
+            None => self.go(count, probe, &mut Off, &mut frames, stop),
+            Some(shots) => self.go(count, probe, &mut Recording::new(shots), &mut frames, stop),
         }
     }
 
@@ -151,11 +146,11 @@ impl<'a> Run<'a> {
         count: u64,
         probe: &mut T,
         shots: &mut S,
-        take: Callback<Frame>,
+        frames: &mut Option<Callback<Frame>>,
         stop: Option<&AtomicBool>,
     ) -> Result<()> {
         while let Some(frame) = self.next_frame(probe, shots, stop)? {
-            take(&frame)?;
+            call(frames, &frame)?;
             if self.clockwork.frames.done() >= count {
                 break;
             }

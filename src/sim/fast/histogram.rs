@@ -16,7 +16,6 @@ use crate::scenario::QuenchMode;
 use crate::scenario::wiring::Wiring;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
-use crate::sim::callback::Callback;
 use crate::sim::frames::Frame;
 use crate::sim::run::{Observers, Outcome};
 use crate::sim::setup::Setup;
@@ -181,12 +180,7 @@ impl<'a> Histograms<'a> {
     /// When a sink fails or the run is stopped.
     pub fn many(&self, count: u64, observers: Observers) -> Result<Outcome> {
         let Observers { frames, stop, .. } = observers;
-        let mut ignore = |_: &Frame| Ok(());
-        let take: Callback<Frame> = match frames {
-            Some(take) => take,
-            None => &mut ignore,
-        };
-        deliver(0..count, take, stop, |index| Ok(self.frame(index)))?;
+        deliver(0..count, frames, stop, |index| Ok(self.frame(index)))?;
         let cycles = count.saturating_mul(self.frame_cycles + 1);
         Ok(Outcome {
             end: self.setup.end(count).unwrap_or(Time::NEVER),

@@ -15,7 +15,7 @@ use crate::firmware::tof_top::CodeSource;
 use crate::kernel::Time;
 use crate::scenario::QuenchMode;
 use crate::sensor::light::Light;
-use crate::sim::callback::{Callback, poll_stop};
+use crate::sim::callback::{Callback, call, poll_stop};
 use crate::sim::clockwork::Clockwork;
 use crate::sim::device::Off;
 use crate::sim::frames::Frame;
@@ -56,21 +56,16 @@ impl Run<'_> {
     /// # Errors
     /// When the control signals keep a frame from ending, a callback fails, or the run is stopped.
     pub fn many(mut self, count: u64, observers: Observers) -> Result<Outcome> {
-        let Observers { shots, frames, stop, .. } = observers;
-        let mut ignore = |_: &Frame| Ok(());
-        let take: Callback<Frame> = match frames {
-            Some(take) => take,
-            None => &mut ignore,
-        };
+        let Observers { shots, mut frames, stop, .. } = observers;
         self.limit = self.setup.longest_run(count);
         self.clockwork.device.power_up(&mut Off, &mut Off);
         if let Some(shots) = shots {
             let shown = count.min(self.setup.frames_together());
-            self.go(shown, &mut Off, &mut Recording::new(shots), take, stop)?;
+            self.go(shown, &mut Off, &mut Recording::new(shots), &mut frames, stop)?;
         }
         if !self.setup.has_frames_apart() || rayon::current_num_threads() < 2 || count < 2 {
             if self.done() < count {
-                self.go(count, &mut Off, &mut Off, take, stop)?;
+                self.go(count, &mut Off, &mut Off, &mut frames, stop)?;
             }
             return Ok(self.outcome(Marks::default()));
         }
@@ -79,7 +74,7 @@ impl Run<'_> {
             let kind = (frame - begins[0].done()) % begins.len() as u64;
             begins[kind as usize].of_frame(frame)
         };
-        deliver(self.done()..count, take, stop, |frame| {
+        deliver(self.done()..count, frames, stop, |frame| {
             let mut run = if frame == 0 { self.clone() } else { begin(frame) };
             run.unobserved_frame(stop)
         })?;
@@ -138,21 +133,21 @@ impl Clockwork {
     }
 }
 
-/// Makes the frames of a range on all threads, and calls `take` with each in order.
+/// Makes the frames of a range on all threads, and calls back with each in order.
 pub(super) fn deliver(
-    frames: std::ops::Range<u64>,
-    take: Callback<'_, Frame>,
+    range: std::ops::Range<u64>,
+    mut frames: Option<Callback<Frame>>,
     stop: Option<&AtomicBool>,
     make: impl Fn(u64) -> Result<Frame> + Sync,
 ) -> Result<()> {
     let batch = BATCH * rayon::current_num_threads() as u64;
-    let mut next = frames.start;
-    while next < frames.end {
+    let mut next = range.start;
+    while next < range.end {
         poll_stop(stop)?;
-        let end = frames.end.min(next + batch);
+        let end = range.end.min(next + batch);
         let made: Vec<_> = (next..end).into_par_iter().map(&make).collect();
         for frame in made {
-            take(&frame?)?;
+            call(&mut frames, &frame?)?;
         }
         next = end;
     }
