@@ -1,4 +1,4 @@
-//! What any clocked design needs: time, clocks, words that wrap, modules, named signals and their sizes.
+//! Infrastructure of clocked designs: time, clocks, wrapping words, modules, named signals and their sizes.
 
 mod bits;
 pub mod clock;

@@ -1,4 +1,4 @@
-//! Who imports whom: no circle among the files of a crate, and in the simulator only downwards.
+//! Imports between files: no cycle among the files of a crate, and in the simulator only downwards.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -13,8 +13,8 @@ fn chances(setup: &Setup) -> Vec<f64> {
     BinProbabilities::new(&Hazard::new(&setup.budget), &setup.bins()).of_code().to_vec()
 }
 
-/// Where codes are more frequent than those within half a nanosecond of them, and a tenth of the most frequent at
-/// least, from a parabola over the logarithms around [m].
+/// Returns the local maxima of the codes' probabilities that are at least a tenth of the largest, refined by a
+/// parabola through the logarithms [m].
 fn peaks_m(chances: &[f64]) -> Vec<f64> {
     let (reach, most) = (20, chances.iter().copied().fold(0.0, f64::max));
     let is_peak = |bin: &usize| {

@@ -63,7 +63,7 @@ fn the_autocorrelation_gives_afterpulses_back() {
     }
 }
 
-/// How far pairs are from what is expected of them: chi-square and degrees of freedom.
+/// Returns the deviation of pairs from the expected numbers: chi-square and degrees of freedom.
 fn chi_square(seen: &Afterpulses) -> (f64, f64) {
     let cells =
         seen.pairs.iter().zip(&seen.expected_pairs).filter(|(_, expected)| **expected > 5.0);

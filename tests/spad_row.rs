@@ -25,7 +25,7 @@ fn shots(setup: &Setup, frames: u64) -> Vec<Shot> {
     found
 }
 
-/// That so many of `of` are as many as a chance of `chance` gives, within four standard deviations.
+/// Asserts that a count is within four standard deviations of `of` times the probability `chance`.
 fn assert_chance(found: usize, of: usize, chance: f64, what: &str) {
     let expected = of as f64 * chance;
     let off = (found as f64 - expected) / (expected * (1.0 - chance)).sqrt();

@@ -92,7 +92,7 @@ signals! {
         /// The word at its centre [hits].
         #[size(CountBits)]
         centre: Count,
-        /// What `entering` and `leaving` change in `sum` [hits].
+        /// Change of `sum` by `entering` and `leaving` [hits].
         #[size(ChangeBits)]
         change: S<25>,
         /// `leaving`, as often as the window has words.

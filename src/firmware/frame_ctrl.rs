@@ -81,7 +81,7 @@ signals! {
     pub struct FrameCtrl {
         /// Sets a word of the histogram to zero.
         pub clear: bool = true,
-        /// Which word.
+        /// Address of the word to clear.
         #[size(BinBits)]
         pub clear_addr: Bin,
         /// Lets the laser's counter run.

@@ -41,7 +41,7 @@ use params::Params;
 use words::{ANOTHER_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE};
 
 states! {
-    /// What the estimator does.
+    /// States of the estimator.
     pub enum State: 4 {
         /// Nothing.
         Idle,
@@ -123,7 +123,7 @@ signals! {
         pub(crate) phase: bool,
         /// Begins a program.
         pub(crate) run: bool,
-        /// Where it begins.
+        /// First instruction of the program.
         pub(crate) entry: U<7>,
         /// Begin of the fit, and of what a scan blanks [bins].
         #[size(PlaceBits)]

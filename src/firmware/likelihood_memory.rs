@@ -73,9 +73,9 @@ signals! {
         pub block_exposure: Exposure,
         /// The word is a bin of the pass.
         pub word_bin: bool,
-        /// It stands for all other bins.
+        /// The word stands for all other bins.
         pub word_rest: bool,
-        /// It is an edge alone.
+        /// The word is an edge without a bin.
         pub word_edge: bool,
         /// A box goes on with it.
         pub word_slide: bool,
@@ -90,7 +90,7 @@ signals! {
         /// Its width [units].
         #[size(WidthBits)]
         pub word_width: Width,
-        /// Where it ends [half units].
+        /// End of the word [half units].
         #[size(EdgeBits)]
         pub word_end: Edge,
         /// A word has been read in the last cycle.
@@ -137,7 +137,7 @@ signals! {
         /// Shots that waited.
         #[size(CountBits)]
         written_waiting: Count,
-        /// Those times its width [shots units].
+        /// Exposure: waiting shots times the width of the bin [shots units].
         #[size(ExposureBits)]
         written_exposure: Exposure,
         /// A block has been added to all bins in the last cycle.
@@ -151,20 +151,20 @@ signals! {
         /// Width of the bin that is looked up.
         #[size(WidthBits)]
         fetched_width: Width,
-        /// Where it ends.
+        /// End of the bin that is looked up.
         #[size(EdgeBits)]
         fetched_end: Edge,
         /// A pass is on the way.
         passing: bool,
-        /// It is a scan.
+        /// The pass is a scan.
         scanning: bool,
         /// Place of the edge that is looked up, one after its bin.
         #[size(PlaceBits)]
         index: Place,
-        /// That bin.
+        /// Bin that is looked up.
         #[size(BinBits)]
         bin: Bin,
-        /// It is one of the fit in a scan.
+        /// The bin is excluded from a scan, because the fit contains it.
         blank: bool,
         /// The first beat of a pass: an edge alone.
         opening: bool,
@@ -181,7 +181,7 @@ signals! {
         read_edge: bool,
         /// A box goes on.
         read_slide: bool,
-        /// That of bin 0.
+        /// The bin or edge is that of bin 0.
         read_first: bool,
         /// Shots that end in the bin.
         #[size(CountBits)]

@@ -54,7 +54,7 @@ signals! {
         pub block_exposure: Exposure,
         /// Begins a pass.
         pub pass: bool,
-        /// It is a scan.
+        /// The pass is a scan.
         pub scan: bool,
         /// Second cycle of a beat.
         pub phase: bool,
@@ -99,7 +99,7 @@ signals! {
         /// Its exposure [shots units].
         #[size(ExposureBits)]
         pub ambient_exposure: Exposure,
-        /// It is the only one.
+        /// The kept block is the only one.
         pub lone: bool,
         /// Bins that have come.
         #[size(PlaceBits)]
@@ -166,11 +166,11 @@ signals! {
         log_value: U<22>,
         /// High bits of the place of its leading one.
         log_high: U<2>,
-        /// That top, raised until its leading one is in the upper 4 bits.
+        /// Top of the number, shifted until its leading one is in the upper 4 bits.
         log_mantissa: U<22>,
         /// All but the low bits of that one's place.
         log_middle: U<4>,
-        /// It is what is expected, of which 1 is the least.
+        /// The number is an expected count, which is at least 1.
         log_expected: [bool; 3],
         /// Logarithm of an excess or of hits.
         upper_log: Log,

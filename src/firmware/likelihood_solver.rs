@@ -45,7 +45,7 @@ signals! {
         pub rst: bool,
         /// Begins a program.
         pub run: bool,
-        /// Where it begins.
+        /// First instruction of the program.
         pub entry: U<7>,
         /// Hits of the block that shows the ambient light.
         #[size(CountBits)]
@@ -53,7 +53,7 @@ signals! {
         /// Its exposure [shots units].
         #[size(ExposureBits)]
         pub ambient_exposure: Exposure,
-        /// It is the only one.
+        /// The block is the only one.
         pub lone: bool,
         /// Excess of the highest box.
         #[size(ExcessBits)]
@@ -129,9 +129,9 @@ signals! {
         pause: U<6>,
         /// There is an instruction in that cycle of it.
         at: [bool; 9],
-        /// Which one.
+        /// Number of the instruction in each cycle.
         number: [U<6>; 8],
-        /// Where its operands are.
+        /// Location of the first operand.
         from_a: U<6>,
         /// Location of the second operand.
         from_b: U<6>,
@@ -141,9 +141,9 @@ signals! {
         base: U<5>,
         /// Addition to that shift, in the order of [`By`].
         by: U<3>,
-        /// It is no division and no root.
+        /// The instruction is neither a reciprocal nor a root.
         alu: bool,
-        /// Where its result goes.
+        /// Location of the result.
         to: U<6>,
         /// Further property that is stored: 1 for the magnitude, 8 and more for the sign as a flag.
         mark: U<4>,
@@ -176,25 +176,25 @@ signals! {
         coarse: S<63>,
         /// Its sign.
         negative: bool,
-        /// That is the sign of all that is left out.
+        /// All bits that were left out equal the sign.
         coarse_fits: bool,
         /// The product as it is shifted, or a divisor.
         #[size(ShiftedBits)]
         shifted: S<47>,
         /// And half of its lowest place.
         half: bool,
-        /// It has only its sign: the product is beyond all limits.
+        /// The product is beyond all limits, and only its sign is used.
         beyond: bool,
-        /// It is subtracted.
+        /// The product is subtracted.
         minus: bool,
         /// The instruction is a reciprocal or a root.
         divides: bool,
-        /// It is a root.
+        /// The instruction is a root.
         roots: bool,
         /// Sum of the product and c.
         #[size(SumOfWordBits)]
         sum: S<48>,
-        /// It is beyond all limits.
+        /// The sum is beyond all limits.
         past: bool,
         /// On that side.
         opposite: bool,
@@ -205,7 +205,7 @@ signals! {
         result: Word,
         /// A reciprocal or a root is on the way.
         dividing: bool,
-        /// It has ended.
+        /// The reciprocal or root has ended.
         divided: bool,
         /// Its next bit.
         digit: U<5>,

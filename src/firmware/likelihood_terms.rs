@@ -59,9 +59,9 @@ signals! {
         pub ambient: U<24>,
         /// The word is a bin.
         pub word_bin: bool,
-        /// It stands for all other bins.
+        /// The word stands for all other bins.
         pub word_rest: bool,
-        /// It is an edge alone.
+        /// The word is an edge without a bin.
         pub word_edge: bool,
         /// A box goes on with it.
         pub word_slide: bool,
@@ -76,7 +76,7 @@ signals! {
         /// Its width [units].
         #[size(WidthBits)]
         pub word_width: Width,
-        /// Where it ends [half units].
+        /// End of the word [half units].
         #[size(EdgeBits)]
         pub word_end: Edge,
     }
@@ -133,12 +133,12 @@ signals! {
         middles: [U<25>; 3],
         /// Shots wait.
         awaited: [bool; 3],
-        /// Where a word ends, from the arrival on [units / 16].
+        /// End of a word after the arrival [units / 16].
         #[size(ArrivalTimeBits)]
         from_arrival: S<22>,
         /// Place of a word of the pulse's ROM around that time: the one before it in the first cycle of a beat.
         place: U<11>,
-        /// That word: part before.
+        /// Part of the pulse before the time, from the pulse's ROM.
         fetched_part: U<17>,
         /// Slope.
         fetched_slope: Slope,
@@ -150,7 +150,7 @@ signals! {
         low_slope: [Slope; 2],
         /// Slope of the part of the word before the time.
         low_first: [Slope; 2],
-        /// How far the time is from it to the next [16ths].
+        /// Distance of the time from the word before it [16ths].
         sixteenths: [U<4>; 2],
         /// Increase of the part from the one to the next, in the second cycle of a beat.
         rise: U<17>,
@@ -172,7 +172,7 @@ signals! {
         z: [Slope; 12],
         /// S in the second cycle of a beat, b in the first.
         level: U<24>,
-        /// How much of it is in the bin.
+        /// Part of the light that is in the bin.
         amount: U<17>,
         /// Their product.
         level_product: U<41>,
@@ -245,7 +245,7 @@ signals! {
         product: U<48>,
         /// By how many bits that is shifted.
         down: U<5>,
-        /// It after the longest shifts, by 16 and by 8.
+        /// Product after the longest shifts, by 16 and by 8.
         #[size(FirstShiftBits)]
         expected_first: U<50>,
         /// R lambda.

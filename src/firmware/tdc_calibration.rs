@@ -38,7 +38,7 @@ type Sum = U<63>;
 pub const BEATS: u64 = 5;
 
 states! {
-    /// What the block does.
+    /// States of the calibration.
     pub enum State: 2 {
         /// Nothing: the decoder reads ages.
         Idle,
@@ -62,7 +62,7 @@ signals! {
         pub frame_done: bool,
         /// `n` is that of a new hit.
         pub n_valid: bool,
-        /// What the decoder made of its taps.
+        /// Number of the decoder for the taps.
         #[size(CountOfTaps)]
         pub n: Place,
     }
@@ -106,13 +106,13 @@ signals! {
         /// The count as a time.
         #[size(HitsSumBits)]
         pub(crate) width: Sum,
-        /// Where the ages of this word begin.
+        /// Start of the ages of this word.
         #[size(HitsSumBits)]
         pub(crate) begin_sum: Sum,
         /// The middle of them, and a half to round.
         #[size(HitsSumBits)]
         pub(crate) middle: Sum,
-        /// They begin at the laser edge or before it.
+        /// The ages begin at the laser edge or before it.
         pub(crate) early: bool,
         /// The age [units].
         #[size(AgeBits)]

@@ -38,7 +38,7 @@ impl Measured {
         Measured { value, se: (squares / (count * (count - 1.0))).sqrt() }
     }
 
-    /// How far it is from what was expected [standard errors].
+    /// Returns the difference from the expected value [standard errors].
     pub fn deviations_from(&self, expected: f64) -> f64 {
         (self.value - expected) / self.se
     }

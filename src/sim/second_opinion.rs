@@ -15,7 +15,7 @@ use super::estimates::likelihood::estimate;
 use super::frames::Frame;
 use super::setup::Setup;
 
-/// Who gives it.
+/// Name of the estimator that gives second opinions.
 pub const ESTIMATOR: &str = "likelihood_estimator";
 /// Depths part that are further from each other than so many of their standard deviations.
 const MOST_DEVIATIONS: f64 = 6.0;
@@ -113,7 +113,7 @@ fn straight(places: &[f64], values: &[f64], place: f64) -> Option<f64> {
     Some(from + part * (to - from))
 }
 
-/// That there is no second opinion, as `key` is not what it would have to be.
+/// Returns the note that there is no second opinion because of the value of `key`.
 fn none(key: &str, value: NoteValue, expected: &str) -> Note {
     let text = format!("there is no second opinion by {ESTIMATOR}");
     Note::new(NoteCode::SecondOpinion, key, value, expected, text)

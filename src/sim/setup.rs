@@ -154,7 +154,7 @@ impl Setup {
         self.row_light.as_ref().unwrap_or(&self.light)
     }
 
-    /// Which avalanche times give which code.
+    /// Returns the avalanche times of each code.
     pub fn bins(&self) -> Bins {
         Bins::of_tdc(&self.params.tdc)
     }

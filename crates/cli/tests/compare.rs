@@ -33,7 +33,7 @@ fn compare(folder: &Path, args: &[&str]) -> (i32, Value) {
     (status, json)
 }
 
-/// That two sides are the same; the JSON object.
+/// Asserts that two sides are equal; returns the JSON object.
 #[track_caller]
 fn same(folder: &Path, args: &[&str]) -> Value {
     let (status, json) = compare(folder, args);
@@ -43,7 +43,7 @@ fn same(folder: &Path, args: &[&str]) -> Value {
     json
 }
 
-/// That two sides are different; the JSON object.
+/// Asserts that two sides differ; returns the JSON object.
 #[track_caller]
 fn different(folder: &Path, args: &[&str]) -> Value {
     let (status, json) = compare(folder, args);

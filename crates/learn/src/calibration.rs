@@ -26,7 +26,7 @@ pub struct Sightings {
     pub histograms: Vec<Histogram>,
     /// Arrival, signal and background in each.
     pub echoes: Vec<Echo>,
-    /// How many more there were, without an echo.
+    /// Number of histograms that were left out because they have no echo.
     pub left_out: usize,
 }
 

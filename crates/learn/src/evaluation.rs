@@ -1,9 +1,8 @@
-//! How well estimators find the distance: errors over a grid of scenes, fresh histograms drawn for
-//! each.
+//! Accuracy of estimators: errors over a grid of scenes, with new histograms drawn for each.
 //!
-//! Every estimator sees the same histograms; one that needs dark histograms too sees pairs of its own.
-//! Errors are kept row by row, so that any grouping of them is exact: by distance, as the thesis has
-//! it, by reflectance, by irradiance, by scene.
+//! Every estimator sees the same histograms; one that needs dark histograms too sees pairs of its own. Errors are
+//! kept row by row, so that any grouping of them is exact: by distance, as in the thesis, by reflectance, by
+//! irradiance, by scene.
 
 pub mod bound;
 pub mod by_scene;

@@ -161,7 +161,7 @@ impl Frames {
         self.setup.true_depth_m()
     }
 
-    /// What the depths lie outside of, each a dictionary.
+    /// The notes on the depths, each a dictionary.
     #[getter]
     fn notes<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyAny>> {
         Ok(object(py, &json!(self.columns.notes))?)

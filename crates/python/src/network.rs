@@ -89,7 +89,7 @@ impl Network {
         &self.network.name
     }
 
-    /// What it is, in a sentence.
+    /// A description in a sentence.
     #[getter]
     fn description(&self) -> &str {
         &self.network.description

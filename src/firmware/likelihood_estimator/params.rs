@@ -23,11 +23,11 @@ const EDGE_BITS: u32 = 8;
 /// Verilog parameters and what is in the ROMs.
 #[derive(Clone, PartialEq)]
 pub struct Params {
-    /// How large the histogram is.
+    /// Size of the histogram.
     pub histogram: histogram_builder::Params,
     /// Shots of a histogram.
     pub shots: u64,
-    /// Where bins begin, and last where the last one ends [half units].
+    /// Start of each bin, and end of the last one [half units].
     pub edges: Arc<[u32]>,
     /// The pulse, by the time from its middle.
     pub pulse: Arc<[PulseWord]>,
@@ -54,15 +54,15 @@ pub struct Params {
 /// Properties of an instrument that the estimator uses.
 #[derive(Clone, Debug)]
 pub struct Wanted<'a> {
-    /// How large the histogram is.
+    /// Size of the histogram.
     pub histogram: histogram_builder::Params,
     /// Shots of a histogram.
     pub shots: u64,
-    /// Where bins begin, and last where the last one ends, from the laser edge [ps].
+    /// Start of each bin, and end of the last one, from the laser edge [ps].
     pub edges_ps: &'a [f64],
     /// Nominal bin width [ps].
     pub bin_ps: f64,
-    /// How arrivals of an echo are spread.
+    /// Distribution of the arrivals of an echo.
     pub pulse: Pulse,
     /// Distance for each time of flight, c / 2 [m/ps].
     pub metres_per_ps: f64,
@@ -148,7 +148,7 @@ impl Params {
         self.kappa << self.step_log2
     }
 
-    /// Where the last bin ends [units / 16].
+    /// Returns the end of the last bin [units / 16].
     pub fn end(&self) -> i64 {
         i64::from(self.edges[self.histogram.bins]) << 3
     }

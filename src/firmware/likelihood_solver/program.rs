@@ -55,7 +55,7 @@ const SUM_22: u8 = 34;
 const SCORE_1: u8 = 35;
 const SCORE_2: u8 = 36;
 
-/// Where a result goes that is an output.
+/// Location of the depth.
 pub const DEPTH: u8 = 32;
 /// Location of sigma.
 pub const SIGMA: u8 = 33;
@@ -93,7 +93,7 @@ pub enum By {
     Cut,
     /// `bits` and `exponent`.
     Both,
-    /// How many fraction bits more than a depth distances have.
+    /// Additional fraction bits of distances over those of a depth.
     Metres,
 }
 
@@ -105,19 +105,19 @@ impl By {
 /// Within what limits a result is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clamp {
-    /// Those of the word.
+    /// Limits of the word.
     Word,
     /// 1 or more.
     Positive,
-    /// Those of S.
+    /// Limits of S.
     Signal,
-    /// Those of b.
+    /// Limits of b.
     Ambient,
-    /// Those of a chance.
+    /// Limits of a probability.
     Chance,
     /// 0 to the end of the window.
     Window,
-    /// Those of a step in log b.
+    /// Limits of a step in log b.
     Growth,
 }
 
@@ -150,7 +150,7 @@ pub enum Mark {
 pub struct Instruction {
     /// Operation.
     pub op: Op,
-    /// Where the result goes.
+    /// Location of the result.
     pub to: u8,
     /// Operands.
     pub a: u8,
@@ -224,7 +224,7 @@ const fn measure(op: Op) -> Instruction {
 
 const END_OF_PROGRAM: Instruction = times(ZERO, ZERO, ZERO, 0).op(Op::End).wait(1);
 
-/// Where the programs begin.
+/// First instruction of the program for the ambient light.
 pub const AMBIENT_PROGRAM: u64 = 0;
 /// From the box to a point.
 pub const START_PROGRAM: u64 = 7;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::firmware::carry_chain::{Delays, Taps};
 
-/// How a decoder comes from taps to `n`.
+/// Rule by which a decoder converts taps to `n`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Decoder {

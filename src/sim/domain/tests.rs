@@ -1,4 +1,4 @@
-//! Which keys are noted, and which are none of a network's business.
+//! Tests of the keys that are noted, and of those that do not concern a network.
 
 use super::*;
 use crate::firmware::tdc_decoder::Decoder;

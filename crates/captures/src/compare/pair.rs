@@ -20,7 +20,7 @@ pub enum Unknowns {
     None,
 }
 
-/// How two signals were matched.
+/// Rule by which two signals were matched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MatchedBy {

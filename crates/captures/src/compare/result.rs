@@ -92,7 +92,7 @@ pub struct Compared {
     pub name: String,
     /// Name on the second side.
     pub other: String,
-    /// How the signals were matched.
+    /// Rule by which the signals were matched.
     #[serde(rename = "matched_by")]
     pub how: MatchedBy,
     /// Number of further names of the same signals.

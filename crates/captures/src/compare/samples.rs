@@ -65,7 +65,7 @@ pub(crate) struct Sample {
     pub(crate) held: bool,
 }
 
-/// How a source is sampled.
+/// Sampling of a source.
 #[derive(Clone)]
 pub(super) enum Clocking {
     /// At the rising edges of a signal of the cursor.

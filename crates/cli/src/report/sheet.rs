@@ -4,7 +4,7 @@ use tofsim_studies::table::Cell;
 
 use crate::text::table;
 
-/// How the numbers of a column are written.
+/// Number format of a column.
 #[derive(Clone, Copy, Debug)]
 pub enum Digits {
     /// As many digits as tell the number from every other.

@@ -63,7 +63,7 @@ fn is_same(rows: &[Row], place: usize) -> bool {
     rows.len() > 1 && rows.iter().all(|row| Some(&row.cells[place]) == first)
 }
 
-/// Which columns are shown, each with that of its standard error; those without any value are not.
+/// Returns the columns with values, each with that of its standard error.
 fn columns(fields: &[Field], rows: &[Row]) -> Vec<(usize, Option<usize>)> {
     let place = |name: &str| fields.iter().position(|field| field.name == name);
     let shows = |place: &usize| {

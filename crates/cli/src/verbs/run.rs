@@ -225,7 +225,7 @@ impl Args {
         self.estimator.iter().any(|kind| kind.needs() == Needs::Dark)
     }
 
-    /// That there are pairs if an estimator needs them, and not too many.
+    /// Checks that there are pairs if an estimator needs them, and not too many.
     fn check_pairs(&self, setup: &Setup) -> Result<()> {
         let source = format!("scenario {}", setup.name);
         if self.wants_pairs() && !setup.has_pairs() {
@@ -241,7 +241,7 @@ impl Args {
         }
     }
 
-    /// That the fidelity can show what is asked for.
+    /// Checks that the fidelity provides the requested outputs.
     fn check_fidelity(&self, setup: &Setup) -> Result<()> {
         if self.fidelity == Fidelity::Cycle {
             return Ok(());

@@ -1,4 +1,4 @@
-//! How samples of two sides are brought together.
+//! Tests of the alignment of the samples of two sides.
 
 use std::fs;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! How exactly values are compared.
+//! Tests of the exactness of comparisons.
 
 use std::fs;
 

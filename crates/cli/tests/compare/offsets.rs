@@ -1,4 +1,4 @@
-//! Where samples are found: at every place, at the begin and the end, before and after a time.
+//! Tests of the offsets at which samples are found: at every place, at both ends, before and after a time.
 
 use std::fs;
 

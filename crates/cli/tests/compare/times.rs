@@ -1,4 +1,4 @@
-//! Where a comparison of waveforms begins and ends, and how its times are told.
+//! Tests of the start and end of a comparison of waveforms, and of the times it reports.
 
 use std::fs;
 use std::path::Path;

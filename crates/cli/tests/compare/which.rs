@@ -1,4 +1,4 @@
-//! Which signals belong together: names, maps, slices.
+//! Tests of the matching of signals: names, maps, slices.
 
 use crate::common;
 

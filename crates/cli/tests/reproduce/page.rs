@@ -4,7 +4,7 @@ use roxmltree::{Document, Node};
 
 use super::QUICK;
 
-/// That a page is one well-formed file that fetches nothing; how many pictures it has.
+/// Asserts that a page is one well-formed file that fetches nothing; returns the number of pictures.
 pub fn is_whole(page: &str) -> usize {
     let body = page.strip_prefix("<!DOCTYPE html>\n").unwrap();
     let document = Document::parse(body).unwrap();

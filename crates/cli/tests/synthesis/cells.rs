@@ -59,7 +59,7 @@ impl Cells {
         Cells { counts: serde_json::from_value(counts).unwrap(), chain, maker }
     }
 
-    /// How many there are of the types that begin so.
+    /// Counts the cells whose type begins so.
     pub fn count(&self, begin: &str) -> u64 {
         let types = self.counts.iter().filter(|(name, _)| name.starts_with(begin));
         types.map(|(_, count)| count).sum()

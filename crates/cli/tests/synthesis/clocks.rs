@@ -1,4 +1,4 @@
-//! How fast the blocks of the reference RTL can be clocked, as far as synthesis alone can tell.
+//! Clock frequencies of the blocks of the reference RTL, as far as synthesis alone can tell.
 
 use std::path::Path;
 

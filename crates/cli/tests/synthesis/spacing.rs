@@ -1,4 +1,4 @@
-//! How close hits can come, proven with Yosys by induction.
+//! Smallest distance of hits, proven with Yosys by induction.
 
 use std::path::Path;
 

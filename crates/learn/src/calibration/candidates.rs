@@ -17,10 +17,10 @@ const TAIL_GAIN: f64 = 9.0;
 /// A pulse whose fit is as bad as that by chance so rarely is taken for a wrong one.
 const DOUBTFUL: f64 = 1e-3;
 
-/// Where a pulse comes from.
+/// Source of a pulse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It is the scenario's.
+    /// Pulse of the scenario.
     Scenario,
     /// A Gaussian is fitted.
     Gaussian,
@@ -33,7 +33,7 @@ pub enum Kind {
 /// A pulse beside histograms.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// Where it comes from.
+    /// Source of the pulse.
     pub kind: Kind,
     /// The pulse.
     pub pulse: Pulse,
@@ -41,9 +41,9 @@ pub struct Candidate {
     pub width: Option<Width>,
     /// Samples, where they are.
     pub sampled: Option<Sampled>,
-    /// How likely the histograms are, but for a constant that all candidates have.
+    /// Logarithm of the likelihood of the histograms, up to a constant that all candidates share.
     pub log_likelihood: f64,
-    /// How well it describes them.
+    /// Goodness of fit.
     pub goodness: Goodness,
 }
 
@@ -52,7 +52,7 @@ pub struct Candidate {
 pub struct Calibration {
     /// The scenario's pulse first, then those that were fitted.
     pub candidates: Vec<Candidate>,
-    /// Which of them to take.
+    /// Index of the chosen candidate.
     pub chosen: usize,
     /// Pulse observed in the bins, about the echoes by the accepted shape: time from the mean, density and its
     /// standard error [ps, 1/ps, 1/ps].

@@ -1,4 +1,4 @@
-//! How well a pulse describes histograms: Pearson's chi-square.
+//! Goodness of fit of a pulse to histograms: Pearson's chi-square.
 
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};

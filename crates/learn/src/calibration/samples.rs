@@ -22,7 +22,7 @@ use super::Sightings;
 const ROUNDS: usize = 10;
 /// Fits of the echoes.
 const FITS: usize = 8;
-/// How far the samples go beyond the ends of the pulse they begin with [its deviations].
+/// Distance by which the samples exceed the ends of the initial pulse [its deviations].
 const MARGIN: f64 = 1.0;
 /// Fits after which what is not told from zero goes.
 const TRIMMED: usize = 4;
@@ -42,7 +42,7 @@ pub struct Sampled {
     pub density: Vec<f64>,
     /// Its standard error, if all other samples were known [1/ps].
     pub density_se: Vec<f64>,
-    /// How likely the histograms are, but for a constant.
+    /// Logarithm of the likelihood of the histograms, up to a constant.
     pub log_likelihood: f64,
 }
 

@@ -33,7 +33,7 @@ pub struct Climbed {
     pub shape: Shape,
     /// Their covariance; zero for one that the formula does not have.
     pub covariance: [[f64; 2]; 2],
-    /// How likely the histograms are, but for a constant.
+    /// Logarithm of the likelihood of the histograms, up to a constant.
     pub log_likelihood: f64,
 }
 

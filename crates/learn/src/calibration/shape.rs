@@ -8,7 +8,7 @@ use tofsim::kernel::pulse::Pulse;
 /// Most of the third moment: beyond, the pulse has hardly a rise.
 const MOST_SKEW: f64 = 0.98;
 
-/// Which formula.
+/// Formula of a pulse shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Formula {
     /// A Gaussian.

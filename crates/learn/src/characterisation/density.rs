@@ -105,7 +105,7 @@ impl CodeDensity {
         self.bins.iter().map(|bin| bin.true_width_ps).collect()
     }
 
-    /// How far each width is from the mean one [LSB].
+    /// Returns the differential nonlinearity: each width minus the mean width [LSB].
     pub fn dnl(&self, widths_ps: &[f64]) -> Vec<f64> {
         widths_ps.iter().map(|ps| ps / self.lsb_ps() - 1.0).collect()
     }

@@ -13,7 +13,7 @@ use super::transfer::{Hit, hit, time_ps};
 
 /// From one delay to the next, 0.1 ps [fs].
 const STEP_FS: u64 = 100;
-/// How far to either side of an edge delays go [fs].
+/// Range of delays on either side of an edge [fs].
 const AROUND_FS: u64 = 100_000;
 
 /// An edge of the clock that a hit just reaches or just misses.
@@ -54,7 +54,7 @@ pub fn edges(p: &tdc::Params) -> Vec<Edge> {
 /// Hits at random within the window.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Phases {
-    /// How many.
+    /// Number of delays.
     pub count: u64,
     /// Of them, those whose time is off by half a period of the clock or more.
     #[serde(rename = "off_by_a_period")]

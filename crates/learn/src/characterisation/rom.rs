@@ -89,7 +89,7 @@ impl CalibratedRom {
         (self.period_ps / (2.0 * self.lsb_ps)).powi(2).ceil() as u64
     }
 
-    /// That the ages are not known to a tap, if they are not.
+    /// Returns the note that the ages are not known to a tap, if they are not.
     pub fn note(&self) -> Option<Note> {
         let text = format!(
             "with so few hits the ages have standard errors up to {:.1} ps, more than a mean tap ({:.1} ps)",

@@ -1,4 +1,4 @@
-//! How far times are from the truth, for hits at any phase of the clock.
+//! Errors of measured times, for hits at any phase of the clock.
 
 use serde::Serialize;
 

@@ -133,7 +133,7 @@ impl fmt::Display for Axis {
     }
 }
 
-/// That the scenario has such a key and value.
+/// Checks that the scenario has such a key and value.
 fn check(source: &str, key: &str, value: &Decimal) -> Result<()> {
     assign::<Scenario>(&mut Table::new(), source, &format!("{key}={value}"))
 }

@@ -9,7 +9,7 @@ use super::axis::Axis;
 use super::rows::Rows;
 use super::source::HistogramSource;
 
-/// Where a dataset comes from; with it, and with a row's number and seed, the row can be made again.
+/// Origin of a dataset; with it and a row's number and seed, the row can be made again.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DatasetDescription {
     /// `tofsim.dataset/1`.

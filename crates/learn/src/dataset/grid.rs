@@ -22,7 +22,7 @@ pub struct Scene {
     pub reflectance: f64,
     /// Spectral irradiance of the target (`ambient.irradiance_w_m2_nm`) [W/m^2/nm].
     pub irradiance_w_m2_nm: f64,
-    /// Which values the other keys of the grid have, from 0 ([`Grid::setting`]).
+    /// Index of the values of the grid's other keys, from 0 ([`Grid::setting`]).
     pub setting: usize,
 }
 

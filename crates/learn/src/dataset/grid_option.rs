@@ -17,7 +17,7 @@ const OPTION: &str = "--grid";
 /// Another way to say what [`IRRADIANCE`] says.
 const ILLUMINANCE: &str = "ambient.illuminance_klux";
 
-/// Which grid.
+/// Grid that an option names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum GridOption {
     /// The thesis's of the purpose.
@@ -68,7 +68,7 @@ impl GridOption {
         }
     }
 
-    /// That no override of the command line says what the grid says.
+    /// Checks that no override of the command line sets a key of the grid.
     ///
     /// # Errors
     /// Naming the first that does.

@@ -99,10 +99,10 @@ impl Labelled {
         self
     }
 
-    /// That what the files say of chain and shots is what a scenario has; `source` is where they are.
+    /// Checks that chain and shots stated in the files equal those of a scenario; `source` is the path of the files.
     ///
     /// # Errors
-    /// Naming what is not.
+    /// Naming the first difference.
     pub fn check(&self, source: &Path, scenario: &Scenario) -> Result<()> {
         let fault = |field: &str, value: &str, expected: String| {
             let expected =

@@ -1,4 +1,4 @@
-//! Which rows a dataset has: all of a grid, or random scenes of it, equally many at each distance.
+//! Rows of a dataset: all of a grid, or random scenes of it, equally many at each distance.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -108,7 +108,7 @@ mod tests {
 
     use super::*;
 
-    /// How often each scene is chosen, by distance, reflectance and irradiance.
+    /// Counts how often each scene is chosen, by distance, reflectance and irradiance.
     fn chosen(subset: &Subset) -> BTreeMap<[u64; 3], usize> {
         let mut counts = BTreeMap::new();
         for index in 0..subset.len {

@@ -1,7 +1,7 @@
-//! Where histograms come from: the optics, chain and frame of a scenario, in closed form.
+//! Source of histograms: the optics, chain and frame of a scenario, in closed form.
 //!
-//! The thesis's bins, edges every 25 ps and no chain, are those of profile `ideal` to the
-//! femtosecond: two taps of 12.5 ps to a bin.
+//! The thesis's bins, edges every 25 ps and no chain, are those of profile `ideal` to the femtosecond: two taps of
+//! 12.5 ps to a bin.
 
 use std::sync::Arc;
 
@@ -111,12 +111,12 @@ impl HistogramSource {
         &self.settings[0].bins
     }
 
-    /// How large the histograms are.
+    /// Returns the size of the histograms.
     pub fn size(&self) -> histogram_builder::Params {
         self.scenario().histogram()
     }
 
-    /// How the histograms of a setting come about.
+    /// Returns the acquisition of the histograms of a setting.
     pub fn acquisition(&self, setting: usize) -> Acquisition<'_> {
         let Setting { scenario, known_bins, pulse, .. } = &self.settings[setting];
         let shots = scenario.firmware.shots_per_frame;

@@ -10,7 +10,7 @@ use super::presence::EffectState;
 /// The budget of one scene.
 #[derive(Clone, Debug)]
 pub struct DepthBudget {
-    /// Whose errors they are.
+    /// Estimator that makes the errors.
     pub kind: EstimatorKind,
     /// Frames drawn of each variant.
     pub frames: u64,
@@ -33,7 +33,7 @@ pub struct DepthBudget {
 /// Errors due to one effect.
 #[derive(Clone, Debug)]
 pub struct EffectErrors {
-    /// Which.
+    /// Effect that the row is for.
     pub effect: Effect,
     /// Whether the effect is measured.
     pub state: EffectState,

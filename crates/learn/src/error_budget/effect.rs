@@ -95,7 +95,7 @@ impl Effect {
 pub struct EffectSet(u32);
 
 impl EffectSet {
-    /// Those and no other.
+    /// Returns the set of the given effects.
     pub fn of(effects: impl IntoIterator<Item = Effect>) -> Self {
         effects.into_iter().fold(EffectSet::default(), EffectSet::with)
     }
@@ -115,7 +115,7 @@ impl EffectSet {
         EffectSet(self.0 & !(1 << effect as u32))
     }
 
-    /// Those for which `keep` holds.
+    /// Returns the effects for which `keep` holds.
     pub fn filter(self, keep: impl Fn(Effect) -> bool) -> Self {
         EffectSet::of(Effect::ALL.into_iter().filter(|&effect| self.has(effect) && keep(effect)))
     }

@@ -3,7 +3,7 @@
 use tofsim::kernel::Time;
 use tofsim::optics::{Bins, Hazard};
 
-/// How far a mean over jitter goes, either side [standard deviations].
+/// Range of a mean over jitter, on either side [standard deviations].
 const REACH: i32 = 6;
 /// Its steps to a standard deviation.
 const STEPS: i32 = 4;

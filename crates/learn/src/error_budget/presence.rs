@@ -14,7 +14,7 @@ use super::variant::{evened, is_even, shortest_ps};
 /// The state of an effect in a budget.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EffectState {
-    /// It is on, and is measured.
+    /// The effect is on, and is measured.
     On,
     /// The scenario or the estimator does not have it, with the reason.
     Off(String),

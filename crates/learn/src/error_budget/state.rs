@@ -1,4 +1,4 @@
-//! Which effects of a scenario can be told apart, and why the others cannot.
+//! States of a scenario's effects: those that can be separated, and the reasons why the others cannot.
 
 use tofsim::Note;
 use tofsim::error::{Error, Result};

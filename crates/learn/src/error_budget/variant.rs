@@ -22,11 +22,11 @@ pub const SHORTEST_BINS: f64 = 0.5;
 /// A scenario with some effects on and the others off.
 #[derive(Clone, Debug)]
 pub struct Variant {
-    /// What is on.
+    /// Effects that are on.
     pub effects: EffectSet,
     /// The scenario, ready to run.
     pub setup: Setup,
-    /// Which avalanche times give which code.
+    /// Avalanche times of each code.
     pub bins: Bins,
     /// The same as estimators are told: of the chain as it was calibrated.
     pub told_bins: Bins,
@@ -75,7 +75,7 @@ impl Variant {
         Ok(Variant { effects, setup, bins, told_bins, told_shots })
     }
 
-    /// How its histograms come about, as far as an estimator is told.
+    /// Returns the acquisition of its histograms, as the estimator knows it.
     pub fn acquisition(&self) -> Acquisition<'_> {
         Acquisition::of(&self.setup, &self.told_bins, self.told_shots)
     }

@@ -1,4 +1,4 @@
-//! How histograms come about, as far as estimators know it.
+//! Acquisition of histograms, as estimators know it.
 
 use std::f64::consts::SQRT_2;
 
@@ -17,10 +17,10 @@ pub const ARRIVAL_PS_PER_M: f64 = 2e12 / LIGHT_M_S;
 /// Most shots of a histogram: what the widest word holds [shots].
 pub const MOST_SHOTS: u64 = (1 << 24) - 1;
 
-/// How the histograms come about, as far as estimators know it.
+/// Acquisition of histograms, as estimators know it.
 #[derive(Clone, Copy, Debug)]
 pub struct Acquisition<'a> {
-    /// Which avalanche times give which code, as the calibration knows it.
+    /// Avalanche times of each code, according to the calibration.
     pub bins: &'a Bins,
     /// Shots of a histogram, or of a dark and a lit one together [shots].
     pub shots: u64,
@@ -31,7 +31,7 @@ pub struct Acquisition<'a> {
     pub jitter_ps: f64,
     /// Delay of the light after the laser edge: what an echo arrives later by than its flight takes [ps].
     pub delay_ps: f64,
-    /// How the diode comes back, where it is not armed anew for each shot (MODE 1).
+    /// Recovery of the diode, if it is not armed anew for each shot (MODE 1).
     pub free_running: Option<FreeRunning>,
 }
 
@@ -51,8 +51,8 @@ pub struct FreeRunning {
 }
 
 impl FreeRunning {
-    /// How long before the laser edge a pulse has to end, so that the first edge after it finds
-    /// nothing of it in the chain [ps].
+    /// Returns the time before the laser edge by which a pulse must have ended, so that the first edge after it finds
+    /// nothing of the pulse in the chain [ps].
     pub fn empty_ps(&self) -> f64 {
         (self.chain_ps - self.cycle_ps).max(self.tap_0_ps)
     }

@@ -93,7 +93,7 @@ pub enum Failure {
     /// The histogram is empty.
     #[error("no hits")]
     NoHits,
-    /// It holds more hits than it can have [hits].
+    /// The histogram contains more hits than is possible [hits].
     #[error("{hits} hits, expected {most} at most")]
     TooManyHits {
         /// Sum over the bins.

@@ -47,8 +47,8 @@ pub fn findpeaks(x: &[f64], y: &[f64], criteria: &Criteria) -> Vec<Peak> {
     peaks.filter(|peak| peak.width <= criteria.max_width).collect()
 }
 
-/// How far the width of a peak may reach: to its saddles, or to those of its neighbours if these are
-/// nearer and on the right side of the peak.
+/// Returns the borders of a peak's width: its saddles, or those of its neighbours if these are nearer and on the
+/// right side of the peak.
 fn borders(found: &[Found], k: usize) -> [usize; 2] {
     let Found { index, saddles: [mut left, mut right], .. } = found[k];
     if let Some(before) = found[..k].last().filter(|before| before.saddles[1] <= index) {

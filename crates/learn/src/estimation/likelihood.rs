@@ -121,8 +121,8 @@ impl Likelihood {
         best
     }
 
-    /// Where climbs may begin in MODE 1, and how likely that is: for each signal the best of some
-    /// scenes whose first photons come where the matched filter saw them, or in the fullest bin.
+    /// Returns the starting points of climbs in MODE 1, with their likelihoods: for each signal the best of some
+    /// scenes whose first photons arrive where the matched filter found them, or in the fullest bin.
     fn free_starts(&self, histogram: &[u32], seen_ps: f64) -> Vec<(f64, Echo)> {
         let fullest = (0..histogram.len()).max_by_key(|&code| histogram[code]).unwrap_or(0);
         let places_ps = [seen_ps, self.first_ps + (fullest as f64 + 0.5) * self.bin_ps];

@@ -18,11 +18,11 @@ use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, spans_ps};
 use super::coates::{Corrected, correct};
 use super::estimator::{Estimator, Failure, hits};
 
-/// How far from its mean a Gaussian is taken into account [sigma].
+/// Range of a Gaussian on either side of its mean [sigma].
 const REACH: f64 = 5.0;
 /// Steps of the grid of arrivals in the pulse's standard deviation, where bins are wider [1].
 const STEPS_IN_SIGMA: f64 = 4.0;
-/// Where bins are wider, no step of the grid is finer [ps].
+/// Finest step of the grid if bins are wider [ps].
 const FINEST_STEP_PS: f64 = 25.0;
 /// A pulse of which less than this part is weighed, by its square, is not tried [1].
 const FAINTEST: f64 = 1e-9;
@@ -114,7 +114,7 @@ fn seen(acquisition: &Acquisition) -> pulse::Pulse {
     }
 }
 
-/// Where the pulse is taken into account, from its mean [ps].
+/// Returns the range in which the pulse is considered, from its mean [ps].
 fn reach_ps(shape: &pulse::Pulse) -> [f64; 2] {
     match shape {
         pulse::Pulse::Gaussian { sigma_ps } => [-REACH * sigma_ps, REACH * sigma_ps],
@@ -234,7 +234,7 @@ impl MatchedFilter {
 struct Fit {
     /// Weighted square of the pulse without its flat part.
     weight: f64,
-    /// How much of the flat shape the pulse has.
+    /// Fraction of the flat shape in the pulse.
     flat_part: f64,
     /// Signal times the square root of the weight; what it explains, but for a constant.
     score: f64,

@@ -35,7 +35,7 @@ pub struct Figures {
     pub most_biased_scene: Option<BiasedScene>,
     /// Spread over the line between the thesis's float figures, where that is largest [1].
     pub worst_ratio_to_thesis: Option<f64>,
-    /// Where that is [m].
+    /// Distance of the worst error [m].
     pub worst_distance_m: Option<f64>,
 }
 

@@ -15,7 +15,7 @@ pub fn is_outlier(depth_m: f64, truth_m: f64, limit_m: f64) -> bool {
     off_m.is_nan() || off_m > limit_m || depth_m < 0.0
 }
 
-/// Where errors lie; all but the counts are `None` without an estimate, spreads without two.
+/// Distribution of errors; all but the counts are `None` without an estimate, spreads without two.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
     /// Histograms with an estimate.

@@ -6,7 +6,7 @@ const REACH: f64 = 1.5;
 /// Errors beyond a whisker that are kept on either side; of more, these and the farthest.
 const KEPT: usize = 40;
 
-/// Where the whiskers of a box end, and what lies beyond them.
+/// Ends of a box's whiskers, and the errors beyond them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tails {
     /// The last errors within one and a half boxes of the box [mm].

@@ -1,10 +1,9 @@
-//! Where a depth comes from, and what fixed point costs it: every value of the datapath beside its
-//! twin in double precision.
+//! Origin of a depth and cost of fixed point: every value of the datapath beside its double-precision counterpart.
 //!
-//! The float pass is that of the weights before rounding. Fixed point departs from it in four
-//! steps, and the depth after each of them makes a [`ErrorBudget`] whose parts add up to the whole
-//! difference: the weights and biases of the hidden layer are rounded, the address of the
-//! activation is, the entry of the table is, the weights and the bias of the output layer are.
+//! The float pass uses the weights before rounding. Fixed point differs from it in four steps, and the depth after
+//! each of them gives an [`ErrorBudget`] whose parts add up to the whole difference: rounding of the hidden layer's
+//! weights and biases, of the address of the activation, of the entry of the table, and of the output layer's weights
+//! and bias.
 
 use serde::Serialize;
 
@@ -91,12 +90,12 @@ pub struct Explanation {
     pub bias: WordAndTwin,
     /// The depth [m].
     pub depth: WordAndTwin,
-    /// Where the words are first not the nearest to their twins: `l1_in`, `l1_out`, `product` or
-    /// `depth`, if anywhere, and of which neuron.
+    /// First words that are not the nearest to their counterparts: `l1_in`, `l1_out`, `product` or `depth`, if there
+    /// are any, and of which neuron.
     pub first_parting: Option<(&'static str, Option<usize>)>,
     /// Neurons whose sum lies past the table of activations.
     pub saturated: usize,
-    /// Where the difference comes from.
+    /// Sources of the difference.
     pub budget: ErrorBudget,
 }
 

@@ -27,7 +27,7 @@ use twin::Twin;
 /// A word of the estimator and its twin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StageValue {
-    /// Where it comes out: `ambient`, `scan`, `start`, `step 1` to `step 6`, `rescan`, `end`.
+    /// Stage of the value: `ambient`, `scan`, `start`, `step 1` to `step 6`, `rescan`, `end`.
     pub stage: String,
     /// Name of the value.
     pub value: String,

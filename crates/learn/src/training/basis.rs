@@ -35,7 +35,7 @@ fn next(knot: f64, spacings: &[(f64, f64)]) -> Option<f64> {
         .find_map(|(until, spacing)| (knot + spacing <= *until).then_some(knot + spacing))
 }
 
-/// Where echoes are expected.
+/// Expected places of echoes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Echoes {
     /// Places of the nearest one and of the farthest [bins].
@@ -116,7 +116,7 @@ impl Stretch {
         head.into_iter().chain(successors(Some(self.from), |knot| next(*knot, &spacings))).collect()
     }
 
-    /// How many there are at least.
+    /// Returns the smallest number of knots.
     fn least(&self, factor: f64) -> usize {
         self.dense(factor).len() + self.tail
     }
@@ -154,7 +154,7 @@ impl Basis {
         }
     }
 
-    /// How many knots there are.
+    /// Returns the number of knots.
     pub fn knots(&self) -> usize {
         self.knots
     }

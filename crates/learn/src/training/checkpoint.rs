@@ -23,7 +23,7 @@ const SCHEMA: &str = "tofsim.checkpoint/1";
 /// Settings by name; a checkpoint is for these alone.
 pub type CheckpointSettings = BTreeMap<String, String>;
 
-/// Which training a checkpoint belongs to.
+/// Training that a checkpoint belongs to.
 #[derive(Clone, Debug, Default)]
 pub struct CheckpointOf {
     /// All that decides what comes out.
@@ -103,7 +103,7 @@ pub fn load(path: &Path, of: &CheckpointOf, recipe: &Recipe) -> Result<Tournamen
     Ok(checkpoint.state)
 }
 
-/// Which options a training was begun with and which it is gone on with, as far as they differ.
+/// Returns the differences between the options with which a training was begun and is continued.
 fn differing(begun: &[String], now: &[String]) -> String {
     let less = |these: &[String], those: &[String]| {
         let these = these.iter().filter(|option| !those.contains(option));
@@ -119,7 +119,7 @@ fn differing(begun: &[String], now: &[String]) -> String {
     }
 }
 
-/// That a state is one of the recipe's; or else which field is not.
+/// Checks that a state fits the recipe; the error is the field that does not.
 fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'static str> {
     let (stages, stage) = (recipe.stages.len(), recipe.stage(state.stage));
     let blocks = if state.stage == stages { recipe.finish.blocks } else { 0 };

@@ -70,7 +70,7 @@ pub struct PulseTimes {
     pub sigma_ps: f64,
 }
 
-/// Where the histograms of a training come from.
+/// Source of the histograms of a training.
 pub trait TrainingMaterial: fmt::Debug + Sync {
     /// Draws a training's samples for a purpose, in order of distance.
     fn draw(&self, recipe: &Recipe, seed: u64, purpose: Purpose) -> Samples;
@@ -87,10 +87,10 @@ pub trait TrainingMaterial: fmt::Debug + Sync {
     /// Delay and width of the pulse, in the first of the settings.
     fn pulse_times(&self) -> PulseTimes;
 
-    /// Which times give which code, in the first of the settings.
+    /// Returns the times of each code, in the first of the settings.
     fn bins(&self) -> &Bins;
 
-    /// That there are several distances, and histograms for each in every stage.
+    /// Checks that there are several distances, and histograms for each in every stage.
     ///
     /// # Errors
     /// Naming what is too few.
@@ -183,7 +183,7 @@ impl TrainingMaterial for TrainingScenes<'_> {
     }
 }
 
-/// Where the echoes of distances in rising order are expected.
+/// Returns the expected places of the echoes of distances in ascending order.
 fn echoes(distances_m: &[f64], bins: &Bins, pulse: PulseTimes) -> Echoes {
     let ends = [distances_m.first(), distances_m.last()];
     let arrival_ps = |m: f64| pulse.delay_ps + m * ARRIVAL_PS_PER_M;

@@ -14,7 +14,7 @@ pub const BLOCK: usize = 256;
 /// Some columns of a sample.
 pub type Tile = [f32; LANES];
 
-/// How counts at knots become inputs.
+/// Scaling of counts at knots to inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scaling {

@@ -7,7 +7,7 @@ use tofsim::firmware::depth_estimator::datapath::Datapath;
 use super::features::Scaling;
 use super::lm::NormalEquations;
 
-/// Where the penalties begin, a little inside the words' ranges, and how steep they are.
+/// Starts of the penalties, slightly inside the words' ranges, and their slopes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WordLimits {
@@ -44,7 +44,7 @@ impl Default for WordLimits {
 /// The penalties of a network for certain words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hinges {
-    /// Where they begin.
+    /// Starts of the penalties.
     pub limits: WordLimits,
     /// The words.
     pub words: Datapath,

@@ -75,11 +75,11 @@ pub enum Stop {
     Damping,
     /// The validation error grew too often; the parameters are those where it was least.
     Validation,
-    /// Whoever asks for epochs finds that they gain too little.
+    /// The caller decided that further epochs gain too little.
     Gain,
 }
 
-/// Where the method is.
+/// State of the method.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Lm {
     /// The parameters.

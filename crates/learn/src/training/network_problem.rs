@@ -24,7 +24,7 @@ const RUN: usize = 8;
 pub struct NetworkProblem<'a> {
     /// Inputs.
     pub blocks: &'a [FeatureBlock],
-    /// How the inputs were made.
+    /// Scaling of the inputs.
     pub scaling: &'a Scaling,
     /// True distances [m].
     pub distances_m: &'a [f64],

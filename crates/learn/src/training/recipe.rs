@@ -15,7 +15,7 @@ use super::weighting::Weighting;
 mod check;
 mod read;
 
-/// How a network is trained.
+/// Recipe of a network's training.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Recipe {

@@ -14,12 +14,12 @@ use super::start::start;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Candidate {
-    /// Which start it comes from.
+    /// Number of the start that it comes from.
     pub start: usize,
     /// Epochs made since the last checkpoint of the recipe.
     #[serde(default, skip_serializing_if = "is_none")]
     pub made: u64,
-    /// Where its training is.
+    /// State of its training.
     pub lm: Lm,
     /// Factor on the weights at each distance, once the end has begun [1].
     pub factors: Vec<f64>,
@@ -33,7 +33,7 @@ fn is_none(count: &u64) -> bool {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BestBlock {
-    /// Which start it comes from.
+    /// Number of the start that it comes from.
     pub start: usize,
     /// Blocks made by then.
     pub block: usize,
@@ -81,13 +81,13 @@ pub struct TournamentState {
     pub epochs: u64,
     /// Digest of all data used so far, in hexadecimal.
     pub data: String,
-    /// How inputs are made.
+    /// Scaling of inputs.
     pub scaling: Scaling,
-    /// Those still taking part.
+    /// Candidates still taking part.
     pub candidates: Vec<Candidate>,
     /// The best block.
     pub best: Option<BestBlock>,
-    /// How the costs fell.
+    /// Course of the costs.
     pub curve: Vec<CurvePoint>,
 }
 

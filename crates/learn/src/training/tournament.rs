@@ -24,7 +24,7 @@ use super::lm::{Lm, Problem, Stop};
 use super::recipe::{Recipe, Stage};
 use super::state::{BestBlock, CurvePoint, TournamentState};
 
-/// Who watches a training.
+/// Observer of a training.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
     /// Set when the user interrupts.

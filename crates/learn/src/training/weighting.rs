@@ -1,4 +1,4 @@
-//! How much an error counts at a distance: in parts of the line that the network is to stay below.
+//! Weight of an error at a distance: relative to the limit that the network is to stay below.
 
 use serde::{Deserialize, Serialize};
 
@@ -103,7 +103,7 @@ impl Weighting {
         Weighting { reach_m: reach_m(distances_m), ..weighting }
     }
 
-    /// That there is a line, above zero.
+    /// Checks that there is a limit, and that it is positive.
     pub(super) fn check(&self) -> Result<()> {
         let (distances_m, two_sd_mm) = (&self.distances_m, &self.two_sd_mm);
         let rises = !distances_m.is_empty() && distances_m.is_sorted_by(|a, b| a < b);

@@ -28,7 +28,7 @@ struct Instrument {
     params: Params,
 }
 
-/// Where the target is, and what light there is.
+/// Target and light of a scene.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     distance_m: f64,
@@ -84,7 +84,7 @@ impl Scene<'_> {
 struct Tally {
     drawn: f64,
     raised: f64,
-    /// How often each reason was given.
+    /// Number of times that each reason was given.
     reasons: [u32; 7],
     kept: f64,
     sum_m: f64,

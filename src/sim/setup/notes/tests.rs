@@ -1,4 +1,4 @@
-//! Which limits a setup is said to be outside of.
+//! Tests of the limits that notes of a setup name.
 
 use super::*;
 

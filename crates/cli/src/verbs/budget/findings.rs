@@ -44,7 +44,7 @@ impl Findings {
         Ok(notes)
     }
 
-    /// Which limits the laser is above, and where there is none to tell.
+    /// Returns the notes on the limits that the laser exceeds, and on those that are not known.
     pub fn eye_safety_notes(&self) -> impl Iterator<Item = Note> {
         // The laser does not run at the optics' rate, so only that there is no limit is worth a note.
         let design = Some(&self.at_the_optics_rate).filter(|design| design.limit_w.is_none());

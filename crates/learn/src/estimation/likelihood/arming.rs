@@ -22,7 +22,7 @@ const SAME: f64 = 1e-8;
 /// Most steps until it does.
 const MOST_STEPS: usize = 100_000;
 
-/// How avalanches of an armed shot are seen.
+/// Detection of the avalanches of an armed shot.
 #[derive(Clone, Debug)]
 pub struct Arming {
     /// Chance that one is seen at its place [1].
@@ -58,7 +58,8 @@ impl Arming {
         }
     }
 
-    /// Where the first avalanches of armed shots are seen; what is not seen is missing.
+    /// Returns the distribution of the first avalanches of armed shots as they are detected; those that are not
+    /// detected are missing.
     pub fn show(&self, first: &[f64]) -> Vec<f64> {
         let seen = |place: usize| {
             let early = self.early.iter().zip(&first[place..]);

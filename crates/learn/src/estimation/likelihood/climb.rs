@@ -12,7 +12,7 @@ use super::solve::{Matrix, inverse_diagonal, solve};
 const LONGEST: f64 = 1.0;
 /// The background falls to a tenth in one iteration at most [1].
 const FALL: f64 = 0.1;
-/// Where a signal is taken to have run away, either way [e-folds].
+/// Change of a signal beyond which a climb has diverged, in either direction [e-folds].
 const RUNAWAY: f64 = 20.0;
 /// A promised gain that rounding may swallow [1].
 const NOTHING: f64 = 1e-4;

@@ -16,7 +16,7 @@ use crate::estimation::acquisition::{Acquisition, spans_ps};
 const STEP_PS: f64 = 10.0;
 /// The same beside the pulse, of which pile-up leaves a narrower one [sigma].
 const STEP: f64 = 0.125;
-/// How far jitter is followed [standard deviations].
+/// Range of jitter on either side [standard deviations].
 const REACH: f64 = 6.0;
 
 /// A stretch of time.

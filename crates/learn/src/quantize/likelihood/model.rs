@@ -56,12 +56,12 @@ impl Model {
         self.edges_ps.len() - 1
     }
 
-    /// Where the last bin ends [ps].
+    /// Returns the end of the last bin [ps].
     pub fn end_ps(&self) -> f64 {
         self.edges_ps[self.bins()]
     }
 
-    /// How wide a bin is [bins].
+    /// Returns the width of a bin [bins].
     pub fn width(&self, bin: usize) -> f64 {
         (self.edges_ps[bin + 1] - self.edges_ps[bin]) / self.bin_ps
     }

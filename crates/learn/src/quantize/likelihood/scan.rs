@@ -1,4 +1,4 @@
-//! Where a box stands highest above ambient light, in double precision.
+//! Search for the box with the largest excess over ambient light, in double precision.
 
 use std::ops::Range;
 

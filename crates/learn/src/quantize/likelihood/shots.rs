@@ -49,7 +49,7 @@ pub struct Shots {
     pub ended: Vec<f64>,
     /// Shots that wait when each bin begins.
     pub waiting: Vec<f64>,
-    /// Those times the width of their bin [shots bins].
+    /// Waiting shots times the width of their bin [shots bins].
     pub exposed: Vec<f64>,
 }
 

@@ -31,14 +31,14 @@ pub struct Information {
     pub variance_ps2: f64,
     /// Variance of log S [1].
     pub variance_of_log: f64,
-    /// How often the step was halved.
+    /// Number of times that the step was halved.
     pub cut: u32,
-    /// How far mu went [ps].
+    /// Change of mu [ps].
     pub move_ps: f64,
 }
 
 impl Point {
-    /// Where a box stands highest.
+    /// Returns the point of the best box.
     pub fn start(model: &Model, best: &Best, ambient: f64) -> Self {
         let (from, until) = best.bins;
         let bins = (until - from) as f64;

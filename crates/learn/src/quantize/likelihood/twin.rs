@@ -26,9 +26,9 @@ pub struct Twin {
     pub ambient: Ambient,
     /// The highest place of the box.
     pub start: Best,
-    /// Where the fit begins.
+    /// Start of the fit.
     pub begin: Point,
-    /// Where each step leads, and what it knew.
+    /// Point after each step, and the information used for it.
     pub steps: [(Point, Information); STEPS],
     /// The highest place of the box outside of the fit.
     pub other: Best,

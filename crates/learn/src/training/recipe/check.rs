@@ -18,10 +18,10 @@ const MOST_KNOTS: usize = 1031;
 const LEAST_SAMPLES: u64 = 201;
 
 impl Recipe {
-    /// That every number makes sense.
+    /// Checks that every number is valid.
     ///
     /// # Errors
-    /// Naming the first that does not.
+    /// Naming the first that is not.
     pub fn check(&self) -> Result<(), Error> {
         let Recipe { neurons, validation, start, stages, finish, optimiser, limits, .. } = self;
         at_least("neurons", *neurons as u64, 1)?;
@@ -68,7 +68,7 @@ impl Recipe {
         self.weighting.check()
     }
 
-    /// That no stage has more candidates than the one before, and all have enough of everything.
+    /// Checks that no stage has more candidates than the one before, and that all have enough of everything.
     fn check_stages(&self) -> Result<(), Input> {
         let mut before = usize::MAX;
         for place in 0..=self.stages.len() {

@@ -96,7 +96,7 @@ impl Waited<'_> {
         (part + part * part / 2.0) / (self.twin.bin_ps / 64.0)
     }
 
-    /// Where a box stands out most.
+    /// Returns the point of the box with the largest excess.
     fn start(&self, ambient: f64) -> Point {
         let twin = self.twin;
         let bins = twin.bins() as i64;

@@ -13,9 +13,9 @@ use tofsim::sim::estimates::likelihood::Found;
 use super::{Instrument, Tally};
 use pair::Pair;
 
-/// How much later the second echo comes [sigma].
+/// Delays of the second echo after the first [sigma].
 const APART: [f64; 10] = [1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 15.0];
-/// How much stronger it is [1].
+/// Strengths of the second echo relative to the first [1].
 const STRENGTHS: [f64; 4] = [0.1, 0.3, 1.0, 3.0];
 /// An error of so many of its own deviations is no chance [1].
 const FAR: f64 = 6.0;

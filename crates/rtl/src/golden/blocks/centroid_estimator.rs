@@ -43,7 +43,7 @@ signals! {
         rst: bool,
         /// Starts an estimation.
         algo_start: bool,
-        /// Which histogram is there.
+        /// Number of the histogram in the memory.
         histogram: U<5>,
     }
 }
