@@ -50,8 +50,8 @@ impl Variant {
             true => shots,
             false => MOST_SHOTS,
         };
-        if told_shots != shots && loaded.scenario.estimator.told_shots == 0 {
-            loaded.scenario.estimator.told_shots = told_shots;
+        if told_shots != shots && loaded.scenario.estimator.assumed_shots == 0 {
+            loaded.scenario.estimator.assumed_shots = told_shots;
         }
         let mut setup = Setup::of_counts(loaded)?;
         let has_errors =
