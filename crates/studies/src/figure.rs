@@ -52,9 +52,10 @@ pub fn mean_of_scenes(figures: impl Iterator<Item = Figure>) -> Figure {
         sum += weight * value;
         variance = variance.zip(figure.se).map(|(sum, se)| sum + weight * weight * se * se);
     }
-    match all > 0.0 {
-        true => Figure::new(Some(sum / all), variance.map(|sum: f64| sum.sqrt() / all)),
-        false => Figure::default(),
+    if all > 0.0 {
+        Figure::new(Some(sum / all), variance.map(|sum: f64| sum.sqrt() / all))
+    } else {
+        Figure::default()
     }
 }
 

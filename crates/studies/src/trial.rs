@@ -51,9 +51,10 @@ impl<'a> Trial<'a> {
         let kinds = &self.plan.estimators;
         let simulates = self.plan.file.fidelity != Fidelity::Budget;
         let needs_frames = |column: &&Column| !matches!(column.quantity, Quantity::Expected(_));
-        let measured = match simulates && self.columns.iter().any(needs_frames) {
-            true => Some(self.simulate(&setup)?),
-            false => None,
+        let measured = if simulates && self.columns.iter().any(needs_frames) {
+            Some(self.simulate(&setup)?)
+        } else {
+            None
         };
         let figure = |column: &&Column| {
             Ok(match (column.quantity, &measured) {
@@ -76,7 +77,7 @@ impl<'a> Trial<'a> {
     fn simulate(&self, setup: &Setup) -> Result<(Tally, Vec<Errors>)> {
         let plan = self.plan;
         let estimators = Panel::new(&plan.estimators, setup)?.into_estimators();
-        let mut taker = Taker {
+        let mut taker = Collector {
             truth_m: truth_m(setup),
             errors: estimators.iter().map(|_| Vec::new()).collect(),
             estimators,
@@ -146,7 +147,7 @@ fn notes(setup: &Setup, kinds: &[EstimatorKind]) -> Result<Vec<Note>> {
 }
 
 /// Collector of frames.
-struct Taker {
+struct Collector {
     truth_m: Option<f64>,
     estimators: Vec<Box<dyn Estimator>>,
     /// For each estimator, the depth error of each frame, if it has a depth [m].
@@ -155,7 +156,7 @@ struct Taker {
     dark: Option<Histogram>,
 }
 
-impl Taker {
+impl Collector {
     fn take(&mut self, frame: &Frame) {
         self.tally.take(frame);
         let is_dark_of_a_pair =

@@ -232,11 +232,10 @@ fn quantiles(file: &AxisFile, kind: Distribution, fault: Fault) -> Result<Quanti
             normal_cdf((end - mean) / sd)
         };
         let parts = [file.from.map_or(0.0, part), file.to.map_or(1.0, part)];
-        match parts[0] < parts[1] {
-            true => Ok(Quantiles::Normal { mean, sd, parts, is_log }),
-            false => {
-                Err(fault("to", "nothing of the distribution lies between from and to").into())
-            }
+        if parts[0] < parts[1] {
+            Ok(Quantiles::Normal { mean, sd, parts, is_log })
+        } else {
+            Err(fault("to", "nothing of the distribution lies between from and to").into())
         }
     };
     Ok(match kind {

@@ -17,7 +17,7 @@ pub enum Quantiles {
         sd: f64,
         /// Cumulative probabilities at the ends of the interval.
         parts: [f64; 2],
-        /// Whether it is the distribution of the logarithm.
+        /// Whether this is the distribution of the logarithm.
         is_log: bool,
     },
     /// Triangular: lower limit, mode, upper limit.
@@ -36,9 +36,10 @@ impl Quantiles {
             }
             Quantiles::Triangular([from, mode, to]) => {
                 let (rising, all) = (mode - from, to - from);
-                match u * all < rising {
-                    true => from + (u * all * rising).sqrt(),
-                    false => to - ((1.0 - u) * all * (to - mode)).sqrt(),
+                if u * all < rising {
+                    from + (u * all * rising).sqrt()
+                } else {
+                    to - ((1.0 - u) * all * (to - mode)).sqrt()
                 }
             }
         }
