@@ -1,38 +1,40 @@
-//! What a result does not say by itself: where it lies outside of what was modelled, trained or checked.
+//! Notes on a result: limits of the model, the training or the checks that it exceeds.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// What kind of a limit a result is outside of.
+/// Kind of limit that a result exceeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum NoteCode {
-    /// The scenario is not what the network was trained for.
+    /// The scenario lies outside the network's training domain.
     OutsideTraining,
     /// The echo arrives after the last bin.
     EchoPastHistogram,
-    /// No light of the laser comes back, or none is simulated.
+    /// No laser light returns, or none is simulated.
     NoLight,
-    /// An estimator takes for granted what the scenario does not have.
+    /// The scenario violates an assumption of the estimator.
     EstimatorOutsideModel,
-    /// The chain is not as it was when the TDC was calibrated.
+    /// The chain has drifted since the TDC was calibrated.
     ChainDrifted,
-    /// The ring that calibrates the TDC keeps step with its clock.
+    /// The ring that calibrates the TDC is synchronous with its clock.
     RingInStep,
-    /// The laser is above a limit, or there is none to tell.
+    /// The laser exceeds an eye-safety limit, or no limit is known.
     EyeSafety,
-    /// The run ended before all of an input came due.
+    /// The run ended before all of an input was used.
     UnusedInput,
-    /// Two estimators part over the histogram of a frame, or the second one has nothing to say of it.
+    /// Two estimators disagree on the histogram of a frame, or the second one has no valid result.
     SecondOpinion,
-    /// A model does not describe what it was fitted to.
+    /// A model does not describe the data to which it was fitted.
     DoubtfulFit,
-    /// What was measured comes of too few hits to be known well.
+    /// A measurement is uncertain because it has too few hits.
     FewHits,
     /// Two files could not be read or matched as they are.
     Comparison,
+    /// A scenario key was given by its former name.
+    RenamedKey,
 }
 
 impl fmt::Display for NoteCode {
@@ -41,18 +43,18 @@ impl fmt::Display for NoteCode {
     }
 }
 
-/// One limit that a result is outside of.
+/// One limit that a result exceeds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Note {
-    /// What kind of a limit.
+    /// Kind of limit.
     pub code: NoteCode,
-    /// Key of the scenario, or option, that is the cause.
+    /// Scenario key or option that is the cause.
     pub key: String,
-    /// What it is.
+    /// Value of the key.
     pub value: NoteValue,
-    /// What it would have to be.
+    /// Expected value of the key.
     pub expected: String,
-    /// All of it as a sentence.
+    /// Explanation, as a sentence.
     pub text: String,
 }
 
@@ -60,7 +62,7 @@ pub struct Note {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum NoteValue {
-    /// There is none.
+    /// No value.
     None,
     /// A number, in the unit of the key.
     Number(f64),
@@ -71,7 +73,7 @@ pub enum NoteValue {
 }
 
 impl Note {
-    /// That `key` is `value` where `expected` would have to be; `text` says what comes of it.
+    /// Creates a note that `key` has `value` where `expected` was expected; `text` explains the consequence.
     pub fn new(
         code: NoteCode,
         key: impl Into<String>,
@@ -84,7 +86,7 @@ impl Note {
     }
 }
 
-/// The line that a user sees.
+/// Formats the line that a user sees.
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "note: {} = {}: {}", self.key, self.value, self.text)?;

@@ -41,9 +41,10 @@ pub struct Pipe {
 /// # Errors
 /// If it cannot be opened, or no writer opens the pipe in time.
 pub fn open(path: &Path) -> Result<Opened> {
-    match is_pipe(path) {
-        true => Pipe::open(path, WRITER, SILENCE).map(Opened::Pipe),
-        false => File::open(path).map(Opened::File).map_err(Error::io(path, "read")),
+    if is_pipe(path) {
+        Pipe::open(path, WRITER, SILENCE).map(Opened::Pipe)
+    } else {
+        File::open(path).map(Opened::File).map_err(Error::io(path, "read"))
     }
 }
 
@@ -148,9 +149,10 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let file = open(path)?;
     file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(Error::io(path, "read"))?;
-    match bytes.len() as u64 > LONGEST {
-        true => Err(Input::new(path.display(), "expected 256 MiB at most").into()),
-        false => Ok(bytes),
+    if bytes.len() as u64 > LONGEST {
+        Err(Input::new(path.display(), "expected 256 MiB at most").into())
+    } else {
+        Ok(bytes)
     }
 }
 

@@ -1,8 +1,7 @@
-//! Reads TOML: every file of ours, and every `key=value` of the command line, comes through here.
+//! TOML input: all configuration files, and the `key=value` arguments of the command line.
 //!
-//! A document is checked against the JSON Schema of the type that it is read into, so that every
-//! fault has its place: an unknown key (with the nearest known one), a wrong type, a list of the
-//! wrong length, a number out of range or no number, an unknown word.
+//! A document is checked against the JSON Schema of its type, so that errors have a position: unknown keys (with the
+//! nearest known key), wrong types, lists of the wrong length, numbers out of range, and unknown words.
 
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
@@ -11,22 +10,25 @@ use toml_edit::{Document, DocumentMut, Item, Table, TableLike, Value};
 use crate::error::{Error, Input, Result, line_and_column};
 
 mod number;
+mod renamed;
 mod walk;
+
+pub use renamed::{RenamedKey, rename};
 
 use number::number;
 use walk::{Walk, located, shown};
 
-/// A TOML document with the places of its keys.
+/// A TOML document with the positions of its keys.
 pub struct Checked {
     source: String,
     document: Document<String>,
 }
 
 impl Checked {
-    /// Parses `text`, the contents of `source`, without a look at what its keys are.
+    /// Parses `text`, the contents of `source`, without checking its keys.
     ///
     /// # Errors
-    /// When it is no TOML.
+    /// If it is not valid TOML.
     pub fn syntax(source: &str, text: &str) -> Result<Self> {
         let document = Document::parse(text.to_owned()).map_err(|error| {
             let (line, column) = line_and_column(text, error.span().map_or(0, |span| span.start));
@@ -35,40 +37,40 @@ impl Checked {
         Ok(Checked { source: source.to_owned(), document })
     }
 
-    /// Parses and checks `text`, the contents of `source`, as a `T`.
+    /// Parses `text`, the contents of `source`, and checks it against the schema of `T`.
     ///
     /// # Errors
-    /// When it is no TOML, or does not have what a `T` has.
+    /// If it is not valid TOML, or does not match the schema.
     pub fn parse<T: JsonSchema>(source: &str, text: &str) -> Result<Self> {
         let checked = Checked::syntax(source, text)?;
         checked.check::<T>(true)?;
         Ok(checked)
     }
 
-    /// The same of a text that says only a part of a `T`, to be laid over another.
+    /// Parses `text`, and checks it against the schema of `T` without requiring any key, for overrides.
     ///
     /// # Errors
-    /// When it is no TOML, or has what a `T` does not have.
+    /// If it is not valid TOML, or a key or value does not match the schema.
     pub fn part<T: JsonSchema>(source: &str, text: &str) -> Result<Self> {
         let checked = Checked::syntax(source, text)?;
         checked.check::<T>(false)?;
         Ok(checked)
     }
 
-    /// The values as a `T`.
+    /// Deserializes the document.
     ///
     /// # Errors
-    /// When they do not make one.
+    /// If its values do not make a `T`.
     pub fn read<T: DeserializeOwned>(&self) -> Result<T> {
         read(&self.source, self.table())
     }
 
-    /// The values.
+    /// Returns the document's root table.
     pub fn table(&self) -> &Table {
         self.document.as_table()
     }
 
-    /// A fault at a dotted key, with the key's place if the document has it.
+    /// Creates an error at a dotted key, with its position if the document contains it.
     pub fn fault(&self, key: &str, expected: impl std::fmt::Display) -> Input {
         let input = Input::new(&self.source, expected).field(key);
         let mut item = Some(self.document.as_item());
@@ -92,16 +94,16 @@ impl Checked {
     }
 }
 
-/// Reads a checked table into its type.
+/// Deserializes a table that has been checked.
 ///
 /// # Errors
-/// When the values do not make one.
+/// If its values do not make a `T`.
 pub fn read<T: DeserializeOwned>(source: &str, table: &Table) -> Result<T> {
     let values = toml::Value::Table(values(table));
     values.try_into().map_err(|error| Input::new(source, error.message()).into())
 }
 
-/// The values of a table without their places.
+/// Converts a table to values without positions.
 fn values(table: &dyn TableLike) -> toml::Table {
     let of_item = |item: &Item| match (item.as_table_like(), item.as_array_of_tables()) {
         (Some(table), _) => Some(values(table).into()),
@@ -125,11 +127,11 @@ fn value(with_place: &Value) -> toml::Value {
     }
 }
 
-/// Sets one dotted key of a table that is to be a `T`, as `option` of the command line has it:
-/// `key=value`. What is no TOML value is taken as a text.
+/// Sets one dotted key of a table of type `T` from the `key=value` argument of `option`. A value that is not valid
+/// TOML is taken as a text.
 ///
 /// # Errors
-/// When it is no assignment, or a `T` has no such key or value.
+/// If it is not an assignment, or `T` has no such key or value.
 pub fn assign<T: JsonSchema>(table: &mut Table, option: &str, assignment: &str) -> Result<()> {
     let source = format!("{option} {assignment}");
     let Some((key, value)) = assignment.split_once('=') else {
@@ -159,7 +161,7 @@ pub fn assign<T: JsonSchema>(table: &mut Table, option: &str, assignment: &str) 
     Ok(())
 }
 
-/// Lays a table over another, key by key.
+/// Merges `over` into `under`, key by key.
 pub fn merge(under: &mut dyn TableLike, over: &dyn TableLike) {
     for (key, item) in over.iter() {
         match (under.get_mut(key).and_then(Item::as_table_like_mut), item.as_table_like()) {

@@ -72,9 +72,10 @@ fn output(fixed: &Fixed, datapath: &Datapath) -> forward2::Rom {
 fn tansig_table(datapath: &Datapath) -> Arc<tansig::Rom> {
     static THESIS: LazyLock<Arc<tansig::Rom>> =
         LazyLock::new(|| Arc::new(tansig::Rom::new(&Datapath::THESIS)));
-    match *datapath == Datapath::THESIS {
-        true => THESIS.clone(),
-        false => Arc::new(tansig::Rom::new(datapath)),
+    if *datapath == Datapath::THESIS {
+        THESIS.clone()
+    } else {
+        Arc::new(tansig::Rom::new(datapath))
     }
 }
 

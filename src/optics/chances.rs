@@ -50,9 +50,10 @@ impl Chances {
 
 /// Returns the probability of an avalanche before `end`.
 fn hit(hazard: &Hazard, end: Time) -> f64 {
-    match hazard.variation().is_none() {
-        true => -libm::expm1(-hazard.at(end)),
-        false => 1.0 - hazard.none_before(end),
+    if hazard.variation().is_none() {
+        -libm::expm1(-hazard.at(end))
+    } else {
+        1.0 - hazard.none_before(end)
     }
 }
 

@@ -68,9 +68,10 @@ impl DarkRates {
     }
 
     fn sum_hz(&self, places: Range<usize>) -> f64 {
-        let parts = match self.parts.is_empty() {
-            true => places.len() as f64,
-            false => self.parts.iter().skip(places.start).take(places.len()).sum(),
+        let parts = if self.parts.is_empty() {
+            places.len() as f64
+        } else {
+            self.parts.iter().skip(places.start).take(places.len()).sum()
         };
         parts * self.unit_hz
     }

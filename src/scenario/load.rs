@@ -1,34 +1,40 @@
-//! Finds a scenario, lays overrides over it, and checks the whole.
+//! Loading of a scenario: finds its file, applies overrides, and checks the result.
 
 use std::path::Path;
 
 use toml_edit::Table;
 
 use crate::error::{Input, Result, hint, read_text};
-use crate::files::toml::{Checked, assign, merge, read};
+use crate::files::toml::{Checked, RenamedKey, assign, merge, read, rename};
+use crate::note::{Note, NoteCode};
 
 use super::builtin::{self, Source};
 use super::illuminance;
 use super::model::Scenario;
 use super::validate;
 
-/// The scenario that `run` takes when none is named.
+/// Name of the scenario that is used by default.
 pub const DEFAULT: &str = "kc705";
 
-/// A scenario, where it came from, and where its files are.
+/// A checked scenario with its name, overrides and the origin of its files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
     /// Built-in name, or the file's stem.
     pub name: String,
     /// The checked values.
     pub scenario: Scenario,
-    /// The `key=value` overrides that are in them, as given.
+    /// The `key=value` overrides that were applied, as given.
     pub set: Vec<String>,
-    /// Where the files are that it names.
+    /// Origin of the files that the scenario names.
     pub files: Source,
+    /// Notes on keys that were given by a former name.
+    pub renamed: Vec<Note>,
 }
 
-/// Loads a built-in scenario by name or a file by path, with `key=value` overrides.
+/// Loads a built-in scenario by name or a scenario file by path, and applies `key=value` overrides.
+///
+/// # Errors
+/// If there is no such scenario, or the scenario or an override is invalid.
 pub fn load(name: &str, overrides: &[String]) -> Result<Loaded> {
     if let Some(text) = builtin::scenario(name) {
         return from_text(name, &format!("scenario {name}"), text, Source::BuiltIn, overrides);
@@ -45,11 +51,11 @@ pub fn load(name: &str, overrides: &[String]) -> Result<Loaded> {
     from_text(&stem, name, &text, Source::Folder(folder), overrides)
 }
 
-/// A scenario from the text of its file, with `key=value` overrides: `source` is what errors call it, `files` where the
-/// files are that it names.
+/// Parses the text of a scenario file, and applies `key=value` overrides. Errors name the file as `source`; `files`
+/// locates the files that the scenario names.
 ///
 /// # Errors
-/// When it is none, or an override is none.
+/// If the scenario or an override is invalid.
 pub fn from_text(
     name: &str,
     source: &str,
@@ -62,13 +68,22 @@ pub fn from_text(
     for assignment in overrides {
         assign::<Scenario>(&mut over, "-s", assignment)?;
     }
+    let mut renamed = rename::<Scenario>(source, &mut table)?;
+    renamed.extend(rename::<Scenario>("-s", &mut over)?);
     illuminance::settle_overrides(&checked, &mut table, &over)?;
     merge(&mut table, &over);
     validate::windows(&table, &checked)?;
     let mut scenario: Scenario = read(source, &table)?;
     illuminance::settle(&mut scenario);
     validate::validate(&scenario, &checked)?;
-    Ok(Loaded { name: name.to_owned(), scenario, set: overrides.to_vec(), files })
+    let renamed = renamed.into_iter().map(renamed_key).collect();
+    Ok(Loaded { name: name.to_owned(), scenario, set: overrides.to_vec(), files, renamed })
+}
+
+/// Creates the note that a key was given by its former name.
+fn renamed_key(key: RenamedKey) -> Note {
+    let RenamedKey { former, present, value } = key;
+    Note::new(NoteCode::RenamedKey, former, &*value, present, "the key has been renamed")
 }
 
 #[cfg(test)]
@@ -183,6 +198,32 @@ mod tests {
         }
         let error = from_text("[ambient]\nilluminance_klux = -1", &[]).unwrap_err();
         assert!(error.contains("expected a number from 0.0 to 1000.0 [klux]"), "{error}");
+    }
+
+    #[test]
+    fn a_key_may_be_given_by_its_former_name_with_a_note() {
+        let load = |text, overrides: &[&str]| {
+            let overrides: Vec<_> = overrides.iter().map(|&o| o.to_owned()).collect();
+            super::from_text("t", "t.toml", text, Source::BuiltIn, &overrides)
+        };
+        let former = "[estimator]\ntold_sigma_ps = 133\ntold_shots = 9";
+        let loaded = load(former, &["estimator.told_shots=30300"]).unwrap();
+        let estimator = &loaded.scenario.estimator;
+        assert_eq!((estimator.assumed_sigma_ps, estimator.assumed_shots), (133.0, 30_300));
+        let notes: Vec<_> = loaded.renamed.iter().map(ToString::to_string).collect();
+        assert_eq!(notes.len(), 3);
+        assert_eq!(
+            notes[2],
+            "note: estimator.told_shots = 30300: the key has been renamed \
+             (expected estimator.assumed_shots) [renamed-key]"
+        );
+        let loaded = load(former, &["estimator.assumed_shots=8"]).unwrap();
+        assert_eq!(loaded.scenario.estimator.assumed_shots, 8);
+        let both = load("", &["estimator.told_shots=1", "estimator.assumed_shots=2"]).unwrap_err();
+        assert_eq!(
+            both.to_string(),
+            "-s: estimator.told_shots = 1: expected one of estimator.assumed_shots and its former name"
+        );
     }
 
     #[test]

@@ -1,7 +1,6 @@
 //! The scenario's keys: type, default, unit, range, meaning and source of each.
 //!
-//! The attributes are the checker: [`super::check`] walks a TOML document by the JSON Schema that
-//! they make.
+//! The attributes of the fields make a JSON Schema, by which [`crate::files::toml::Checked`] checks a TOML document.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,8 +9,8 @@ use crate::firmware::histogram_builder;
 
 use super::window::Window;
 
-/// Declares one table of the scenario, with the defaults beside the keys. What no run depends on stands in
-/// `beside`, and not in the text that the scenario's hash is made of.
+/// Declares one table of the scenario, with the defaults beside the keys. Keys under `beside` do not affect a run and
+/// are excluded from the scenario's hash.
 macro_rules! table {
     ($(#[$meta:meta])* pub struct $name:ident {
         $($(#[$field_meta:meta])* pub $field:ident: $ty:ty = $default:expr,)*
@@ -56,23 +55,23 @@ pub use tdc::{Tdc, TdcCalibration};
 pub use training::{Training, WordFormats};
 
 table! {
-    /// One experiment: target, light, sensor, firmware and what is recorded of it.
+    /// One experiment: target, illumination, sensor, firmware and outputs.
     pub struct Scenario {
-        /// What the scenario shows.
+        /// Description of the scenario.
         pub description: String = String::new(),
-        /// Seed of every random stream.
+        /// Seed of all random streams.
         pub seed: u64 = 1,
-        /// What is measured.
+        /// The target.
         pub target: Target = Target::default(),
-        /// The air on the way.
+        /// The air between sensor and target.
         pub atmosphere: Atmosphere = Atmosphere::default(),
-        /// Light that is not ours.
+        /// Ambient light.
         pub ambient: Ambient = Ambient::default(),
         /// The VCSEL.
         pub laser: Laser = Laser::default(),
         /// The receiving optics.
         pub lens: Lens = Lens::default(),
-        /// The bandpass filter before the sensor.
+        /// The bandpass filter in front of the sensor.
         pub filter: Filter = Filter::default(),
         /// The detector.
         pub spad: Spad = Spad::default(),
@@ -80,25 +79,25 @@ table! {
         pub pll: Pll = Pll::default(),
         /// The time-to-digital converter.
         pub tdc: Tdc = Tdc::default(),
-        /// Control signals at power-up, and the frame.
+        /// Control signals at power-up, and frame parameters.
         pub firmware: Firmware = Firmware::default(),
         /// The depth estimator.
         pub estimator: Estimator = Estimator::default(),
-        /// What stands in for parts of the chain.
+        /// Files that replace parts of the signal chain.
         pub stimulus: Stimulus = Stimulus::default(),
-        /// What the run reports beside depths.
+        /// Additional outputs of a run.
         pub report: Report = Report::default(),
         /// Changes of the control signals during the run, in order of time.
         pub control: Vec<Control> = Vec::new(),
     } beside {
-        /// How `train` and `build` train this instrument's network, where no option says otherwise.
+        /// Defaults of `train` and `build` for this instrument's network; options override them.
         #[serde(skip_serializing_if = "Training::is_default")]
         pub training: Training,
     }
 }
 
 impl Scenario {
-    /// How large the histogram is.
+    /// Returns the size of the histogram.
     pub fn histogram(&self) -> histogram_builder::Params {
         let (bins, count_bits) = (self.tdc.bins as usize, self.firmware.count_bits);
         histogram_builder::Params { bins, count_bits }
@@ -106,13 +105,14 @@ impl Scenario {
 }
 
 table! {
-    /// What stands in for parts of the chain. At most one; without any, light drives the sensor.
+    /// Files that replace parts of the signal chain. At most one may be given; without any, the sensor sees the
+    /// simulated light.
     pub struct Stimulus {
-        /// Photon list: a CSV file with columns `shot` (since power-up, from 0) and
-        /// `arrival_ps` (from the laser edge). Replaces the light.
+        /// Photon list: a CSV file with columns `shot` (since power-up, from 0) and `arrival_ps` (from the laser
+        /// edge). Replaces the light.
         #[schemars(extend("source" = "thesis 6.5.2"))]
         pub photons: Option<String> = None,
-        /// Preloaded TDC codes: a CSV file with column `code`, one a shot. Replaces the TDC.
+        /// Preloaded TDC codes: a CSV file with column `code`, one per shot. Replaces the TDC.
         #[schemars(extend("source" = "thesis 6.6.1"))]
         pub codes: Option<String> = None,
         /// Preloaded histogram: a CSV file with columns `bin` and `count`. Replaces the histogram.
@@ -122,13 +122,13 @@ table! {
 }
 
 table! {
-    /// What the run reports beside depths.
+    /// Additional outputs of a run.
     pub struct Report {
-        /// A row for each shot's TDC result (thesis Table 6.3).
+        /// Report the TDC result of each shot (thesis Table 6.3).
         #[schemars(extend("source" = "Table 6.3"))]
         pub tdc: bool = false,
-        /// Parts of the run that go into the waveform where `--window` is not given; an empty list
-        /// stands for `shot:0..16` and `estimation`.
+        /// Parts of the run to write to the waveform if `--window` is not given; an empty list means `shot:0..16` and
+        /// `estimation`.
         #[schemars(extend("source" = "choice: a first look under 5 MB"))]
         #[schemars(with = "Vec<String>")]
         pub windows: Vec<Window> = Vec::new(),

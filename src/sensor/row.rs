@@ -48,9 +48,8 @@ impl Effects {
 
     /// Returns the probability that an avalanche traps a carrier that is released after at least `fs` [1].
     pub fn released_after(&self, fs: f64) -> f64 {
-        let late = |(share, mean_fs): (f64, f64)| match share > 0.0 {
-            true => share * libm::exp(-fs / mean_fs),
-            false => 0.0,
+        let late = |(share, mean_fs): (f64, f64)| {
+            if share > 0.0 { share * libm::exp(-fs / mean_fs) } else { 0.0 }
         };
         self.trap_probability * self.traps().map(late).iter().sum::<f64>()
     }
@@ -67,7 +66,7 @@ impl Effects {
 
 /// SPADs of a row.
 #[derive(Clone, Debug)]
-pub struct Row {
+pub struct SpadRow {
     effects: Effects,
     /// SPADs connected to the TDC.
     on_tdc: Range<usize>,
@@ -80,11 +79,11 @@ pub struct Row {
     diodes: Stretches,
 }
 
-impl Row {
+impl SpadRow {
     /// Creates `count` armed SPADs.
     pub fn new(count: usize, effects: Effects, seed: u64) -> Self {
         let stretches = |source| Stretches::new(seed, source);
-        Row {
+        SpadRow {
             on_tdc: effects.on_tdc.clone().unwrap_or(0..count),
             effects,
             dead: vec![None; count],

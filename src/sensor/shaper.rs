@@ -67,9 +67,10 @@ impl Shaper {
 
     /// Returns whether a rising edge at `now` triggers a pulse.
     pub fn takes(&self, now: Time) -> bool {
-        match self.level {
-            true => self.falls.saturating_add(self.params.gap) <= now,
-            false => self.rests_until <= now,
+        if self.level {
+            self.falls.saturating_add(self.params.gap) <= now
+        } else {
+            self.rests_until <= now
         }
     }
 

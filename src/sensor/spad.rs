@@ -7,12 +7,12 @@
 //! but the one that fired count as armed. If outputs that are not connected to the TDC are simulated too, every SPAD
 //! is tracked to the end of the shot.
 //!
-//! A [`Row`] tracks SPADs individually for the effects that require it.
+//! A [`SpadRow`] tracks SPADs individually for the effects that require it.
 
 use crate::kernel::Time;
 
 use super::light::Light;
-use super::row::{Effects, Row};
+use super::row::{Effects, SpadRow};
 
 /// An event in a SPAD.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub struct Spads {
     /// Number of fired SPADs from which a further avalanche has no effect.
     most: usize,
     /// Individually tracked SPADs, if an effect requires it.
-    row: Option<Box<Row>>,
+    row: Option<Box<SpadRow>>,
 }
 
 impl Spads {
@@ -73,7 +73,7 @@ impl Spads {
     /// Adds effects that require individual tracking, if there are any.
     pub fn with_effects(mut self, effects: Effects, seed: u64) -> Self {
         if !effects.are_none(self.count) {
-            self.row = Some(Box::new(Row::new(self.count, effects, seed)));
+            self.row = Some(Box::new(SpadRow::new(self.count, effects, seed)));
             self.most = self.most();
         }
         self
@@ -81,7 +81,7 @@ impl Spads {
 
     /// Returns the individually tracked SPADs, if an effect requires them.
     #[inline(always)]
-    pub fn row(&mut self) -> Option<&mut Row> {
+    pub fn row(&mut self) -> Option<&mut SpadRow> {
         self.row.as_deref_mut()
     }
 

@@ -50,6 +50,8 @@ pub struct Setup {
     pub scenario: Scenario,
     /// The `key=value` overrides that are in them, as given.
     pub set: Vec<String>,
+    /// Notes on keys that were given by a former name.
+    renamed: Vec<Note>,
     /// The link budget.
     pub budget: Budget,
     /// Avalanches in the dark.

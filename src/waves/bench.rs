@@ -27,9 +27,12 @@ pub(super) fn params() -> Params {
 /// Parameters with a chain of the given delays [fs], small ROMs and short frames.
 pub(super) fn with_delays(taps: &[i64]) -> Params {
     let delays = Delays::new(Time::from_fs(2_230_000), taps).unwrap();
-    let weight = |row: usize, neuron: usize| match neuron < NEURONS {
-        true => S::new((row * 37 + neuron * 911) as i64 % 4001 - 2000),
-        false => S::new(0),
+    let weight = |row: usize, neuron: usize| {
+        if neuron < NEURONS {
+            S::new((row * 37 + neuron * 911) as i64 % 4001 - 2000)
+        } else {
+            S::new(0)
+        }
     };
     let histogram = histogram_builder::Params::default();
     let row = |row: usize| std::array::from_fn(|neuron| weight(row, neuron));

@@ -10,7 +10,7 @@ mod token;
 mod tree;
 
 pub use bound::Bound;
-pub use tree::{Level, Place};
+pub use tree::{Level, Operand};
 
 use tree::{Leaf, Node, Test};
 
@@ -47,7 +47,7 @@ impl Condition {
     /// # Errors
     /// Those of `find`, with the column if they have no position; a slice outside of the signal, a value that does
     /// not fit, an edge of a multi-bit signal, or more than [`WIDEST`] bits.
-    pub fn bind(&self, find: &mut dyn FnMut(&str) -> Result<Place>) -> Result<Bound> {
+    pub fn bind(&self, find: &mut dyn FnMut(&str) -> Result<Operand>) -> Result<Bound> {
         let watched = self.leaves.iter().map(|leaf| self.watch(leaf, find));
         Ok(Bound::new(self.node.clone(), watched.collect::<Result<_>>()?))
     }
@@ -55,7 +55,7 @@ impl Condition {
     fn watch(
         &self,
         leaf: &Leaf,
-        find: &mut dyn FnMut(&str) -> Result<Place>,
+        find: &mut dyn FnMut(&str) -> Result<Operand>,
     ) -> Result<bound::Watched> {
         let (place, low, width) = self.find(leaf, find)?;
         let fault = |expected: String| Err(self.fault(leaf.column, &leaf.name, expected));
@@ -83,8 +83,8 @@ impl Condition {
     fn find(
         &self,
         leaf: &Leaf,
-        find: &mut dyn FnMut(&str) -> Result<Place>,
-    ) -> Result<(Place, u32, u32)> {
+        find: &mut dyn FnMut(&str) -> Result<Operand>,
+    ) -> Result<(Operand, u32, u32)> {
         let whole = match find(&leaf.name) {
             Ok(place) => return Ok((place, 0, place.width)),
             Err(error) => error,
@@ -129,9 +129,8 @@ impl Condition {
 pub(crate) fn slice(text: &str) -> Option<(&str, u32, u32)> {
     let (name, range) = text.strip_suffix(']')?.rsplit_once('[')?;
     let (high, low) = range.split_once(':').unwrap_or((range, range));
-    let bit = |digits: &str| match digits.bytes().all(|byte| byte.is_ascii_digit()) {
-        true => digits.parse().ok(),
-        false => None,
+    let bit = |digits: &str| {
+        if digits.bytes().all(|byte| byte.is_ascii_digit()) { digits.parse().ok() } else { None }
     };
     Some((name, bit(high)?, bit(low)?))
 }

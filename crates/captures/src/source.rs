@@ -36,7 +36,7 @@ pub(crate) use shapes::{flow, known_shape};
 pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat, Words};
 pub use simulation::LONGEST_SIMULATION;
 pub use state::SourceState;
-pub use stream::{Cursor, Feed, Gone, Marks};
+pub use stream::{Cursor, Disconnected, Feed, Marks};
 pub use tick::Tick;
 pub(crate) use translated::Translation;
 

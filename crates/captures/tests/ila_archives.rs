@@ -14,7 +14,7 @@ fn archive_fault(but: &[(&str, &[u8])]) -> String {
 fn an_archive_is_read_from_its_dump() {
     let (csv, rows) = read_bytes(&bytes("archive/waveform.csv"), None).unwrap();
     let (opened, from_dump) = read_bytes(&archive_but(&[]), None).unwrap();
-    assert_eq!((opened.form, opened.radix_told), (CaptureForm::Archive, true));
+    assert_eq!((opened.form, opened.radix_stated), (CaptureForm::Archive, true));
     assert_eq!(opened.columns, csv.columns);
     assert_eq!(from_dump, rows);
 }
@@ -23,7 +23,7 @@ fn an_archive_is_read_from_its_dump() {
 fn an_archive_without_a_csv_has_its_names_from_the_list_of_probes() {
     let (csv, rows) = read_bytes(&bytes("archive/waveform.csv"), None).unwrap();
     let (opened, from_dump) = read_bytes(&archive_but(&[("waveform.csv", b"")]), None).unwrap();
-    assert!(!opened.radix_told && opened.columns.iter().all(|column| column.radix.is_none()));
+    assert!(!opened.radix_stated && opened.columns.iter().all(|column| column.radix.is_none()));
     let heads = |opened: &Opened| opened.columns.iter().map(Column::head).collect::<Vec<_>>();
     assert_eq!((heads(&opened), from_dump), (heads(&csv), rows));
 }
@@ -74,7 +74,7 @@ fn an_archive_of_windows_and_of_vivado_2016_is_the_same() {
     let old = [("waveform.dmp", &dump), ("waveform.csv", &csv), ("probes.ltx", &list)];
     let (opened, rows) =
         read_bytes(&archive_but(&old.map(|(n, t)| (n, t.as_bytes()))), None).unwrap();
-    assert_eq!((rows, opened.notes, opened.radix_told), (whole, vec![], false));
+    assert_eq!((rows, opened.notes, opened.radix_stated), (whole, vec![], false));
 }
 
 #[test]

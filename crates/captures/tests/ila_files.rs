@@ -34,7 +34,7 @@ fn fault_in(radix: &str, probe: &str, rows: &str) -> String {
 #[test]
 fn values_of_every_radix_and_odd_names_are_read() {
     let (opened, rows) = open("radices.csv");
-    assert_eq!((opened.form, opened.radix_told), (CaptureForm::Csv, true));
+    assert_eq!((opened.form, opened.radix_stated), (CaptureForm::Csv, true));
     let heads: Vec<_> = opened.columns.iter().map(Column::head).collect();
     let expected = [
         "top/u_tdc/code[8:0]",
@@ -78,7 +78,7 @@ fn windows_line_ends_and_a_byte_order_mark_change_nothing() {
 #[test]
 fn radices_that_the_file_does_not_tell_are_inferred() {
     let (opened, rows) = open("legacy.csv");
-    assert_eq!((opened.form, opened.radix_told), (CaptureForm::LegacyCsv, false));
+    assert_eq!((opened.form, opened.radix_stated), (CaptureForm::LegacyCsv, false));
     let expected =
         [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Hex, Radix::Hex];
     assert_eq!(radices(&opened), expected.map(Some));

@@ -6,10 +6,10 @@ use std::ffi::{CStr, c_char, c_int, c_longlong, c_void};
 
 use tofsim::sim::photons::Shown;
 
+use crate::arguments::{self, check_version};
 use crate::checker::Checker;
-use crate::held::{What, delete, errors, make, with};
+use crate::objects::{ObjectKind, delete, errors, make, with};
 use crate::photons::Source;
-use crate::told::{self, check_version};
 
 /// Returns the text of a C string.
 ///
@@ -37,15 +37,15 @@ unsafe fn vector<'a>(what: &str, words: *const u32, count: usize) -> Result<&'a 
     }
 }
 
-/// The version of this library, such as "0.1.0".
+/// Returns the version of this library, such as "0.1.0".
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
 
-/// A block of the model at power-up, for `tofsim_step`; null if there is none, and `tofsim_get_error(null, n)` says why.
-/// `version` is that of whoever calls, `scenario` the name or path of a scenario, with a line for each KEY=VALUE that
-/// it is to have besides, and `block` the name of a module of rtl_ref.
+/// Creates a block of the model at power-up, for `tofsim_step`. Returns null if that fails; `tofsim_get_error(null,
+/// n)` then returns the reason. `version` is the version of the caller's header, `scenario` the name or path of a
+/// scenario, followed by a line for each KEY=VALUE override, and `block` the name of a module of rtl_ref.
 ///
 /// # Safety
 /// The strings are null or end with a zero.
@@ -61,12 +61,12 @@ pub unsafe extern "C" fn tofsim_new(
             [text("version", version)?, text("scenario", scenario)?, text("block", block)?]
         };
         check_version(version)?;
-        Ok(What::Checker(Box::new(Checker::new(scenario, block)?)))
+        Ok(ObjectKind::Checker(Box::new(Checker::new(scenario, block)?)))
     });
     handle as *mut c_void
 }
 
-/// Whether a port of the bench's has as many bits as the block's; 1 or 0, and an error.
+/// Checks that a port of the design has the width of the block's port. Returns 1, or 0 with an error.
 ///
 /// # Safety
 /// The string is null or ends with a zero.
@@ -76,42 +76,42 @@ pub unsafe extern "C" fn tofsim_port(
     name: *const c_char,
     bits: c_int,
 ) -> c_int {
-    with("tofsim_port", handle as usize, 0, |held| {
+    with("tofsim_port", handle as usize, 0, |object| {
         // SAFETY: as of this function.
         let name = unsafe { text("name", name)? };
-        held.checker()?.check_port(name, bits).map(|()| 1)
+        object.checker()?.check_port(name, bits).map(|()| 1)
     })
 }
 
-/// Compares from power-up on. Without this, outputs are compared after the first reset, or where a block has none
-/// once its registers have taken their first values.
+/// Enables comparison from power-up on. By default, outputs are compared after the first reset or, for a block
+/// without reset, once its registers have taken their first values.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_from_power_up(handle: *mut c_void) {
-    with("tofsim_from_power_up", handle as usize, (), |held| {
-        held.checker()?.block.settle();
+    with("tofsim_from_power_up", handle as usize, (), |object| {
+        object.checker()?.block.settle();
         Ok(())
     });
 }
 
-/// `tdc_stop` has changed to `level`.
+/// Reports a change of `tdc_stop` to `level`.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_stop(handle: *mut c_void, time_fs: c_longlong, level: c_int) {
-    with("tofsim_stop", handle as usize, (), |held| {
-        let now = told::instant(time_fs)?;
-        held.checker()?.block.stop(now, level != 0);
+    with("tofsim_stop", handle as usize, (), |object| {
+        let now = arguments::instant(time_fs)?;
+        object.checker()?.block.stop(now, level != 0);
         Ok(())
     });
 }
 
-/// Bits of the outputs of the coming `tofsim_step` that are neither 0 nor 1: they differ from any. A simulator that has
-/// no others need not call it.
+/// Sets the mask of output bits of the next `tofsim_step` that are neither 0 nor 1, which differ from any value. A
+/// two-state simulator need not call it.
 ///
 /// # Safety
 /// The vector is null or as long as the block's outputs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tofsim_unknown(handle: *mut c_void, bits: *const u32) {
-    with("tofsim_unknown", handle as usize, (), |held| {
-        let checker = held.checker()?;
+    with("tofsim_unknown", handle as usize, (), |object| {
+        let checker = object.checker()?;
         let [_, words] = checker.block.layouts().map(|layout| layout.words());
         // SAFETY: as of this function.
         checker.unknown = unsafe { vector("bits", bits, words)? }.to_vec();
@@ -119,13 +119,14 @@ pub unsafe extern "C" fn tofsim_unknown(handle: *mut c_void, bits: *const u32) {
     });
 }
 
-/// Compares a block's outputs with those of the model just before an edge, and takes the edge; 1 if they agree, or 0,
-/// and an error for each that does not. `what` is 0 for a look without an edge, 1 for an edge of the block's clock
-/// (of both clocks, where it has two), 2 for one of clk_laser alone, and 3 for its fall. `inputs` and `outputs` are all
-/// ports but the clocks, in the order of the module, the first in the highest bits.
+/// Compares a block's outputs with those of the model just before an edge, and processes the edge. Returns 1 if they
+/// agree, or 0 with an error for each output that differs. `what` is 0 for a comparison without an edge, 1 for an
+/// edge of the block's clock (of both clocks, if it has two), 2 for an edge of clk_laser alone, and 3 for its falling
+/// edge. `inputs` and `outputs` are the concatenation of all ports except clocks, in the order of the module, the
+/// first in the highest bits.
 ///
 /// # Safety
-/// The vectors are null or as long as the block's.
+/// The vectors are null or as long as the block's ports.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tofsim_step(
     handle: *mut c_void,
@@ -134,22 +135,22 @@ pub unsafe extern "C" fn tofsim_step(
     inputs: *const u32,
     outputs: *const u32,
 ) -> c_int {
-    with("tofsim_step", handle as usize, 0, |held| {
-        let [in_words, out_words] = held.checker()?.block.layouts().map(|layout| layout.words());
+    with("tofsim_step", handle as usize, 0, |object| {
+        let [in_words, out_words] = object.checker()?.block.layouts().map(|layout| layout.words());
         // SAFETY: as of this function.
         let lines = unsafe {
             [vector("inputs", inputs, in_words)?, vector("outputs", outputs, out_words)?]
         };
-        let found = held.checker()?.step(what, time_fs, lines)?;
-        found.iter().for_each(|sentence| held.say(sentence));
+        let found = object.checker()?.step(what, time_fs, lines)?;
+        found.iter().for_each(|sentence| object.record(sentence));
         Ok(found.is_empty().into())
     })
 }
 
-/// The outputs that the model has with those inputs, before an edge; 1, or 0 and an error.
+/// Computes the model's outputs for the given inputs, before an edge. Returns 1, or 0 with an error.
 ///
 /// # Safety
-/// As of `tofsim_step`.
+/// The vectors are null or as long as the block's ports.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tofsim_outputs(
     handle: *mut c_void,
@@ -157,12 +158,12 @@ pub unsafe extern "C" fn tofsim_outputs(
     inputs: *const u32,
     outputs: *mut u32,
 ) -> c_int {
-    with("tofsim_outputs", handle as usize, 0, |held| {
-        let block = &mut held.checker()?.block;
+    with("tofsim_outputs", handle as usize, 0, |object| {
+        let block = &mut object.checker()?.block;
         let [in_words, out_words] = block.layouts().map(|layout| layout.words());
         // SAFETY: as of this function.
         let inputs = unsafe { vector("inputs", inputs, in_words)? };
-        let now = told::instant(time_fs)?;
+        let now = arguments::instant(time_fs)?;
         let words = block.outputs(now, inputs).map_err(|error| error.to_string())?;
         if outputs.is_null() {
             return Err("outputs are null".to_owned());
@@ -173,13 +174,15 @@ pub unsafe extern "C" fn tofsim_outputs(
     })
 }
 
-/// Errors of a handle since the last `tofsim_clear_errors`; of null those of what could not be made.
+/// Returns the number of errors of a handle since the last `tofsim_clear_errors`; for null, the number of errors in
+/// creating objects.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_get_num_errors(handle: *mut c_void) -> c_int {
     errors(handle as usize, |errors| c_int::try_from(errors.len()).unwrap_or(c_int::MAX))
 }
 
-/// One of them, from 0 on; empty if there are not so many. It is there until they are cleared.
+/// Returns the text of an error, numbered from 0; empty if there are fewer errors. The text is valid until the errors
+/// are cleared.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_get_error(handle: *mut c_void, number: c_int) -> *const c_char {
     errors(handle as usize, |errors| {
@@ -188,22 +191,23 @@ pub extern "C" fn tofsim_get_error(handle: *mut c_void, number: c_int) -> *const
     })
 }
 
-/// Forgets the errors of a handle.
+/// Clears the errors of a handle.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_clear_errors(handle: *mut c_void) {
     errors(handle as usize, Vec::clear);
 }
 
-/// Takes a block or a source of photons back.
+/// Deletes a block or a photon source.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_delete(handle: *mut c_void) {
     delete(handle as usize);
 }
 
-/// The light of a scenario and its detector, from power-up; null if there is none, as `tofsim_new`.
+/// Creates the light and the detector of a scenario at power-up. Returns null if that fails, as `tofsim_new` does,
+/// whose arguments it shares.
 ///
 /// # Safety
-/// As of `tofsim_new`.
+/// The strings are null or end with a zero.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tofsim_photons_new(
     version: *const c_char,
@@ -214,13 +218,14 @@ pub unsafe extern "C" fn tofsim_photons_new(
         let [version, scenario] =
             unsafe { [text("version", version)?, text("scenario", scenario)?] };
         check_version(version)?;
-        Ok(What::Photons(Box::new(Source::new(scenario)?)))
+        Ok(ObjectKind::Photons(Box::new(Source::new(scenario)?)))
     });
     handle as *mut c_void
 }
 
-/// An edge of clk_sys, and what the firmware shows after it: a shot begins, the laser has been switched on by it, the
-/// SPAD is held, MODE, tdc_stop is to come from the ring oscillator, a frame has ended.
+/// Processes an edge of clk_sys, with the state of the firmware after it: whether a shot begins, the laser was
+/// enabled at that edge, `spad_rst` is high, MODE 1 is selected, the ring oscillator drives `tdc_stop`, and a frame
+/// has ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_photons_edge(
     handle: *mut c_void,
@@ -234,20 +239,21 @@ pub extern "C" fn tofsim_photons_edge(
 ) {
     let [start, laser, spad_rst, mode, ring_on, frame_done] =
         [start, laser, spad_rst, mode, ring_on, frame_done].map(|level| level != 0);
-    with("tofsim_photons_edge", handle as usize, (), |held| {
+    with("tofsim_photons_edge", handle as usize, (), |object| {
         let shown = Shown { start, laser, spad_rst, mode, ring_on, frame_done };
-        held.photons()?.edge(time_fs, shown)
+        object.photons()?.edge(time_fs, shown)
     });
 }
 
-/// When `tdc_stop` changes next before the coming edge or on it [fs], or -1; it has its new level then.
+/// Returns the next time at which `tdc_stop` changes before or at the next edge [fs], or -1. `tdc_stop` then has its
+/// new level.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_photons_next(handle: *mut c_void) -> c_longlong {
-    with("tofsim_photons_next", handle as usize, -1, |held| Ok(held.photons()?.next_change()))
+    with("tofsim_photons_next", handle as usize, -1, |object| Ok(object.photons()?.next_change()))
 }
 
-/// The level of `tdc_stop`.
+/// Returns the level of `tdc_stop`.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_photons_level(handle: *mut c_void) -> c_int {
-    with("tofsim_photons_level", handle as usize, 0, |held| Ok(held.photons()?.level().into()))
+    with("tofsim_photons_level", handle as usize, 0, |object| Ok(object.photons()?.level().into()))
 }

@@ -2,7 +2,7 @@
 
 use tofsim_rtl::block::{Block, Mismatch};
 
-use crate::told;
+use crate::arguments;
 
 pub struct Checker {
     pub block: Block,
@@ -12,7 +12,8 @@ pub struct Checker {
 
 impl Checker {
     pub fn new(scenario: &str, block: &str) -> Result<Self, String> {
-        let block = Block::new(told::setup(scenario)?, block).map_err(|error| error.to_string())?;
+        let block =
+            Block::new(arguments::setup(scenario)?, block).map_err(|error| error.to_string())?;
         Ok(Checker { block, unknown: Vec::new() })
     }
 
@@ -23,12 +24,10 @@ impl Checker {
             let names: Vec<_> = self.block.ports().iter().map(|port| port.name.as_str()).collect();
             return Err(format!("{block}.{name}: no such port; there are {}", names.join(", ")));
         };
-        match i64::from(bits) == i64::from(port.width) {
-            true => Ok(()),
-            false => Err(format!(
-                "{block}.{name}: the design has {bits} bits, the scenario {}",
-                port.width
-            )),
+        if i64::from(bits) == i64::from(port.width) {
+            Ok(())
+        } else {
+            Err(format!("{block}.{name}: the design has {bits} bits, the scenario {}", port.width))
         }
     }
 
@@ -39,12 +38,14 @@ impl Checker {
         time_fs: i64,
         [inputs, outputs]: [&[u32]; 2],
     ) -> Result<Vec<String>, String> {
-        let (edge, now, cycle) = (told::edge(edge)?, told::instant(time_fs)?, self.block.cycle());
+        let (edge, now, cycle) =
+            (arguments::edge(edge)?, arguments::instant(time_fs)?, self.block.cycle());
         let text = |error: tofsim::error::Error| error.to_string();
         self.block.outputs(now, inputs).map_err(text)?;
-        let found = match self.block.is_settled() {
-            true => self.block.mismatches(outputs, &self.unknown),
-            false => Vec::new(),
+        let found = if self.block.is_settled() {
+            self.block.mismatches(outputs, &self.unknown)
+        } else {
+            Vec::new()
         };
         self.unknown.clear();
         if let Some(edge) = edge {

@@ -4,10 +4,10 @@
 //! `border` contains the exported functions; the rest is plain Rust. A handle is a number that is looked up, so that
 //! a null, stale or foreign one is merely an error, and panics do not cross the boundary.
 
+mod arguments;
 mod border;
 mod checker;
-mod held;
+mod objects;
 mod photons;
-mod told;
 
 pub use border::*;

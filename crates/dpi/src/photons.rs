@@ -2,7 +2,7 @@
 
 use tofsim::sim::photons::{Photons, Shown};
 
-use crate::told::{instant, setup};
+use crate::arguments::{instant, setup};
 
 pub struct Source {
     photons: Photons,

@@ -21,7 +21,7 @@ const CYCLES: u64 = 1 << 14;
 const SHOWN_EVERY: Duration = Duration::from_millis(100);
 
 /// A request, with the channel for its answer.
-struct Asked {
+struct Queued {
     request: Request,
     answer: oneshot::Sender<Result<Reply>>,
 }
@@ -29,19 +29,19 @@ struct Asked {
 /// Handle of the simulating thread.
 #[derive(Clone)]
 pub struct Engine {
-    asked: SyncSender<Asked>,
+    asked: SyncSender<Queued>,
     states: watch::Receiver<Arc<str>>,
 }
 
 /// Reason why a request has no answer.
 #[derive(Debug)]
-pub enum NoAnswer {
+pub enum RequestError {
     /// The request queue is full.
     Busy,
     /// The request is invalid or cannot be carried out.
     Refused(Error),
     /// The thread has ended.
-    Gone,
+    Disconnected,
 }
 
 impl Engine {
@@ -64,13 +64,13 @@ impl Engine {
     ///
     /// # Errors
     /// The reason why there is no answer.
-    pub async fn ask(&self, request: Request) -> std::result::Result<Reply, NoAnswer> {
+    pub async fn ask(&self, request: Request) -> std::result::Result<Reply, RequestError> {
         let (answer, answered) = oneshot::channel();
-        self.asked.try_send(Asked { request, answer }).map_err(|error| match error {
-            TrySendError::Full(_) => NoAnswer::Busy,
-            TrySendError::Disconnected(_) => NoAnswer::Gone,
+        self.asked.try_send(Queued { request, answer }).map_err(|error| match error {
+            TrySendError::Full(_) => RequestError::Busy,
+            TrySendError::Disconnected(_) => RequestError::Disconnected,
         })?;
-        answered.await.map_err(|_| NoAnswer::Gone)?.map_err(NoAnswer::Refused)
+        answered.await.map_err(|_| RequestError::Disconnected)?.map_err(RequestError::Refused)
     }
 
     /// Returns a receiver of the run's states. A slow receiver may miss states, but always sees the newest.
@@ -82,7 +82,7 @@ impl Engine {
 /// State of the simulating thread.
 struct Thread {
     session: Session,
-    requests: Receiver<Asked>,
+    requests: Receiver<Queued>,
     show: watch::Sender<Arc<str>>,
     /// Shortest time between the starts of two frames.
     pause: Duration,
@@ -121,13 +121,13 @@ impl Thread {
     }
 
     /// Answers requests until the given time, and then all that are queued.
-    fn answer_until(&mut self, until: Instant) -> std::result::Result<(), Gone> {
+    fn answer_until(&mut self, until: Instant) -> std::result::Result<(), Disconnected> {
         loop {
             let left = until.saturating_duration_since(Instant::now());
             match self.requests.recv_timeout(left) {
                 Ok(asked) => self.answer(asked),
                 Err(RecvTimeoutError::Timeout) => return Ok(()),
-                Err(RecvTimeoutError::Disconnected) => return Err(Gone),
+                Err(RecvTimeoutError::Disconnected) => return Err(Disconnected),
             }
             if !self.session.is_running() {
                 return Ok(());
@@ -135,7 +135,7 @@ impl Thread {
         }
     }
 
-    fn answer(&mut self, Asked { request, answer }: Asked) {
+    fn answer(&mut self, Queued { request, answer }: Queued) {
         let reply = self.session.answer(request);
         if let Ok(Reply::State(state)) = &reply {
             self.show.send_replace(Arc::clone(state));
@@ -146,4 +146,4 @@ impl Thread {
 }
 
 /// Indication that all handles have been dropped.
-struct Gone;
+struct Disconnected;

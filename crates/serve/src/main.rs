@@ -56,9 +56,8 @@ fn serve(options: &Options) -> Result<()> {
 
 /// Prints the page's URL.
 fn say(options: &Options, setup: &Setup, url: &str) -> Result<()> {
-    let line = match options.json {
-        false => url.to_owned(),
-        true => json!({
+    let line = if options.json {
+        json!({
             "schema": "tofsim.serve/1",
             "url": url,
             "scenario": setup.name,
@@ -68,7 +67,9 @@ fn say(options: &Options, setup: &Setup, url: &str) -> Result<()> {
             "hash": setup.hash(),
             "notes": setup.notes()?,
         })
-        .to_string(),
+        .to_string()
+    } else {
+        url.to_owned()
     };
     let mut out = io::stdout().lock();
     let written = writeln!(out, "{line}").and_then(|()| out.flush());

@@ -197,9 +197,10 @@ impl Session {
             Fidelity::Cycle => Some(&mut take),
             Fidelity::Shot => None,
         };
-        let progress = match self.ila.is_armed() {
-            true => self.ila.advance(&mut self.live, cycles, shots)?,
-            false => self.live.advance(cycles, &mut Off, shots)?,
+        let progress = if self.ila.is_armed() {
+            self.ila.advance(&mut self.live, cycles, shots)?
+        } else {
+            self.live.advance(cycles, &mut Off, shots)?
         };
         self.ila.take(&self.live, &self.origin, self.exact)?;
         let is_frame = matches!(progress, Progress::Frame(..));

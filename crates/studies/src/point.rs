@@ -26,7 +26,7 @@ use crate::trial::{Outcome, Trial};
 const SEED_BITS: u32 = 53;
 
 /// Result of a point.
-pub struct Worked {
+pub struct Evaluated {
     /// Its row.
     pub row: Row,
     /// Notes on its values.
@@ -37,7 +37,7 @@ pub struct Worked {
 ///
 /// # Errors
 /// If the scenario is refused and the plan does not keep such points, or the sweep is stopped.
-pub fn work(plan: &Plan, point: u64, stop: Option<&AtomicBool>) -> Result<Worked> {
+pub fn work(plan: &Plan, point: u64, stop: Option<&AtomicBool>) -> Result<Evaluated> {
     let at = Point { plan, point, settings: plan.points.settings(point), stop };
     match (at.work(), plan.file.refused) {
         (Err(Error::Input(why)), Refused::Keep) => Ok(at.refused(&why)),
@@ -67,7 +67,7 @@ struct Searched {
 }
 
 impl Point<'_> {
-    fn work(&self) -> Result<Worked> {
+    fn work(&self) -> Result<Evaluated> {
         let searched = match &self.plan.search {
             Some(search) => self.search(search)?,
             None => Searched::default(),
@@ -93,7 +93,7 @@ impl Point<'_> {
         if self.plan.file.refused == Refused::Keep {
             cells.push(Cell::None);
         }
-        Ok(Worked { row: Row { point: self.point, cells }, notes })
+        Ok(Evaluated { row: Row { point: self.point, cells }, notes })
     }
 
     /// Returns the cells that identify the point.
@@ -105,12 +105,12 @@ impl Point<'_> {
         [Cell::Whole(self.point)].into_iter().chain(axes).chain([seed]).collect()
     }
 
-    fn refused(&self, why: &Input) -> Worked {
+    fn refused(&self, why: &Input) -> Evaluated {
         let mut cells = self.head();
         let all = header(self.plan).len();
         cells.resize(all - 1, Cell::None);
         cells.push(Cell::Text(why.to_string()));
-        Worked { row: Row { point: self.point, cells }, notes: Vec::new() }
+        Evaluated { row: Row { point: self.point, cells }, notes: Vec::new() }
     }
 
     /// Returns the seed of a repeat in a scene: the plan's, or one derived from it and the settings, so that it does

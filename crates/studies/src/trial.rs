@@ -74,7 +74,7 @@ impl<'a> Trial<'a> {
     fn simulate(&self, setup: &Setup) -> Result<(Tally, Vec<Errors>)> {
         let plan = self.plan;
         let estimators = Panel::new(&plan.estimators, setup)?.into_estimators();
-        let mut taker = Taker {
+        let mut taker = Collector {
             truth_m: truth_m(setup),
             errors: estimators.iter().map(|_| Vec::new()).collect(),
             estimators,
@@ -144,7 +144,7 @@ fn notes(setup: &Setup, kinds: &[EstimatorKind]) -> Result<Vec<Note>> {
 }
 
 /// Collector of frames.
-struct Taker {
+struct Collector {
     truth_m: Option<f64>,
     estimators: Vec<Box<dyn Estimator>>,
     /// For each estimator, the depth error of each frame, if it has a depth [m].
@@ -153,7 +153,7 @@ struct Taker {
     dark: Option<Histogram>,
 }
 
-impl Taker {
+impl Collector {
     fn take(&mut self, frame: &Frame) {
         self.tally.take(frame);
         let is_dark_of_a_pair =

@@ -1,4 +1,4 @@
-//! Whether a TOML document is what a JSON Schema says.
+//! Check of a TOML document against a JSON Schema.
 
 use std::ops::Range;
 
@@ -7,23 +7,25 @@ use toml_edit::{Item, TableLike, Value};
 
 use crate::error::{Input, line_and_column, nearest};
 
-/// A walk through a document and its schema.
+use super::renamed::by_former_name;
+
+/// Recursive check of a document against its schema.
 pub(super) struct Walk<'a> {
-    /// The schema, with what it refers to.
+    /// Root of the schema, to which its references are relative.
     pub root: &'a Json,
-    /// Where the document comes from, as errors name it.
+    /// Name of the document in errors.
     pub source: &'a str,
-    /// The document.
+    /// Text of the document.
     pub text: &'a str,
-    /// Whether every key has to be there that has to be.
+    /// Whether required keys must be present.
     pub whole: bool,
 }
 
-/// Nothing, or what is wrong.
+/// Result of a check.
 type Checkup = std::result::Result<(), Input>;
 
 impl<'a> Walk<'a> {
-    /// Whether a table is what its schema says.
+    /// Checks a table against its schema.
     pub fn table(&self, table: &dyn TableLike, schema: &'a Json) -> Checkup {
         let schema = self.resolve(schema);
         let required = schema.get("required").and_then(Json::as_array).filter(|_| self.whole);
@@ -37,7 +39,8 @@ impl<'a> Walk<'a> {
         let known = known.unwrap_or(&empty);
         for (key, item) in table.iter() {
             let any = schema.get("additionalProperties").filter(|any| any.is_object());
-            let Some(schema) = known.get(key).or(any) else {
+            let former = || by_former_name(key, known);
+            let Some(schema) = known.get(key).or_else(former).or(any) else {
                 let span = table.get_key_value(key).and_then(|(key, _)| key.span());
                 let fault = Input::new(self.source, unknown_key(key, known)).field(key);
                 return Err(located(fault, self.text, span));
@@ -89,20 +92,16 @@ impl<'a> Walk<'a> {
         if holds { Ok(()) } else { Err(self.fault(shown_value(value), value.span(), schema)) }
     }
 
-    /// That something is not what the schema wants.
+    /// Creates an error for a value that does not match its schema.
     fn fault(&self, shown: String, span: Option<Range<usize>>, schema: &'a Json) -> Input {
         located(Input::new(self.source, self.expected(schema)).value(shown), self.text, span)
     }
 
-    /// The schema itself, or what it refers to; of what may be absent, what it is if it is there.
     fn resolve(&self, schema: &'a Json) -> &'a Json {
-        let schema = schema.get("anyOf").map_or(schema, |alternatives| &alternatives[0]);
-        let reference = schema.get("$ref").and_then(Json::as_str);
-        let target = reference.and_then(|path| self.root.pointer(path.trim_start_matches('#')));
-        target.unwrap_or(schema)
+        resolve(self.root, schema)
     }
 
-    /// In words, what the key may hold.
+    /// Describes the values that a schema accepts.
     fn expected(&self, schema: &'a Json) -> String {
         let resolved = self.resolve(schema);
         if let Some(words) = words(resolved) {
@@ -131,6 +130,14 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// Resolves a reference and the alternative of an optional value, if the schema is one.
+pub(super) fn resolve<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
+    let schema = schema.get("anyOf").map_or(schema, |alternatives| &alternatives[0]);
+    let reference = schema.get("$ref").and_then(Json::as_str);
+    let target = reference.and_then(|path| root.pointer(path.trim_start_matches('#')));
+    target.unwrap_or(schema)
+}
+
 fn kind(schema: &Json) -> &str {
     match schema.get("type") {
         Some(Json::String(kind)) => kind,
@@ -139,13 +146,13 @@ fn kind(schema: &Json) -> &str {
     }
 }
 
-/// Whether it is one of the kinds that the schema has.
+/// Returns whether the schema accepts the type `wanted`.
 fn may_be(schema: &Json, wanted: &str) -> bool {
     let kinds = schema.get("type").and_then(Json::as_array);
     kind(schema) == wanted || kinds.is_some_and(|kinds| kinds.iter().any(|kind| kind == wanted))
 }
 
-/// The words of an enumeration.
+/// Returns the words of an enumeration, if the schema is one.
 fn words(schema: &Json) -> Option<Vec<&str>> {
     let alternatives = schema.get("oneOf").or(schema.get("enum"))?.as_array()?;
     Some(alternatives.iter().filter_map(|a| a.as_str().or(a.get("const")?.as_str())).collect())
@@ -156,14 +163,14 @@ fn in_range(number: f64, schema: &Json) -> bool {
     number >= bound("minimum").unwrap_or(f64::MIN) && number <= bound("maximum").unwrap_or(f64::MAX)
 }
 
-/// Whether a list of so many is neither too short nor too long.
+/// Returns whether the schema accepts a list of this length.
 fn has_length(found: usize, schema: &Json) -> bool {
     let bound = |name| schema.get(name).and_then(Json::as_u64);
     let (least, most) = (bound("minItems").unwrap_or(0), bound("maxItems").unwrap_or(u64::MAX));
     (least..=most).contains(&(found as u64))
 }
 
-/// How long a list has to be, in words.
+/// Describes the lengths that a schema accepts.
 fn lengths(schema: &Json) -> String {
     match ["minItems", "maxItems"].map(|name| schema.get(name).and_then(Json::as_u64)) {
         [Some(least), Some(most)] if least == most => format!(" of {least}"),
@@ -183,7 +190,7 @@ fn unknown_key(key: &str, known: &Map<String, Json>) -> String {
     }
 }
 
-/// A fault with its place in the document.
+/// Adds a position in the document to an error.
 pub(super) fn located(input: Input, text: &str, span: Option<Range<usize>>) -> Input {
     match span {
         Some(span) => {
@@ -194,10 +201,10 @@ pub(super) fn located(input: Input, text: &str, span: Option<Range<usize>>) -> I
     }
 }
 
-/// Longest list that a message shows.
+/// Longest list that a message shows in full.
 const LISTED: usize = 8;
 
-/// An item as a message shows it.
+/// Formats an item for a message.
 pub(super) fn shown(item: &Item) -> String {
     item.as_value().map_or_else(|| "a table".to_owned(), shown_value)
 }

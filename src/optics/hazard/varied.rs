@@ -41,9 +41,10 @@ impl Hazard {
     /// Returns the probability that a detector armed at the laser edge does not fire before `t`, averaged over shots
     /// [1].
     pub fn none_before(&self, t: Time) -> f64 {
-        match self.variation.is_none() {
-            true => libm::exp(-self.at(t)),
-            false => self.mean(|shot| libm::exp(-shot.at(t))),
+        if self.variation.is_none() {
+            libm::exp(-self.at(t))
+        } else {
+            self.mean(|shot| libm::exp(-shot.at(t)))
         }
     }
 

@@ -116,9 +116,12 @@ pub fn surfaces(target: &Target) -> Vec<Surface> {
     let half = target.retro_side_m / 2.0;
     let (patch_x, patch_y) = (target.retro_x_m, target.retro_y_m);
     let is_round = target.shape == Shape::Disc;
-    let within = |centre: f64, end: f64| match is_round {
-        true => [centre - half, centre + half],
-        false => [(centre - half).max(-end), (centre + half).min(end)],
+    let within = |centre: f64, end: f64| {
+        if is_round {
+            [centre - half, centre + half]
+        } else {
+            [(centre - half).max(-end), (centre + half).min(end)]
+        }
     };
     let patch = Panel { x: within(patch_x, x), y: within(patch_y, y), ..whole() };
     let patch = patch.surface(Kind::Retro);

@@ -16,31 +16,31 @@ const FURTHEST: f64 = 1e6;
 pub struct Facets {
     pub corners: Vec<[Point; 3]>,
     /// Position of each triangle in the file.
-    pub places: Vec<Place>,
+    pub places: Vec<FacetPlace>,
 }
 
 /// A position in a file.
 #[derive(Clone, Copy, Debug)]
-pub enum Place {
+pub enum FacetPlace {
     /// Line number of a text file, from 1.
     Line(usize),
     /// Triangle number of a binary file, from 1.
     Triangle(usize),
 }
 
-impl Place {
+impl FacetPlace {
     /// Creates an error at this position.
     pub fn fault(self, source: &str, expected: impl std::fmt::Display) -> Input {
         let fault = Input::new(source, expected);
         match self {
-            Place::Line(line) => fault.at(line, 1),
-            Place::Triangle(number) => fault.field(format!("triangle {number}")),
+            FacetPlace::Line(line) => fault.at(line, 1),
+            FacetPlace::Triangle(number) => fault.field(format!("triangle {number}")),
         }
     }
 }
 
 impl Facets {
-    pub fn push(&mut self, source: &str, corners: [Point; 3], place: Place) -> Result<()> {
+    pub fn push(&mut self, source: &str, corners: [Point; 3], place: FacetPlace) -> Result<()> {
         if self.corners.len() == MOST_TRIANGLES {
             let expected = format!("expected {MOST_TRIANGLES} triangles at most");
             return Err(place.fault(source, expected).into());

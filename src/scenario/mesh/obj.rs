@@ -4,7 +4,7 @@
 
 use crate::error::{Input, Result};
 
-use super::facets::{Facets, Place, Point, lines, point, words};
+use super::facets::{FacetPlace, Facets, Point, lines, point, words};
 
 /// Statements that are ignored, because they do not define the surface.
 const PASSED_OVER: [&str; 14] = [
@@ -70,7 +70,7 @@ fn statement(
                 return Err(fault.field("f").value(face.len()).into());
             }
             for pair in face[1..].windows(2) {
-                facets.push(source, [face[0], pair[0], pair[1]], Place::Line(line))?;
+                facets.push(source, [face[0], pair[0], pair[1]], FacetPlace::Line(line))?;
             }
         }
         Some((_, word)) if PASSED_OVER.contains(&word) => {}

@@ -3,7 +3,7 @@
 
 use crate::error::{Input, Result};
 
-use super::facets::{Facets, Place, Point, lines, point, words};
+use super::facets::{FacetPlace, Facets, Point, lines, point, words};
 
 /// Length of the header of a binary file [bytes].
 const HEADER: usize = 80;
@@ -37,7 +37,7 @@ pub fn parse(source: &str, bytes: &[u8]) -> Result<Facets> {
 fn binary(source: &str, triangles: &[u8]) -> Result<Facets> {
     let mut facets = Facets::default();
     for (index, triangle) in triangles.chunks_exact(TRIANGLE).enumerate() {
-        let place = Place::Triangle(index + 1);
+        let place = FacetPlace::Triangle(index + 1);
         let mut corners = [[0.0; 3]; 3];
         let words = triangle[CORNERS..].chunks_exact(4);
         for (place_of, word) in corners.as_flattened_mut().iter_mut().zip(words) {
@@ -67,7 +67,7 @@ fn ascii(source: &str, text: &str) -> Result<Facets> {
                     let fault = Input::new(source, "expected three `vertex` in a facet");
                     fault.at(line, column).value(found.len())
                 })?;
-                facets.push(source, three, Place::Line(line))?;
+                facets.push(source, three, FacetPlace::Line(line))?;
             }
             "solid" | "endsolid" | "outer" | "endloop" => {}
             _ => {
@@ -77,8 +77,9 @@ fn ascii(source: &str, text: &str) -> Result<Facets> {
             }
         }
     }
-    match corners.is_empty() {
-        true => Ok(facets),
-        false => Err(Input::new(source, "expected `endfacet` before the end").into()),
+    if corners.is_empty() {
+        Ok(facets)
+    } else {
+        Err(Input::new(source, "expected `endfacet` before the end").into())
     }
 }

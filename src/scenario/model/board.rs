@@ -1,4 +1,4 @@
-//! What is on the board, and the acquisition computer's signals.
+//! Keys of the board's clocks and of the acquisition computer's control signals.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use crate::firmware::tof_top::FirmwareEstimator;
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
 
-/// The FPGA, for what its PLL can do.
+/// FPGA family, which determines the limits of the PLL.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Part {
@@ -22,27 +22,27 @@ pub enum Part {
 }
 
 table! {
-    /// The clock generator. Its oscillator (VCO) runs at `input_hz * multiply / divide`, `clk_sys` at that
-    /// by `output_divide`, and `clk_laser` twice as fast.
+    /// The clock generator. Its oscillator (VCO) runs at `input_hz * multiply / divide`, `clk_sys` at that frequency
+    /// divided by `output_divide`, and `clk_laser` twice as fast as `clk_sys`.
     pub struct Pll {
-        /// FPGA with the PLL: `kintex7` or `ecp5`.
+        /// FPGA family: `kintex7` or `ecp5`.
         #[schemars(extend("source" = "KC705; docs/model.md"))]
         pub part: Part = Part::Kintex7,
-        /// Oscillator of the board.
+        /// Frequency of the board's oscillator.
         #[schemars(range(min = 8_000_000, max = 800_000_000), extend("unit" = "Hz", "source" = "KC705: SiT9102"))]
         pub input_hz: u64 = pll::INPUT_HZ,
-        /// Feedback divider M: of the VCO on a Kintex-7. An ECP5 closes its loop over `clk_laser`, and its
-        /// dividers follow.
+        /// Feedback divider M: of the VCO on a Kintex-7. An ECP5 closes its loop over `clk_laser`, and its dividers
+        /// follow from these.
         #[schemars(range(min = 1, max = 128), extend("unit" = "1", "source" = "PLLE2: VCO 1000 MHz"))]
         pub multiply: u64 = pll::MULTIPLY,
         /// Input divider D.
         #[schemars(range(min = 1, max = 128), extend("unit" = "1", "source" = "PLLE2"))]
         pub divide: u64 = pll::DIVIDE,
-        /// Output divider O of `clk_sys`, an even number; `clk_laser` has half of it. The period of `clk_sys`
-        /// is simulated to a multiple of 4 fs.
+        /// Output divider O of `clk_sys`, an even number; `clk_laser` uses half of it. The period of `clk_sys` is
+        /// rounded to a multiple of 4 fs.
         #[schemars(range(min = 2, max = 128), extend("unit" = "1", "source" = "PLLE2"))]
         pub output_divide: u64 = pll::OUTPUT_DIVIDE,
-        /// From power-up to lock; the part's limit is 100 us.
+        /// Time from power-up to lock; the part's limit is 100 us.
         #[schemars(range(min = 0.0, max = 1e6), extend("unit" = "us", "source" = "choice: short, to keep runs short"))]
         pub lock_time_us: f64 = 1.0,
         /// Jitter of each edge of the outputs, Gaussian; 0 switches it off (7.7 is the wizard's 107 ps peak to peak).
@@ -52,13 +52,13 @@ table! {
 }
 
 impl Pll {
-    /// Frequency of `clk_sys`, not rounded to whole femtoseconds [MHz].
+    /// Returns the frequency of `clk_sys`, not rounded to whole femtoseconds [MHz].
     pub fn clk_sys_mhz(&self) -> f64 {
         let hz = (self.input_hz * self.multiply) as f64;
         hz / (1_000_000 * self.divide * self.output_divide) as f64
     }
 
-    /// What elaboration makes of it.
+    /// Returns the PLL's parameters for elaboration.
     pub fn params(&self) -> pll::Params {
         pll::Params {
             input_hz: self.input_hz,
@@ -70,14 +70,14 @@ impl Pll {
     }
 }
 
-/// How the SPAD is armed again (Table 6.2); a file has the code that the pin `mode` has.
+/// Quench mode of the SPAD (Table 6.2). A file holds the code of the pin `mode`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "u64", into = "u64")]
 pub enum QuenchMode {
-    /// MODE 0: by a reset before each shot.
+    /// MODE 0: a reset arms the SPAD before each shot.
     #[default]
     EachShot,
-    /// MODE 1: by itself, after the dead time.
+    /// MODE 1: the SPAD rearms itself after the dead time.
     FreeRunning,
 }
 
@@ -100,10 +100,10 @@ impl From<QuenchMode> for u64 {
 }
 
 table! {
-    /// Control signals at power-up, and the frame.
+    /// Control signals at power-up, and frame parameters.
     pub struct Firmware {
-        /// Laser repetition rate: which of `laser_periods`, from 0; of the default ones 0 .. 3 for 5, 9.615,
-        /// 15.625, 20.833 MHz.
+        /// Laser repetition rate: index into `laser_periods`, from 0; by default 0 to 3 select 5, 9.615, 15.625 and
+        /// 20.833 MHz.
         #[schemars(range(min = 0, max = 7), extend("unit" = "code", "source" = "Table 6.1"))]
         pub laser_freq: u64 = 3,
         /// Laser period for each `laser_freq`.
@@ -114,7 +114,7 @@ table! {
         #[schemars(range(min = 1, max = 8))]
         #[schemars(extend("unit" = "half cycles of clk_laser", "source" = "section 6.3: 2 ns"))]
         pub pulse_half_cycles: u32 = 1,
-        /// Length of Drain, in which the last photons of a frame come to their words.
+        /// Length of the state Drain, in which the last photons of a frame reach the histogram.
         #[schemars(range(min = 8, max = 65_536))]
         #[schemars(extend("unit" = "cycles of clk_sys", "source" = "choice: twice the window; docs/model.md"))]
         pub drain_cycles: u64 = DRAIN_CYCLES,
@@ -122,38 +122,38 @@ table! {
         #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
         #[schemars(with = "u64")]
         pub mode: QuenchMode = QuenchMode::EachShot,
-        /// Lets the laser fire.
+        /// Enable the laser.
         #[schemars(extend("source" = "section 2.4, Laser_control"))]
         pub laser_en: bool = true,
-        /// Lets the estimator start.
+        /// Enable the estimator.
         #[schemars(extend("source" = "section 2.4"))]
         pub dsp_en: bool = true,
-        /// Abandons the frame.
+        /// Abandon the frame.
         #[schemars(extend("source" = "section 2.4"))]
         pub dsp_rst: bool = false,
         /// Reset button of the board.
         #[schemars(extend("source" = "section 6.2"))]
         pub rst: bool = false,
-        /// Width of a word of the histogram.
+        /// Width of a histogram bin's count.
         #[schemars(range(min = 8, max = 24), extend("unit" = "bit", "source" = "section 6.6"))]
         pub count_bits: u32 = COUNT_BITS,
-        /// Shots in a frame; a word of the histogram must hold them all (`count_bits`). With
-        /// `dark_frames`, those of a dark and a lit frame together.
+        /// Shots per frame, at most what a bin can count (`count_bits`). With `dark_frames`, the shots of a dark and
+        /// a lit frame together.
         #[schemars(range(min = 1, max = 16_777_215), extend("unit" = "shots", "source" = "eq. 3.3"))]
         pub shots_per_frame: u64 = 30_000,
-        /// Frames come in pairs of half the shots each, the first one dark: the acquisition computer
-        /// changes `laser_en` whenever it has taken a depth.
+        /// Alternate dark and lit frames, each with half of the shots, a dark one first: the acquisition computer
+        /// toggles `laser_en` each time it has received a depth.
         #[schemars(extend("source" = "section 5.2"))]
         pub dark_frames: bool = false,
-        /// With `dark_frames`: what the acquisition computer takes from a depth to the change of
-        /// `laser_en`, within the next frame's Clear.
+        /// With `dark_frames`: delay from a depth to the acquisition computer's change of `laser_en`, within the
+        /// Clear state of the next frame.
         #[schemars(range(min = 1.0, max = 2000.0), extend("unit" = "ns", "source" = "choice: at no edge of a clock"))]
         pub response_ns: f64 = 101.0,
     }
 }
 
 impl Firmware {
-    /// Shots that the firmware counts in a frame: with dark frames half of those of a pair.
+    /// Returns the number of shots in one frame of the firmware: with dark frames, half of those of a pair.
     pub fn shots_of_a_frame(&self) -> u64 {
         if self.dark_frames { self.shots_per_frame / 2 } else { self.shots_per_frame }
     }
@@ -162,31 +162,31 @@ impl Firmware {
 table! {
     /// The depth estimator.
     pub struct Estimator {
-        /// What is in the estimator's socket: `network`, `centroid` or `likelihood`.
+        /// Estimator in the estimator slot: `network`, `centroid` or `likelihood`.
         #[schemars(extend("source" = "thesis ch. 6; docs/model.md"))]
         pub kind: FirmwareEstimator = FirmwareEstimator::Network,
         /// Network: `uniform`, `uniform-16`, `ideal`, or the path of a network file.
         #[schemars(extend("source" = "docs/model.md"))]
         pub network: String = "uniform".into(),
-        /// Words of the centroid's window to either side of its centre.
+        /// Half width of the centroid's window, without its centre bin.
         #[schemars(range(min = 1, max = 31), extend("unit" = "bins", "source" = "choice: 23 bins are 50 taps of 11.5 ps; 4 sigma of the pulse"))]
         pub centroid_half_width: u64 = 23,
-        /// Whether the centroid's maximum is of the height above the window's first word, and not above zero.
+        /// Locate the centroid's maximum above the first bin of its window rather than above zero.
         #[schemars(extend("source" = "choice: ambient light piles up in the first bins"))]
         pub centroid_background: bool = true,
-        /// Distance of a bin for the centroid; c/2 for 25 ps.
+        /// Distance per bin for the centroid; c/2 for 25 ps.
         #[schemars(range(min = 0.0001, max = 0.0078), extend("unit" = "m", "source" = "eq. 3.23"))]
         pub centroid_slope_m: f64 = 0.003_747_405_725,
-        /// Distance that is added to the centroid's.
+        /// Offset added to the centroid's distance.
         #[schemars(range(min = -0.99, max = 0.99), extend("unit" = "m", "source" = "choice: none, so that pile-up shows"))]
         pub centroid_offset_m: f64 = 0.0,
-        /// Standard deviation of the Gaussian that the likelihood estimator is told the pulse is; 0: it is told the
-        /// laser's own pulse.
-        #[schemars(range(min = 0.0, max = 1e6), extend("unit" = "ps", "source" = "choice: what it really is"))]
-        pub told_sigma_ps: f64 = 0.0,
-        /// Shots of a histogram that the likelihood estimator is told; 0: those of a frame.
-        #[schemars(range(min = 0, max = 16_777_215), extend("unit" = "shots", "source" = "choice: what they really are"))]
-        pub told_shots: u64 = 0,
+        /// Standard deviation of the Gaussian pulse that the likelihood estimator assumes; 0: the laser's actual
+        /// pulse.
+        #[schemars(range(min = 0.0, max = 1e6), extend("unit" = "ps", "source" = "choice: the actual pulse", "formerly" = "told_sigma_ps"))]
+        pub assumed_sigma_ps: f64 = 0.0,
+        /// Shots per histogram that the likelihood estimator assumes; 0: the shots of a frame.
+        #[schemars(range(min = 0, max = 16_777_215), extend("unit" = "shots", "source" = "choice: the actual number", "formerly" = "told_shots"))]
+        pub assumed_shots: u64 = 0,
     }
 }
 
@@ -194,21 +194,21 @@ table! {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Control {
-    /// When, from power-up.
+    /// Time of the change, from power-up.
     #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us", "source" = "choice"))]
     pub at_us: f64,
-    /// Laser repetition rate: which of `firmware.laser_periods`.
+    /// Laser repetition rate: index into `firmware.laser_periods`.
     #[schemars(range(min = 0, max = 7), extend("unit" = "code", "source" = "Table 6.1"))]
     pub laser_freq: Option<u64>,
     /// SPAD quench mode, 0 or 1.
     #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
     #[schemars(with = "Option<u64>")]
     pub mode: Option<QuenchMode>,
-    /// Lets the laser fire.
+    /// Enable the laser.
     pub laser_en: Option<bool>,
-    /// Lets the estimator start.
+    /// Enable the estimator.
     pub dsp_en: Option<bool>,
-    /// Abandons the frame.
+    /// Abandon the frame.
     pub dsp_rst: Option<bool>,
     /// Reset button of the board.
     pub rst: Option<bool>,

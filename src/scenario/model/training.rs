@@ -1,4 +1,4 @@
-//! How an instrument's network is trained.
+//! Keys for training an instrument's network.
 
 use std::collections::BTreeMap;
 
@@ -6,26 +6,26 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 table! {
-    /// How `train` and `build` train this instrument's network, where no option says otherwise.
+    /// Defaults of `train` and `build` for this instrument's network; options override them.
     pub struct Training {
-        /// Hidden neurons, if not as many as the recipe has.
+        /// Number of hidden neurons; the recipe's by default.
         #[schemars(range(min = 1, max = 32), extend("unit" = "neurons", "source" = "thesis ch. 5: 8"))]
         #[serde(skip_serializing_if = "Option::is_none")]
         pub neurons: Option<u64> = None,
-        /// Scenes to train for, and to measure on: for each key of the scenario a text as `--grid` takes it,
-        /// such as `"target.distance_m" = "0.05..0.9:0.0025"`. Empty: the thesis's.
+        /// Training and test scenes: a grid for each key, as in `--grid`, such as `"target.distance_m" =
+        /// "0.05..0.9:0.0025"`. Empty: the thesis's scenes.
         #[schemars(extend("source" = "thesis ch. 5"))]
         #[serde(skip_serializing_if = "BTreeMap::is_empty")]
         pub grid: BTreeMap<String, String> = BTreeMap::new(),
-        /// `short` for a training of minutes, `quick` for one of seconds, whose network is poor, `uniform-16`, `long`, or
-        /// the path of a recipe.
+        /// Recipe: `short` (minutes), `quick` (seconds, poor accuracy), `uniform-16`, `long`, or the path of a recipe
+        /// file.
         #[schemars(extend("source" = "docs/accuracy.md"))]
         #[serde(skip_serializing_if = "Option::is_none")]
         pub recipe: Option<String> = None,
-        /// Number formats of the weights that are not the thesis's.
+        /// Number formats of the weights; the thesis's by default.
         #[serde(skip_serializing_if = "WordFormats::is_default")]
         pub formats: WordFormats = WordFormats::default(),
-        /// Address bits of the table of activations, if not as many as the recipe has.
+        /// Address width of the activation table; the recipe's by default.
         #[schemars(range(min = 4, max = 16), extend("unit" = "bit", "source" = "Table 6.4: 12"))]
         #[serde(skip_serializing_if = "Option::is_none")]
         pub lut_bits: Option<u32> = None,
@@ -33,7 +33,7 @@ table! {
 }
 
 table! {
-    /// Number formats: a text with the width and the fraction bits, such as `"16.23"`.
+    /// Number formats, each a text with the total width and the number of fraction bits, such as `"16.23"`.
     pub struct WordFormats {
         /// Weights of the hidden layer.
         #[schemars(extend("source" = "Table 6.4"))]
@@ -59,12 +59,12 @@ table! {
 }
 
 impl Training {
-    /// Whether nothing is said.
+    /// Returns whether no key is set.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The scenes as options `--grid` have them; none: the thesis's.
+    /// Returns the scenes in the syntax of the option `--grid`; empty for the thesis's scenes.
     pub fn grid_options(&self) -> Vec<String> {
         self.grid.iter().map(|(key, values)| format!("{key}={values}")).collect()
     }
@@ -75,7 +75,7 @@ impl WordFormats {
         *self == Self::default()
     }
 
-    /// Each that is given, by its name.
+    /// Returns the formats that are set, with their keys.
     pub fn given(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let WordFormats { w1, b1, w2, b2, l1_out } = self;
         let all = [("w1", w1), ("b1", b1), ("w2", w2), ("b2", b2), ("l1_out", l1_out)];

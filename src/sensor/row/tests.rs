@@ -2,8 +2,8 @@ use super::*;
 
 const DEAD: Time = Time::from_ns(20);
 
-fn row(count: usize, effects: Effects) -> Row {
-    Row::new(count, effects, 1)
+fn row(count: usize, effects: Effects) -> SpadRow {
+    SpadRow::new(count, effects, 1)
 }
 
 #[test]
@@ -203,5 +203,5 @@ fn a_quiet_diode_beside_a_hot_one_fires_of_light() {
         assert!((found - expected).abs() < 1e-12, "{parts:?}");
     }
     assert_eq!(row.dark_part(1, 1.0), 0.0);
-    assert_eq!(Row::new(2, whole_row(0..1, 0.0), 1).dark_part(0, 0.3), 0.3);
+    assert_eq!(SpadRow::new(2, whole_row(0..1, 0.0), 1).dark_part(0, 0.3), 0.3);
 }

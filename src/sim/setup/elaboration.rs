@@ -30,7 +30,7 @@ impl Setup {
     /// # Errors
     /// When one of the files cannot be read or used.
     pub fn of_counts(loaded: Loaded) -> Result<Self> {
-        let Loaded { name, scenario, set, files } = loaded;
+        let Loaded { name, scenario, set, files, renamed } = loaded;
         let network = network(&scenario, &files)?;
         let pll = Pll::new(&scenario.pll.params());
         let histogram = scenario.histogram();
@@ -83,6 +83,7 @@ impl Setup {
             name,
             scenario,
             set,
+            renamed,
             budget,
             dark,
             mesh,

@@ -57,20 +57,21 @@ impl Setup {
                             does not hear of them";
             return Err(fault("tdc.first_bin_ps", bins.first_ps(), expected.to_owned()));
         }
-        let told = &scenario.estimator;
+        let keys = &scenario.estimator;
         let most = self.params.histogram.most_hits();
-        if told.told_shots > most {
+        if keys.assumed_shots > most {
             let expected = format!("expected {most} or less, what a word of the histogram holds");
-            return Err(fault("estimator.told_shots", told.told_shots as f64, expected));
+            return Err(fault("estimator.assumed_shots", keys.assumed_shots as f64, expected));
         }
-        let pulse = match told.told_sigma_ps > 0.0 {
-            true => Pulse::Gaussian { sigma_ps: told.told_sigma_ps },
-            false => self.budget.pulse.clone(),
+        let pulse = if keys.assumed_sigma_ps > 0.0 {
+            Pulse::Gaussian { sigma_ps: keys.assumed_sigma_ps }
+        } else {
+            self.budget.pulse.clone()
         };
         let sigma_ps = pulse.sigma_ps();
         let wanted = Wanted {
             histogram: self.params.histogram,
-            shots: if told.told_shots > 0 { told.told_shots } else { shots },
+            shots: if keys.assumed_shots > 0 { keys.assumed_shots } else { shots },
             edges_ps: &bins.edges_ps(),
             bin_ps: bins.bin_ps(),
             pulse,

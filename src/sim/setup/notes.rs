@@ -30,7 +30,7 @@ impl Setup {
     /// When the network's file has a domain that is none.
     pub fn notes(&self) -> Result<Vec<Note>> {
         if let Some(note) = &self.no_depth {
-            return Ok(vec![note.clone()]);
+            return Ok([&self.renamed[..], std::slice::from_ref(note)].concat());
         }
         let mut notes = Vec::new();
         let is_network = self.params.estimator == FirmwareEstimator::Network;
@@ -41,6 +41,7 @@ impl Setup {
         notes.extend(drift);
         notes.extend(self.ring_in_step());
         notes.extend(self.partly_past_the_end());
+        notes.extend(self.renamed.iter().cloned());
         Ok(notes)
     }
 

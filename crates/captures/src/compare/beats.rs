@@ -18,7 +18,7 @@ use crate::condition::Condition;
 use classify::Classifier;
 use place::{Placed, place};
 use script::{End, MOST_EDITS, script};
-use stream::{Stream, Words, stream};
+use stream::{BeatWords, Stream, stream};
 
 /// Number of positions listed in an error.
 const LISTED: usize = 4;
@@ -64,7 +64,7 @@ pub(super) fn compare(
         conditions.push(SideCondition::new(source, side, &mut plan.matching, condition)?);
     }
     let pairs = word(plan, condition, only)?;
-    let mut words = Words::default();
+    let mut words = BeatWords::default();
     // A capture first: it says how far a simulation goes.
     let first = usize::from(plan.sources[1].is_capture());
     let mut streams = [Stream::default(), Stream::default()];
@@ -86,9 +86,8 @@ pub(super) fn compare(
         [false, false] => {
             let [a, b] = &streams;
             let found = script(&a.words, &b.words, End::Both);
-            let end = [0, 1].map(|side| match found.is_whole {
-                true => streams[side].words.len(),
-                false => found.taken[side],
+            let end = [0, 1].map(|side| {
+                if found.is_whole { streams[side].words.len() } else { found.taken[side] }
             });
             let classifier = Classifier { sides: [a, b], words: &words, window: 0 };
             classifier.count(&found.same, [0, 0], end, &mut beats);
@@ -115,7 +114,7 @@ fn windows(
     plan: &Plan,
     side: usize,
     streams: &[Stream; 2],
-    words: &Words,
+    words: &BeatWords,
     result: &mut Comparison,
     beats: &mut Beats,
 ) -> Result<()> {
@@ -172,7 +171,7 @@ fn oriented(
 /// Compares two captures window by window. Beats of one before the other begins or after it ends are not differences.
 fn captures(
     streams: &[Stream; 2],
-    words: &Words,
+    words: &BeatWords,
     result: &mut Comparison,
     beats: &mut Beats,
 ) -> Result<()> {

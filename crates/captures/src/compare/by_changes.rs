@@ -2,7 +2,7 @@
 
 use tofsim::error::{Input, Result};
 
-use crate::source::{Axis, Cursor, Tick};
+use crate::source::{Axis, Cursor, Source, Tick};
 
 use super::align::{self, Align};
 use super::differences::{Differences, Spot};
@@ -22,6 +22,12 @@ struct Side {
 }
 
 impl Side {
+    /// Opens a side with its own and the common unit of time.
+    fn open(plan: &Plan, side: usize, [tick, coarse]: [Tick; 2], late: i128) -> Result<Side> {
+        let cursor = plan.sources[side].read(&plan.matching.slots[side].ids)?;
+        Ok(Side { cursor, tick, coarse, late, end: plan.sources[side].end, last: 0 })
+    }
+
     fn common(&self, at: u64) -> i128 {
         self.tick.convert(at, self.coarse) as i128 - self.late
     }
@@ -75,17 +81,10 @@ pub(super) fn compare(
     }
     let (late_fs, found) = align::shift(plan, align)?;
     let mut result = Comparison::new(plan.sources, "changes", found);
-    let ticks = plan.sources.map(|source| match source.axis {
-        Axis::Time(tick) => tick,
-        Axis::Samples => Tick::FEMTOSECOND,
-    });
+    let ticks = plan.sources.map(tick);
     let coarse = ticks[0].max(ticks[1]);
     let late = |side: usize| if side == 0 { 0 } else { signed(coarse, late_fs) };
-    let open = |side: usize| -> Result<Side> {
-        let cursor = plan.sources[side].read(&plan.matching.slots[side].ids)?;
-        let (tick, end) = (ticks[side], plan.sources[side].end);
-        Ok(Side { cursor, tick, coarse, late: late(side), end, last: 0 })
-    };
+    let open = |side: usize| Side::open(plan, side, [ticks[side], coarse], late(side));
     let mut sides = [open(0)?, open(1)?];
     let times = [plan.terms.after.fs() as u128, plan.terms.until_fs];
     let [from, until] = times.map(|fs| coarse.count_up(fs) as i128);
@@ -136,13 +135,26 @@ pub(super) fn compare(
         }
         result.compared += 1;
     }
+    compare_ends(&mut sides, until, &mut result)?;
+    Ok(result)
+}
+
+/// Records a difference if the sides end at different times before `until`.
+fn compare_ends(sides: &mut [Side; 2], until: i128, result: &mut Comparison) -> Result<()> {
     let [a, b] = [sides[0].whole()?, sides[1].whole()?];
     if sides[0].common(a).min(until) != sides[1].common(b).min(until) {
         let [a, b] = [result.sides[0].place(a), result.sides[1].place(b)];
         let text = format!("the first side ends at {a}, the second at {b} (--until ends earlier)");
         result.differences.push(text);
     }
-    Ok(result)
+    Ok(())
+}
+
+fn tick(source: &Source) -> Tick {
+    match source.axis {
+        Axis::Time(tick) => tick,
+        Axis::Samples => Tick::FEMTOSECOND,
+    }
 }
 
 /// Converts a time to units of `coarse`, rounded down.

@@ -4,12 +4,14 @@ use std::collections::BTreeSet;
 
 use tofsim::error::Result;
 
+use crate::source::SourceState;
+
 use super::align::{Align, Alignment};
 use super::delay::Delay;
 use super::differences::{Differences, Spot};
 use super::plan::Plan;
 use super::result::Comparison;
-use super::selection::{Piece, Place, Selected};
+use super::selection::{Piece, SamplePlace, Selected};
 
 /// Compares all pieces of an alignment.
 pub(super) fn compare(
@@ -28,7 +30,7 @@ pub(super) fn compare(
     ];
     let late = (0..pairs.len()).filter(|&pair| !pairs[pair].is_plain());
     let mut delays: Vec<Delay> = late.map(Delay::new).collect();
-    // Plain pairs that differ now.
+    // Plain pairs that differ at the present sample.
     let mut differing = BTreeSet::new();
     differences.touch_all();
     'pieces: loop {
@@ -59,16 +61,7 @@ pub(super) fn compare(
             if gaps != [false, false] {
                 continue;
             }
-            let touched = differences.take_touched().into_iter();
-            for pair in touched.filter(|&pair| pairs[pair].is_plain()) {
-                match differences.differs(pair, states)? {
-                    true => differing.insert(pair),
-                    false => differing.remove(&pair),
-                };
-            }
-            for &pair in &differing {
-                differences.count(pair, spot, states);
-            }
+            compare_touched(plan, spot, states, &mut differing, differences)?;
             result.compared += 1;
             count += 1;
         }
@@ -84,26 +77,48 @@ pub(super) fn compare(
     Ok(result)
 }
 
+/// Compares the plain pairs that have changed, and counts all plain pairs that differ at a sample.
+fn compare_touched(
+    plan: &Plan,
+    spot: Spot,
+    states: [&SourceState; 2],
+    differing: &mut BTreeSet<usize>,
+    differences: &mut Differences,
+) -> Result<()> {
+    let touched = differences.take_touched().into_iter();
+    for pair in touched.filter(|&pair| plan.matching.pairs[pair].is_plain()) {
+        if differences.differs(pair, states)? {
+            differing.insert(pair);
+        } else {
+            differing.remove(&pair);
+        }
+    }
+    for &pair in &*differing {
+        differences.count(pair, spot, states);
+    }
+    Ok(())
+}
+
 /// Returns whether a capture that does not state its number of samples has ended at this place: its last values
 /// extend as far as another capture, but not as far as a waveform.
-fn is_over(plan: &Plan, a: Place, b: Place) -> bool {
-    let held = [a.sample.held, b.sample.held];
-    held == [true, true] || (plan.capture().is_some() && held != [false, false])
+fn is_over(plan: &Plan, a: SamplePlace, b: SamplePlace) -> bool {
+    let is_extended = [a.sample.is_extended, b.sample.is_extended];
+    is_extended == [true, true] || (plan.capture().is_some() && is_extended != [false, false])
 }
 
 /// Returns whether the end of the comparison is reached on the first side that has times.
-fn is_late(plan: &Plan, places: [Place; 2]) -> bool {
+fn is_late(plan: &Plan, places: [SamplePlace; 2]) -> bool {
     (0..2).find_map(|side| is_reached(plan, side, places[side])) == Some(true)
 }
 
 /// Returns whether the end of the comparison is reached on a side, if it has times.
-fn is_reached(plan: &Plan, side: usize, place: Place) -> Option<bool> {
+fn is_reached(plan: &Plan, side: usize, place: SamplePlace) -> Option<bool> {
     let time = plan.sources[side].axis.femtoseconds(place.sample.at)?;
     Some(time >= plan.terms.until_fs)
 }
 
 /// Returns the time of a place in the waveform of both sides: that of the first side, or the sample number [ps].
-fn place_ps(plan: &Plan, place: Place) -> u128 {
+fn place_ps(plan: &Plan, place: SamplePlace) -> u128 {
     let time = plan.sources[0].axis.femtoseconds(place.sample.at);
     time.map_or(place.sample.at.into(), |fs| fs / 1000)
 }
@@ -113,14 +128,14 @@ fn short(
     plan: &Plan,
     align: &Align,
     pieces: &[Vec<Piece>; 2],
-    places: [Option<Place>; 2],
+    places: [Option<SamplePlace>; 2],
     count: u64,
     result: &mut Comparison,
 ) {
     let ended = usize::from(places[0].is_some());
     let other = 1 - ended;
     let Some(place) = places[other] else { return };
-    if place.sample.held || is_reached(plan, other, place) == Some(true) {
+    if place.sample.is_extended || is_reached(plan, other, place) == Some(true) {
         return;
     }
     let wanted = pieces[other].get(place.piece).and_then(|piece| piece.count());

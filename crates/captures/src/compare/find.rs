@@ -17,9 +17,10 @@ const OFFERED: usize = 4;
 /// If there is none, or several at the same level that are different signals.
 pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
     let wanted = Name::new(text);
-    let rank = |signal: &Signal| match signal.name.is(&wanted) {
-        true => Some(0),
-        false => {
+    let rank = |signal: &Signal| {
+        if signal.name.is(&wanted) {
+            Some(0)
+        } else {
             let is_end = signal.name.common(&wanted) == Some(wanted.depth());
             is_end.then(|| signal.name.depth() + 1)
         }

@@ -172,9 +172,10 @@ impl SignalMap {
     /// second.
     pub fn of(set_up: &AnalyserSetup) -> SignalMap {
         let file = &set_up.file;
-        let clock = match file.clock.starts_with("clk_") {
-            true => format!("{TOP}.{}", file.clock),
-            false => file.clock.clone(),
+        let clock = if file.clock.starts_with("clk_") {
+            format!("{TOP}.{}", file.clock)
+        } else {
+            file.clock.clone()
         };
         let probes = file.probe.iter().map(|probe| Rule {
             a: vec![format!("{TOP}.{}", below(&probe.signal.replace('/', ".")))],

@@ -3,7 +3,7 @@
 use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
 
-use crate::condition::{Bound, Condition, Level, Place};
+use crate::condition::{Bound, Condition, Level, Operand};
 use crate::source::{Name, Source, SourceState, known_shape};
 use crate::words::{Bits, lowest};
 
@@ -43,12 +43,12 @@ impl SideCondition {
                     whole && [&pair.name, &pair.other].iter().any(|name| is_signed(name))
                 });
                 operands.push(pair.sides[side].clone());
-                return Ok(Place { index, width: pair.width, signed });
+                return Ok(Operand { index, width: pair.width, signed });
             }
             let found = find::signal(source, text)?;
             let signal = &source.signals[found];
             operands.push(vec![Part::whole(&mut matching.slots[side], signal)]);
-            Ok(Place { index, width: signal.width, signed: is_signed(&signal.name.text) })
+            Ok(Operand { index, width: signal.width, signed: is_signed(&signal.name.text) })
         })?;
         Ok(SideCondition { bound, operands })
     }

@@ -149,9 +149,10 @@ impl Pair {
 
     fn is_near(&self, a: &Bits, b: &Bits) -> bool {
         let (Some(a), Some(b)) = (a.number(), b.number()) else { return false };
-        let apart = match self.show.is_signed() {
-            true => extend(a, self.width).abs_diff(extend(b, self.width)),
-            false => a.abs_diff(b),
+        let apart = if self.show.is_signed() {
+            extend(a, self.width).abs_diff(extend(b, self.width))
+        } else {
+            a.abs_diff(b)
         };
         self.show != Show::Real && apart <= self.tolerance as u128
     }

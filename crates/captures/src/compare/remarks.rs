@@ -53,7 +53,7 @@ pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Com
             let note = "does not say how many samples it has; compared up to its last change";
             notes.push(format!("the {name} side {note}"));
         }
-        if source.is_capture() && !source.radix_told && !is_vcd {
+        if source.is_capture() && !source.radix_stated && !is_vcd {
             notes.push(format!("the {name} side does not say in which radix its values are"));
         }
     }

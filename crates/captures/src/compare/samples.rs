@@ -62,7 +62,7 @@ pub(crate) struct Sample {
     pub(crate) at: u64,
     pub(crate) marks: Marks,
     /// Whether the source does not contain the sample, and its values are those of the last one.
-    pub(crate) held: bool,
+    pub(crate) is_extended: bool,
 }
 
 /// Sampling of a source.
@@ -164,10 +164,10 @@ impl Samples {
         }
     }
 
-    fn sample(&mut self, at: u64, marks: Marks, held: bool) -> Option<Sample> {
+    fn sample(&mut self, at: u64, marks: Marks, is_extended: bool) -> Option<Sample> {
         let index = self.next;
         self.next += 1;
-        Some(Sample { index, at, marks, held })
+        Some(Sample { index, at, marks, is_extended })
     }
 
     fn next_edge(&mut self, clock: usize) -> Result<Option<Sample>> {

@@ -57,7 +57,7 @@ pub(super) struct Selected<'a> {
 
 /// A sample, and its place among the pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(super) struct SamplePlace {
     /// Index of the piece, that is, of the window.
     pub(super) piece: usize,
     /// Position within the piece.
@@ -72,12 +72,12 @@ impl<'a> Selected<'a> {
     }
 
     /// Reads the next sample of the piece; returns `None` at its end.
-    pub(super) fn next(&mut self) -> Result<Option<Place>> {
+    pub(super) fn next(&mut self) -> Result<Option<SamplePlace>> {
         let wanted = self.pieces.get(self.piece).and_then(|piece| piece.sample(self.position));
         let Some(wanted) = wanted else { return Ok(None) };
         while let Some(sample) = self.samples.next()? {
             if sample.index == wanted {
-                let place = Place { piece: self.piece, position: self.position, sample };
+                let place = SamplePlace { piece: self.piece, position: self.position, sample };
                 self.position += 1;
                 return Ok(Some(place));
             }

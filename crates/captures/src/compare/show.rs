@@ -116,9 +116,10 @@ fn digits(bits: &Bits, width: u32) -> String {
 /// Shortens a long text in its middle.
 fn shorten(text: String) -> String {
     const LONGEST: usize = 44;
-    match text.len() > LONGEST {
-        true => format!("{}..{}", &text[..20], &text[text.len() - 20..]),
-        false => text,
+    if text.len() > LONGEST {
+        format!("{}..{}", &text[..20], &text[text.len() - 20..])
+    } else {
+        text
     }
 }
 

@@ -138,9 +138,10 @@ fn note(name: &str, side: usize, is_known: bool, missing: &[&str]) -> String {
     let list: Vec<_> = missing.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
     let more = missing.len().saturating_sub(LISTED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    let first = match missing[0].bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
-        true => missing[0].to_owned(),
-        false => format!("{:?}", missing[0]),
+    let first = if missing[0].bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
+        missing[0].to_owned()
+    } else {
+        format!("{:?}", missing[0])
     };
     let [own, other] = if side == 0 { ["first", "second"] } else { ["second", "first"] };
     let what = if is_known { "where the words are" } else { "because its words are" };

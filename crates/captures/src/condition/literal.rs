@@ -10,7 +10,7 @@ pub(super) struct Literal {
     /// Mask of the don't-care bits.
     any: u128,
     negative: bool,
-    /// Whether it is written as a bit pattern, whose top bit may be a sign.
+    /// Whether the text is a bit pattern, whose top bit may be a sign.
     pattern: bool,
 }
 
@@ -75,9 +75,10 @@ impl Literal {
         };
         let fits = if self.negative { self.value <= low } else { self.value <= high };
         let minus = if low > 0 { "-" } else { "" };
-        match fits {
-            true => Ok(()),
-            false => Err(format!("expected {minus}{low} to {high}, a value of {width} bits")),
+        if fits {
+            Ok(())
+        } else {
+            Err(format!("expected {minus}{low} to {high}, a value of {width} bits"))
         }
     }
 

@@ -112,12 +112,11 @@ impl<'a> Parser<'a> {
     fn slice(&mut self, name: Token) -> &'a str {
         let next = self.first();
         let behind = name.column + name.text.chars().count() + 2 == next.column;
-        match name.kind == TokenKind::Quoted && behind && next.text.starts_with('[') {
-            true => {
-                self.tokens = &self.tokens[1..];
-                next.text
-            }
-            false => "",
+        if name.kind == TokenKind::Quoted && behind && next.text.starts_with('[') {
+            self.tokens = &self.tokens[1..];
+            next.text
+        } else {
+            ""
         }
     }
 

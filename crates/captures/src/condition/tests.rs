@@ -1,7 +1,7 @@
 use super::*;
 
 /// Looks up a test signal: `bit` (1), `bus` (8), `depth` (36, signed), `list[2]` (4), `a b` (8), `wide` (200).
-fn find(name: &str) -> Result<Place> {
+fn find(name: &str) -> Result<Operand> {
     let known = [
         ("bit", 1, false),
         ("bus", 8, false),
@@ -12,7 +12,7 @@ fn find(name: &str) -> Result<Place> {
     ];
     let index = known.iter().position(|known| known.0 == name);
     let index = index.ok_or_else(|| Input::new("", "unknown signal").value(name))?;
-    Ok(Place { index, width: known[index].1, signed: known[index].2 })
+    Ok(Operand { index, width: known[index].1, signed: known[index].2 })
 }
 
 fn bound(text: &str) -> Bound {
@@ -161,7 +161,7 @@ fn a_fault_has_its_column() {
 #[test]
 fn values_go_up_to_128_bits() {
     let mut find = |name: &str| match name {
-        "x" => Ok(Place { index: 0, width: 128, signed: true }),
+        "x" => Ok(Operand { index: 0, width: 128, signed: true }),
         _ => Err(Input::new("", "unknown signal").into()),
     };
     let mut holds = |text: &str, value| {

@@ -4,7 +4,7 @@ use super::literal::Literal;
 
 /// A signal that a name was bound to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct Operand {
     /// Index by which [`Bound::sample`] requests its level.
     pub index: usize,
     /// Width [bits].

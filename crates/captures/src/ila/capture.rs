@@ -54,9 +54,10 @@ pub struct Probe {
 impl Probe {
     /// Returns name and range as in the head of a column: `count[15:0]`.
     pub fn head(&self) -> String {
-        match self.vector {
-            true => format!("{}[{}:{}]", self.name, self.lsb + self.width - 1, self.lsb),
-            false => self.name.clone(),
+        if self.vector {
+            format!("{}[{}:{}]", self.name, self.lsb + self.width - 1, self.lsb)
+        } else {
+            self.name.clone()
         }
     }
 }

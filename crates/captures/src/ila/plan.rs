@@ -6,7 +6,7 @@ use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 use tofsim::sim::setup::Setup;
 
-use crate::condition::{Bound, Condition, Place};
+use crate::condition::{Bound, Condition, Operand};
 
 use super::capture::Probe;
 use super::clock::AnalyserClock;
@@ -116,9 +116,10 @@ fn probes(set_up: &AnalyserSetup, design: &Design) -> Result<(Vec<Probe>, Vec<Bi
         probes.push(probe);
         all_bits.push(bits);
     }
-    match probes.is_empty() {
-        true => Err(set_up.fault("probe", "nothing", "expected at least one [[probe]]")),
-        false => Ok((probes, all_bits)),
+    if probes.is_empty() {
+        Err(set_up.fault("probe", "nothing", "expected at least one [[probe]]"))
+    } else {
+        Ok((probes, all_bits))
     }
 }
 
@@ -159,7 +160,7 @@ fn condition(
         };
         operands.push(found);
         let index = operands.len() - 1;
-        Ok(Place { index, width: found.width, signed: found.signed })
+        Ok(Operand { index, width: found.width, signed: found.signed })
     };
     let condition = Condition::parse(set_up.origin(key), text);
     condition

@@ -82,10 +82,7 @@ impl Design {
         let whole = high - low + 1 == bits.width;
         bits = Bits { id: bits.id, low, width: high - low + 1, signed: bits.signed && whole };
         let single = range.is_some() && bits.width == 1;
-        let own = |path: &str| match single {
-            true => format!("{path}[{low}]"),
-            false => path.to_owned(),
-        };
+        let own = |path: &str| if single { format!("{path}[{low}]") } else { path.to_owned() };
         let probe = Probe {
             name: name.map_or_else(|| own(&below(path).replace('.', "/")), str::to_owned),
             width: bits.width,

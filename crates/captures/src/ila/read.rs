@@ -6,7 +6,7 @@ mod buffer;
 mod csv;
 pub(crate) mod digits;
 mod dump;
-mod heads;
+mod header;
 mod infer;
 mod line;
 mod ltx;
@@ -26,7 +26,7 @@ use super::capture::Radix;
 
 pub(crate) use opened::word;
 pub use opened::{
-    CaptureForm, CaptureRow, CaptureRows, Column, LARGEST, LONGEST_WORD, Opened, State,
+    CaptureForm, CaptureRow, CaptureRows, Column, LARGEST, LONGEST_WORD, NamedValue, Opened,
     WIDEST_PROBE, WIDEST_SAMPLE,
 };
 

@@ -160,9 +160,10 @@ pub fn capture(
     analyser: &mut Analyser,
     stop: Option<&AtomicBool>,
 ) -> Result<Outcome> {
-    match analyser.plan.every_change {
-        true => run.traced(count, &mut Tap::<true>(analyser), stop),
-        false => run.traced(count, &mut Tap::<false>(analyser), stop),
+    if analyser.plan.every_change {
+        run.traced(count, &mut Tap::<true>(analyser), stop)
+    } else {
+        run.traced(count, &mut Tap::<false>(analyser), stop)
     }
 }
 
@@ -170,16 +171,17 @@ pub fn capture(
 /// must see everything from then on.
 ///
 /// # Errors
-/// Those of `shots`.
+/// Any error of `shots`.
 pub fn capture_live(
     live: &mut Live,
     cycles: u64,
     analyser: &mut Analyser,
     shots: Option<Callback<Shot>>,
 ) -> Result<Progress> {
-    match analyser.plan.every_change {
-        true => live.advance(cycles, &mut Tap::<true>(analyser), shots),
-        false => live.advance(cycles, &mut Tap::<false>(analyser), shots),
+    if analyser.plan.every_change {
+        live.advance(cycles, &mut Tap::<true>(analyser), shots)
+    } else {
+        live.advance(cycles, &mut Tap::<false>(analyser), shots)
     }
 }
 
@@ -198,10 +200,8 @@ impl<const EVERY: bool> Tap<'_, EVERY> {
         device.resume_clocks(now);
         analyser.look.follow(&device.top);
         analyser.begun = true;
-        analyser.edge = match analyser.is_shown() {
-            true => analyser.first_of(device.cycle()),
-            false => analyser.first,
-        };
+        analyser.edge =
+            if analyser.is_shown() { analyser.first_of(device.cycle()) } else { analyser.first };
     }
 }
 
@@ -226,9 +226,10 @@ impl<const EVERY: bool> SignalProbe for Tap<'_, EVERY> {
 
     #[inline(always)]
     fn before_edge(&mut self, edge: Edge, now: Time, top: &TofTop) {
-        match !EVERY || self.0.is_shown() {
-            true => self.0.edge(edge, top),
-            false => self.sample(now.since(Time::from_fs(1)), top),
+        if !EVERY || self.0.is_shown() {
+            self.0.edge(edge, top)
+        } else {
+            self.sample(now.since(Time::from_fs(1)), top)
         }
     }
 }

@@ -122,9 +122,10 @@ fn quantised_arrival(observed: &Observed, shot: &Shot, stop: i64, setup: &Setup)
     let step = observed.timebase.step().fs() as f64 / 1e3;
     let begin = (stop - shot.start) as f64 * step;
     let middle = begin + step / 2.0;
-    match begin + step > range_ps && observed.has_codes {
-        true => middle.max((begin.max(range_ps) + begin + step) / 2.0),
-        false => middle,
+    if begin + step > range_ps && observed.has_codes {
+        middle.max((begin.max(range_ps) + begin + step) / 2.0)
+    } else {
+        middle
     }
 }
 

@@ -1,9 +1,9 @@
 //! Shots in a capture, with the detector's and the TDC's response to each.
 
-use std::collections::BTreeMap;
+mod earlier;
+mod probes;
 
 use tofsim::error::{Input, Result};
-use tofsim::hierarchy::TOP;
 
 use crate::compare::Probed;
 use crate::source::Source;
@@ -12,6 +12,7 @@ use super::kind::ReplayKind;
 use super::numbers::Numbers;
 use super::pins::Pins;
 use super::timebase::Timebase;
+use probes::Probes;
 
 /// A shot in a capture.
 #[derive(Clone, Debug, Default)]
@@ -49,7 +50,7 @@ pub(super) struct Pace<'a> {
 pub(super) struct Observed {
     pub(super) timebase: Timebase,
     pub(super) shots: Vec<Shot>,
-    /// Whether it contains codes.
+    /// Whether the capture contains codes.
     pub(super) has_codes: bool,
     pub(super) per_frame: Option<u64>,
     /// Shot period, if it is constant [cycles of clk_sys].
@@ -75,34 +76,6 @@ pub(super) struct Begin {
     held: Option<u64>,
 }
 
-/// A one-bit probe, with its previous level.
-struct Bit {
-    probe: Option<usize>,
-    before: Option<bool>,
-}
-
-impl Bit {
-    fn new(probed: &Probed, names: &[&str]) -> Self {
-        Bit { probe: find(probed, names), before: None }
-    }
-
-    /// Returns the present and the previous level.
-    fn sample(&mut self, probed: &mut Probed) -> (bool, bool) {
-        let now = self.probe.and_then(|probe| probed.value(probe)) == Some(1);
-        (now, self.before.replace(now).unwrap_or(now))
-    }
-
-    /// Returns whether a cycle begins in which a signal is high that is high for one cycle at a time.
-    fn pulse(&mut self, probed: &mut Probed, timebase: &Timebase) -> bool {
-        let (now, before) = self.sample(probed);
-        now && (timebase.per_cycle == 1 || !before)
-    }
-}
-
-fn find(probed: &Probed, names: &[&str]) -> Option<usize> {
-    names.iter().find_map(|name| probed.probe(&format!("{TOP}.{name}")))
-}
-
 /// Reads the shots of a capture; `None` if it shows neither the detector's nor the TDC's response to them.
 ///
 /// # Errors
@@ -115,21 +88,8 @@ pub(super) fn observe(
     shots_per_frame: u64,
     pace: Pace<'_>,
 ) -> Result<Option<Observed>> {
-    let module = if kind == ReplayKind::Codes { "code_preload" } else { "tdc" };
-    let [valid, code] = ["tdc_valid", "tdc_code"]
-        .map(|port| [format!("{module}.{port}"), port.to_owned()])
-        .map(|[own, wire]| [&own[..], &wire[..]].map(str::to_owned));
-    let mut valid = Bit::new(probed, &[&valid[0], &valid[1]]);
-    let code = find(probed, &[&code[0], &code[1]]).filter(|_| valid.probe.is_some());
-    let stop = if kind == ReplayKind::Photons { &["tdc_stop"][..] } else { &[] };
-    let mut stop = Bit::new(probed, stop);
-    if code.is_none() && stop.probe.is_none() {
-        return Ok(None);
-    }
-    let mut start = Bit::new(probed, &["start"]);
-    let mut acquire = Bit::new(probed, &["acquire"]);
-    let counter = find(probed, &["frame_ctrl.shots"]);
-    if start.probe.is_none() {
+    let Some(mut probes) = Probes::new(probed, kind) else { return Ok(None) };
+    if probes.start.probe.is_none() {
         let expected = "does not show where the shots begin; probe vcsel_driver.start";
         return Err(Input::new(&capture.name, expected).into());
     }
@@ -137,7 +97,7 @@ pub(super) fn observe(
     let mut observed = Observed {
         timebase,
         shots: Vec::new(),
-        has_codes: code.is_some(),
+        has_codes: probes.code.is_some(),
         per_frame: None,
         period: None,
         windows: Vec::new(),
@@ -152,29 +112,27 @@ pub(super) fn observe(
         if begins {
             let first = observed.shots.len();
             observed.windows.push(Begin { first, ..Begin::default() });
-            for bit in [&mut start, &mut acquire, &mut valid, &mut stop] {
-                bit.before = None;
-            }
+            probes.begin_window();
             numbers.across = observed.windows.len() > 1;
         }
-        if numbers.across && counter.is_none() {
+        if numbers.across && probes.counter.is_none() {
             let expected = "has several windows, and does not show how many shots lie between \
                 them; probe frame_ctrl.shots";
             return Err(Input::new(&capture.name, expected).into());
         }
         observed.pins.sample(sample.index, probed);
-        let counted = counter.and_then(|counter| probed.value(counter));
-        let (acquires, acquired) = acquire.sample(probed);
+        let counted = probes.counter.and_then(|counter| probed.value(counter));
+        let (acquires, acquired) = probes.acquire.sample(probed);
         numbers.frame(counted, acquires, acquired);
-        if start.pulse(probed, &observed.timebase) {
+        if probes.start.pulse(probed, &observed.timebase) {
             let number = numbers.start(counted);
             let (start, window) = (sample.index as i64, observed.windows.len());
             observed.shots.push(Shot { number, window, start, ..Shot::default() });
         }
-        let (is_high, was_high) = stop.sample(probed);
+        let (is_high, was_high) = probes.stop.sample(probed);
         is_early |= is_high && observed.shots.is_empty();
-        let is_valid = valid.pulse(probed, &observed.timebase);
-        let value = code.and_then(|code| probed.value(code));
+        let is_valid = probes.valid.pulse(probed, &observed.timebase);
+        let value = probes.code.and_then(|code| probed.value(code));
         let Some(begin) = observed.windows.last_mut() else { continue };
         let (shots, at) = (&mut observed.shots[begin.first..], sample.index as i64);
         if is_high && !was_high {
@@ -196,7 +154,7 @@ pub(super) fn observe(
     observed.period = period(&observed, pace.periods);
     observed.per_frame = numbers.per_frame.or_else(|| first_pause(&observed, pace));
     observed.add_earlier(pace);
-    observed.add_notes(counter.is_some() || numbers.begun, is_early);
+    observed.add_notes(probes.counter.is_some() || numbers.begun, is_early);
     Ok(Some(observed))
 }
 
@@ -255,49 +213,8 @@ impl Observed {
     pub(super) fn is_continuous(&self) -> bool {
         self.timebase.steady && self.windows.len() == 1
     }
-
-    /// Adds the shots before the first of each window, as far as the windows show them.
-    fn add_earlier(&mut self, pace: Pace<'_>) {
-        let Some(period) = self.period else { return };
-        for begin in self.windows.clone().into_iter().rev() {
-            if begin.first < self.shots.len() {
-                self.add_before(Pace { period, ..pace }, begin);
-            }
-        }
-    }
-
-    /// Adds the shots before the first of a window, as far as it shows them, and the code that the TDC still holds.
-    fn add_before(&mut self, pace: Pace<'_>, Begin { first: place, stops, codes, held }: Begin) {
-        let first = self.shots[place].clone();
-        let last = place.checked_sub(1).map(|last| self.shots[last].number);
-        let [to_code, period] =
-            [pace.to_code, pace.period].map(|cycles| (cycles * self.timebase.per_cycle) as i64);
-        let begin = |back: i64| first.start - back * period;
-        // By how many shots before the first.
-        let mut earlier = BTreeMap::<i64, Shot>::new();
-        if !stops.is_empty() {
-            earlier.entry(1).or_default().stops = stops;
-        }
-        for (code, at) in codes {
-            let back = (begin(0) + to_code - at + period - 1).div_euclid(period).max(1);
-            earlier.entry(back).or_default().code = Some((code, at));
-        }
-        if let Some(code) = held.filter(|&code| code > 0) {
-            let shot = earlier.entry(HELD_SINCE).or_default();
-            shot.code = shot.code.or(Some((code, begin(HELD_SINCE) + to_code)));
-        }
-        for (back, shot) in earlier {
-            let number = first.number.checked_sub(back as u64);
-            let is_new = |&number: &u64| last.is_none_or(|last| number > last);
-            if let Some(number) = number.filter(is_new) {
-                self.shots.insert(place, Shot { number, start: begin(back), ..shot });
-            }
-        }
-    }
 }
 
-/// Assumed number of shots from the one whose code is held as the capture begins to the first one.
-const HELD_SINCE: i64 = 3;
 /// Returns the number of shots before the first pause between frames, if the capture does not show the number per
 /// frame.
 fn first_pause(observed: &Observed, pace: Pace) -> Option<u64> {

@@ -34,7 +34,7 @@ pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
         axis: Axis::Samples,
         signals: columns.map(|(id, column)| signal(column, id)).collect(),
         end: None,
-        radix_told: opened.radix_told,
+        radix_stated: opened.radix_stated,
         notes: opened.notes,
         origin: Arc::new(Origin { path: path.to_owned(), radix }),
         by_last: OnceLock::new(),

@@ -8,19 +8,18 @@ use tofsim::error::{Error, Input, Result};
 
 use super::bytes::Bytes;
 
-/// The last time of the VCD at `path`, in its ticks, if it says.
+/// Returns the last time of the VCD at `path`, in its ticks, if it has one.
 ///
 /// # Errors
-/// When the file cannot be read, or time goes back.
+/// If the file cannot be read, or time goes back.
 pub(super) fn end(path: &Path) -> Result<Option<u64>> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     vcd(path, Bytes::new(file))
 }
 
-/// The last time stamp of a VCD.
+/// Returns the last time stamp of a VCD, and checks that time does not go back.
 ///
-/// The library that reads the values takes the order of time for granted: where it goes back, it
-/// prints a line on standard output and leaves changes out.
+/// The library assumes that times are in order: otherwise it prints a line on standard output and omits changes.
 fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
     let mut words = Words { line: 1, ..Words::default() };
     let fault = |(line, expected)| Input::new(path.display(), expected).at(line, 1);
@@ -37,32 +36,32 @@ fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
     }
 }
 
-/// A fault in a VCD, with its line.
+/// Line number of an error in a VCD, and what was expected.
 type Fault = (usize, String);
 
-/// The words of a VCD, which come in blocks of any length.
+/// Parser of a VCD's words, which receives the text in blocks of any length.
 #[derive(Debug, Default)]
 struct Words {
-    /// Counted from 1.
+    /// Line number, from 1.
     line: usize,
     word: Word,
-    /// Whether the words are those of a command.
+    /// Whether the parser is within a command.
     in_command: bool,
     /// Whether the next word is a signal's name.
     is_name: bool,
     last: Option<u64>,
 }
 
-/// The word under way.
+/// The word being parsed.
 #[derive(Debug, Default, PartialEq, Eq)]
 enum Word {
-    /// There is none.
+    /// No word.
     #[default]
     None,
     /// Neither time stamp nor command.
     Other,
-    /// A time stamp or a command, as far as it has come.
-    Telling(Vec<u8>),
+    /// Text of a time stamp or a command, so far.
+    StampOrCommand(Vec<u8>),
 }
 
 impl Words {
@@ -78,35 +77,35 @@ impl Words {
             }
             let end = rest.iter().position(u8::is_ascii_whitespace);
             let (word, behind) = rest.split_at(end.unwrap_or(rest.len()));
-            if let Word::Telling(text) = &mut self.word {
+            if let Word::StampOrCommand(text) = &mut self.word {
                 text.extend_from_slice(word);
             }
             if end.is_none() {
                 return Ok(());
             }
-            if let Word::Telling(text) = std::mem::take(&mut self.word) {
-                self.told(&text)?;
+            if let Word::StampOrCommand(text) = std::mem::take(&mut self.word) {
+                self.parse_stamp_or_command(&text)?;
             }
             rest = behind;
         }
     }
 
-    /// Whether a word begins with that byte; an end of line is counted.
+    /// Returns whether a word begins with the byte, and counts lines.
     #[inline]
     fn begins(&mut self, byte: u8) -> bool {
         self.line += usize::from(byte == b'\n');
         !byte.is_ascii_whitespace()
     }
 
-    /// What the word that begins with that byte is.
+    /// Returns the kind of the word that begins with the byte.
     #[inline]
     fn kind(&mut self, first: u8) -> Word {
         let is_name = std::mem::take(&mut self.is_name);
         match first {
             _ if is_name => Word::Other,
-            b'$' => Word::Telling(Vec::new()),
+            b'$' => Word::StampOrCommand(Vec::new()),
             _ if self.in_command => Word::Other,
-            b'#' => Word::Telling(Vec::new()),
+            b'#' => Word::StampOrCommand(Vec::new()),
             _ => {
                 self.is_name = matches!(first, b'b' | b'B' | b'r' | b'R' | b's' | b'S');
                 Word::Other
@@ -114,7 +113,7 @@ impl Words {
         }
     }
 
-    fn told(&mut self, word: &[u8]) -> std::result::Result<(), Fault> {
+    fn parse_stamp_or_command(&mut self, word: &[u8]) -> std::result::Result<(), Fault> {
         match word {
             b"$end" => self.in_command = false,
             [b'$', ..] => self.in_command |= !word.starts_with(b"$dump"),
@@ -131,12 +130,16 @@ impl Words {
     }
 }
 
-/// The time behind a `#`, or what was expected.
+/// Parses the time after a `#`.
+///
+/// # Errors
+/// Description of what was expected.
 fn stamp(digits: &[u8]) -> std::result::Result<u64, &'static str> {
     let text = std::str::from_utf8(digits).unwrap_or_default();
-    match text.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
-        true => Err("expected a time behind #"),
-        false => text.parse().map_err(|_| "expected a time below 2^64"),
+    if text.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
+        Err("expected a time behind #")
+    } else {
+        text.parse().map_err(|_| "expected a time below 2^64")
     }
 }
 

@@ -43,9 +43,10 @@ impl Style {
                 continue;
             };
             // A name is escaped for its brackets; the library takes those of `P[1]` for a range.
-            let whole = match signal.width == 1 && !escaped.contains('[') {
-                true => format!("{escaped}[{}]", std::mem::take(&mut signal.lsb)),
-                false => escaped.to_owned(),
+            let whole = if signal.width == 1 && !escaped.contains('[') {
+                format!("{escaped}[{}]", std::mem::take(&mut signal.lsb))
+            } else {
+                escaped.to_owned()
             };
             signal.name = Name::new(whole);
         }

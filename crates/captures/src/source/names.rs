@@ -33,9 +33,10 @@ impl Name {
 
     /// Returns the number of parts of the shorter name, if the longer one ends with them.
     pub fn common(&self, other: &Name) -> Option<usize> {
-        let (long, short) = match self.parts.len() >= other.parts.len() {
-            true => (&self.parts, &other.parts),
-            false => (&other.parts, &self.parts),
+        let (long, short) = if self.parts.len() >= other.parts.len() {
+            (&self.parts, &other.parts)
+        } else {
+            (&other.parts, &self.parts)
         };
         (!short.is_empty() && long.ends_with(short)).then_some(short.len())
     }

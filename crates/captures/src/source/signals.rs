@@ -8,7 +8,7 @@ use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
 
 use crate::ila::Radix;
-use crate::ila::read::State;
+use crate::ila::read::NamedValue;
 
 use super::names::Name;
 use super::stream::Cursor;
@@ -92,7 +92,7 @@ pub struct Words {
     /// Whether the source has numbers among the words.
     pub mixed: bool,
     /// Known words, with their values if the source states them.
-    pub states: Vec<State>,
+    pub states: Vec<NamedValue>,
 }
 
 /// A signal under one of its names.
@@ -121,7 +121,7 @@ pub struct Signal {
 pub struct Source {
     /// Path, or name of the scenario.
     pub name: String,
-    /// What it is.
+    /// Format of the source.
     pub format: SourceFormat,
     /// Unit of its places.
     pub axis: Axis,
@@ -129,8 +129,8 @@ pub struct Source {
     pub signals: Vec<Signal>,
     /// Last place, if the source states it.
     pub end: Option<u64>,
-    /// Whether it states the radix of values, if that matters.
-    pub radix_told: bool,
+    /// Whether the source states the radix of values, if that matters.
+    pub radix_stated: bool,
     /// Notes on deviations from the usual format, and on values taken from another part.
     pub notes: Vec<String>,
     pub(super) origin: Arc<dyn Origin>,

@@ -51,7 +51,7 @@ pub(super) fn source(setup: Setup, frames: Option<u64>) -> Source {
         axis: Axis::Time(Tick::FEMTOSECOND),
         signals: signals.collect(),
         end: None,
-        radix_told: true,
+        radix_stated: true,
         notes: Vec::new(),
         origin: Arc::new(Origin { setup: Arc::new(setup), frames }),
         by_last: OnceLock::new(),

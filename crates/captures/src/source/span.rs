@@ -1,34 +1,34 @@
-//! Bytes of a binary waveform, looked through before a library makes room for what they say.
+//! Parser for the checks of binary waveforms.
 
 use std::io;
 use std::path::Path;
 
 use tofsim::error::{Error, Input};
 
-/// Why a binary waveform is not read.
+/// Reason why a binary waveform is refused.
 #[derive(Debug)]
 pub(super) enum Fault {
     /// The file cannot be read.
     Io(io::Error),
-    /// A number in it, or what is wrong with it.
+    /// Invalid field, with its value if it is a number.
     Wrong { field: String, value: Option<u64>, expected: String },
 }
 
-/// What a check finds.
+/// Result of a check.
 pub(super) type Checked<T> = std::result::Result<T, Fault>;
 
 impl Fault {
-    /// That `field` has a value that it cannot have.
+    /// Creates a fault for a value that `field` cannot have.
     pub(super) fn value(field: &str, value: u64, expected: impl Into<String>) -> Fault {
         Fault::Wrong { field: field.to_owned(), value: Some(value), expected: expected.into() }
     }
 
-    /// That something is wrong with `field`.
+    /// Creates a fault for `field` without a value.
     pub(super) fn of(field: &str, expected: &str) -> Fault {
         Fault::Wrong { field: field.to_owned(), value: None, expected: expected.to_owned() }
     }
 
-    /// The same of a field within another.
+    /// Prefixes the field with the one that contains it.
     pub(super) fn within(self, whole: &str) -> Fault {
         match self {
             Fault::Wrong { field, value, expected } => {
@@ -38,7 +38,7 @@ impl Fault {
         }
     }
 
-    /// The error about the file at `path`.
+    /// Converts the fault to an error about the file at `path`.
     pub(super) fn of_file(self, path: &Path) -> Error {
         match self {
             Fault::Io(error) => Error::io(path, "read")(error),
@@ -56,20 +56,21 @@ impl From<io::Error> for Fault {
     }
 }
 
-/// That `value` is `most` at most.
+/// Checks that `value` is at most `most`.
 pub(super) fn at_most(field: &str, value: u64, most: u64) -> Checked<u64> {
-    match value <= most {
-        true => Ok(value),
-        false => Err(Fault::value(field, value, format!("expected {most} at most"))),
+    if value <= most {
+        Ok(value)
+    } else {
+        Err(Fault::value(field, value, format!("expected {most} at most")))
     }
 }
 
-/// Bytes that are taken one after the other.
+/// Bytes that are parsed sequentially.
 #[derive(Clone, Debug)]
 pub(super) struct Span<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// What they are, for an error.
+    /// Name of the bytes in errors.
     what: &'static str,
 }
 
@@ -78,12 +79,12 @@ impl<'a> Span<'a> {
         Span { bytes, at: 0, what }
     }
 
-    /// How many have been taken.
+    /// Returns the number of bytes parsed.
     pub(super) fn place(&self) -> usize {
         self.at
     }
 
-    /// How many are left.
+    /// Returns the number of bytes left.
     pub(super) fn left(&self) -> u64 {
         (self.bytes.len() - self.at) as u64
     }
@@ -101,7 +102,7 @@ impl<'a> Span<'a> {
         Ok(self.take(1)?[0])
     }
 
-    /// A number in groups of seven bits, the lowest first.
+    /// Parses an unsigned LEB128 integer.
     #[inline]
     pub(super) fn number(&mut self) -> Checked<u64> {
         let mut number = 0;
@@ -115,7 +116,7 @@ impl<'a> Span<'a> {
         Err(Fault::of(self.what, "expected a number of 64 bits at most"))
     }
 
-    /// The same in two's complement.
+    /// Parses a signed LEB128 integer.
     pub(super) fn signed(&mut self) -> Checked<i64> {
         let begin = self.at;
         let number = self.number()?;
@@ -123,13 +124,13 @@ impl<'a> Span<'a> {
         Ok((number << unused) as i64 >> unused)
     }
 
-    /// A number that says how many things follow, of a byte each or more.
+    /// Parses the number of items that follow, of at least one byte each.
     pub(super) fn count(&mut self, field: &str) -> Checked<u64> {
         let count = self.number()?;
         at_most(field, count, self.left()).map_err(|fault| fault.within(self.what))
     }
 
-    /// A text up to a zero.
+    /// Parses a zero-terminated text.
     pub(super) fn text(&mut self) -> Checked<&'a [u8]> {
         let rest = &self.bytes[self.at..];
         let length = rest.iter().position(|&byte| byte == 0);
@@ -139,7 +140,7 @@ impl<'a> Span<'a> {
     }
 }
 
-/// Eight bytes as a number, the highest first.
+/// Converts eight bytes, most significant first.
 pub(super) fn word(bytes: &[u8]) -> u64 {
     bytes.iter().take(8).fold(0, |word, &byte| word << 8 | u64::from(byte))
 }

@@ -57,7 +57,7 @@ pub struct Feed {
 
 /// Indication that the receiving end has been dropped, so that reading should stop.
 #[derive(Clone, Copy, Debug)]
-pub struct Gone;
+pub struct Disconnected;
 
 impl Feed {
     /// Sets the place of the changes that follow, which must not decrease.
@@ -65,7 +65,7 @@ impl Feed {
     /// # Errors
     /// If the receiving end has been dropped.
     #[inline]
-    pub fn at(&mut self, at: u64) -> std::result::Result<(), Gone> {
+    pub fn at(&mut self, at: u64) -> std::result::Result<(), Disconnected> {
         if self.at.is_some_and(|(now, _)| now == at) {
             return Ok(());
         }
@@ -95,14 +95,14 @@ impl Feed {
         self.words[signal]
     }
 
-    fn end(&mut self) -> std::result::Result<(), Gone> {
+    fn end(&mut self) -> std::result::Result<(), Disconnected> {
         let Some((at, marks)) = self.at.take() else { return Ok(()) };
         let end = self.block.changes.len();
         self.block.instants.push(Instant { at, marks, end });
         if self.block.words.len() + self.block.instants.len() < BLOCK {
             return Ok(());
         }
-        self.blocks.send(Ok(std::mem::take(&mut self.block))).map_err(|_| Gone)
+        self.blocks.send(Ok(std::mem::take(&mut self.block))).map_err(|_| Disconnected)
     }
 
     fn finish(mut self, result: Result<()>) {

@@ -20,7 +20,7 @@ use super::locate::located;
 use super::marks::{Marking, Style};
 use super::names::Name;
 use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, WIDEST, Words};
-use super::stream::{Cursor, Feed, Gone};
+use super::stream::{Cursor, Disconnected, Feed};
 use super::tick::Tick;
 
 /// Path and format of a waveform.
@@ -90,7 +90,7 @@ fn described(
         axis,
         signals,
         end: end.filter(|_| marks.is_none()),
-        radix_told: marks.is_none(),
+        radix_stated: marks.is_none(),
         notes: Vec::new(),
         origin: Arc::new(Origin { path: path.to_owned(), format, references, marks }),
         by_last: OnceLock::new(),
@@ -157,7 +157,7 @@ fn stream(origin: &Origin, references: &[SignalRef], feed: &mut Feed) -> Result<
     let result = wave.stream_changes(Filter::include_signals(&wanted), |at, reference, value| {
         is_back |= at < last;
         if is_back {
-            return Err(Gone);
+            return Err(Disconnected);
         }
         last = at;
         feed.at(at)?;
@@ -170,14 +170,14 @@ fn stream(origin: &Origin, references: &[SignalRef], feed: &mut Feed) -> Result<
             set(&mut bits, value, feed.words(signal));
             feed.change(signal, &bits.value, &bits.unknown);
         }
-        Ok::<(), Gone>(())
+        Ok::<(), Disconnected>(())
     });
     if is_back {
         let expected = format!("time goes back from {last}");
         return Err(Input::new(origin.path.display(), expected).into());
     }
     match result {
-        Ok(()) | Err(StreamError::Callback(Gone)) => Ok(()),
+        Ok(()) | Err(StreamError::Callback(Disconnected)) => Ok(()),
         Err(StreamError::Wellen(error)) => Err(fault(&origin.path, error)),
     }
 }

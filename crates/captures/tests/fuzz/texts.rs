@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use proptest::sample::select;
 
 use tofsim_captures::compare::SignalMap;
-use tofsim_captures::condition::{Condition, Level, Place};
+use tofsim_captures::condition::{Condition, Level, Operand};
 use tofsim_captures::ila::AnalyserSetup;
 
 use super::edit::{edited, edits};
@@ -93,8 +93,8 @@ fn conditions_of_words_in_any_order() {
     fuzz((words, any::<bool>()), |(words, spaced)| {
         let text = words.join(if spaced { " " } else { "" });
         let place = |name: &str| match name {
-            "a" => Ok(Place { index: 0, width: 1, signed: false }),
-            "b" => Ok(Place { index: 1, width: 8, signed: true }),
+            "a" => Ok(Operand { index: 0, width: 1, signed: false }),
+            "b" => Ok(Operand { index: 1, width: 8, signed: true }),
             _ => Err(tofsim::error::Input::new("names", "no such signal").value(name).into()),
         };
         let bound = Condition::parse("--trigger", &text).and_then(|c| c.bind(&mut { place }));

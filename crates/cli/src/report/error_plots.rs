@@ -19,7 +19,7 @@ const ALLOWED: Limit =
 
 /// The spread that the thesis's network has.
 const LINE: Limit = Limit {
-    name: "2σ of the thesis's float network (Table 5.5)",
+    name: "2σ for the thesis's float network (Table 5.5)",
     mm: thesis::line_two_sd_mm,
     colour: RED,
 };

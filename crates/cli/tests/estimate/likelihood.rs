@@ -41,7 +41,7 @@ fn the_table_fits_a_terminal_and_says_the_status_in_words() {
     assert!(text.contains(head) && text.contains("integers: to be believed"), "{text}");
     assert!(text.lines().skip(1).all(|line| line.chars().count() <= 80), "{text}");
     assert!(!text.contains("l1_in"), "{text}");
-    let none = explained(&["-s", "estimator.told_shots=65535"]);
+    let none = explained(&["-s", "estimator.assumed_shots=65535"]);
     assert!(none.contains("integers: not to be believed: another echo, no fit"), "{none}");
     let both = stdout(
         folder.path(),

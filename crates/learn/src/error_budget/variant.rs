@@ -47,8 +47,8 @@ impl Variant {
         // Without pile-up the light comes in the most shots that an estimator can be told of: so faint a shot has as
         // good as none.
         let told_shots = if effects.has(Effect::PileUp) { shots } else { MOST_SHOTS };
-        if told_shots != shots && loaded.scenario.estimator.told_shots == 0 {
-            loaded.scenario.estimator.told_shots = told_shots;
+        if told_shots != shots && loaded.scenario.estimator.assumed_shots == 0 {
+            loaded.scenario.estimator.assumed_shots = told_shots;
         }
         let mut setup = Setup::of_counts(loaded)?;
         let has_errors =

@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 
 use super::answers::{attachment, fault};
 use super::shared::Shared;
-use crate::engine::NoAnswer;
+use crate::engine::RequestError;
 use crate::session::Reply;
 use crate::session::request::Request;
 
@@ -57,8 +57,10 @@ pub async fn ask(shared: &Shared, request: Request) -> Response {
             ([(CONTENT_TYPE, "application/json")], state.to_string()).into_response()
         }
         Ok(Reply::File(file)) => attachment(&file),
-        Err(NoAnswer::Refused(error)) => fault(StatusCode::BAD_REQUEST, &error.to_string()),
-        Err(NoAnswer::Busy) => fault(StatusCode::SERVICE_UNAVAILABLE, "too many requests wait"),
-        Err(NoAnswer::Gone) => fault(StatusCode::INTERNAL_SERVER_ERROR, "the simulation has ended"),
+        Err(RequestError::Refused(error)) => fault(StatusCode::BAD_REQUEST, &error.to_string()),
+        Err(RequestError::Busy) => fault(StatusCode::SERVICE_UNAVAILABLE, "too many requests wait"),
+        Err(RequestError::Disconnected) => {
+            fault(StatusCode::INTERNAL_SERVER_ERROR, "the simulation has ended")
+        }
     }
 }

@@ -121,10 +121,7 @@ impl Session {
         scene::lay_over(&mut scene, asked)?;
         let before = std::mem::replace(&mut self.scene, scene);
         let is_new = self.live.device().cycle() == 0 && self.changes.is_empty();
-        let changed = match is_new && !self.ila.is_armed() {
-            true => self.power_up(),
-            false => self.prepare(),
-        };
+        let changed = if is_new && !self.ila.is_armed() { self.power_up() } else { self.prepare() };
         match changed {
             Ok(()) => self.exact &= is_new && !self.ila.is_armed(),
             Err(_) => self.scene = before,

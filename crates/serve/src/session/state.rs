@@ -26,7 +26,6 @@ impl Session {
         let setup = &instrument.setup;
         let period = setup.params.vcsel_driver.period(self.pins.laser_freq);
         let cycle_s = setup.cycle().seconds();
-        let top = &self.live.device().top;
         let notes = instrument.notes.iter().map(ToString::to_string);
         let bin_s = setup.scenario.tdc.bin_ps * 1e-12;
         let view = View {
@@ -39,13 +38,7 @@ impl Session {
             running: self.running,
             fault: self.fault.as_deref(),
             held: self.held(),
-            control: ControlView {
-                laser_freq: self.pins.laser_freq.get(),
-                mode: self.pins.mode.into(),
-                laser_en: self.pins.laser_en,
-                dsp_en: self.pins.dsp_en,
-                dsp_rst: self.pins.dsp_rst,
-            },
+            control: ControlView::of(&self.pins),
             rates: &self.rates,
             laser_fixed: self
                 .origin
@@ -55,18 +48,7 @@ impl Session {
             scene_coming: scene::differ(setup, &self.now.setup),
             scene_fixed: self.scene_fixed(),
             frame: self.frame.as_ref(),
-            progress: ProgressView {
-                frame: self.live.done(),
-                phase: match top.frame_ctrl.state() {
-                    State::Clear => "Clear",
-                    State::Acquire => "Acquire",
-                    State::Drain => "Drain",
-                    State::Estimate => "Estimate",
-                },
-                shots: self.live.shots_of_frame(),
-                of: setup.shots(1),
-                abandoned: self.live.abandoned(),
-            },
+            progress: self.progress(setup),
             strip: self.strip.points(),
             notes: notes.chain(self.frame_notes.iter().cloned()).collect(),
             time: TimeView {
@@ -89,12 +71,24 @@ impl Session {
         serde_json::to_string(&view).unwrap_or_default().into()
     }
 
+    fn progress(&self, setup: &Setup) -> ProgressView {
+        ProgressView {
+            frame: self.live.done(),
+            phase: match self.live.device().top.frame_ctrl.state() {
+                State::Clear => "Clear",
+                State::Acquire => "Acquire",
+                State::Drain => "Drain",
+                State::Estimate => "Estimate",
+            },
+            shots: self.live.shots_of_frame(),
+            of: setup.shots(1),
+            abandoned: self.live.abandoned(),
+        }
+    }
+
     /// Returns the control signals, which the scenario may change too.
     pub(super) fn pins(&self) -> Pins {
-        match self.live.is_changing() {
-            true => self.pins,
-            false => self.live.device().top.pins,
-        }
+        if self.live.is_changing() { self.pins } else { self.live.device().top.pins }
     }
 
     /// Returns the reason why the control signals prevent a frame from ending, if they do.
@@ -139,6 +133,18 @@ impl Session {
         switch("dsp_en", pins.dsp_en.into(), base.dsp_en.into(), true);
         switch("dsp_rst", pins.dsp_rst.into(), base.dsp_rst.into(), true);
         Ok(Arc::new(Setup::new(self.options.load(&further)?)?))
+    }
+}
+
+impl ControlView {
+    fn of(pins: &Pins) -> Self {
+        ControlView {
+            laser_freq: pins.laser_freq.get(),
+            mode: pins.mode.into(),
+            laser_en: pins.laser_en,
+            dsp_en: pins.dsp_en,
+            dsp_rst: pins.dsp_rst,
+        }
     }
 }
 

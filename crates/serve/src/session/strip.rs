@@ -11,7 +11,7 @@ const KEPT: usize = 240;
 
 /// Depths of a frame.
 #[derive(Clone, Debug, Serialize)]
-pub struct Point {
+pub struct StripPoint {
     /// Number of the frame, from 0.
     pub frame: u64,
     /// Distance of the target, if a depth can be the target's [m].
@@ -24,7 +24,7 @@ pub struct Point {
 
 /// Depths of the last frames, oldest first.
 #[derive(Clone, Debug, Default)]
-pub struct Strip(VecDeque<Point>);
+pub struct Strip(VecDeque<StripPoint>);
 
 impl Strip {
     /// Adds a frame, and drops the oldest if there are too many.
@@ -40,7 +40,7 @@ impl Strip {
         }
         let depths_m = depths.iter().map(|depth| depth.estimate.depth_m.map(rounded)).collect();
         let bound_two_sd_mm = bound_two_sd_mm.map(rounded);
-        self.0.push_back(Point { frame, true_m, depths_m, bound_two_sd_mm });
+        self.0.push_back(StripPoint { frame, true_m, depths_m, bound_two_sd_mm });
     }
 
     /// Removes all frames.
@@ -49,7 +49,7 @@ impl Strip {
     }
 
     /// Returns the frames.
-    pub fn points(&self) -> &VecDeque<Point> {
+    pub fn points(&self) -> &VecDeque<StripPoint> {
         &self.0
     }
 }

@@ -6,7 +6,7 @@ use super::analyser::{IlaView, SetUpView};
 use super::causes::Layer;
 use super::instrument::Depth;
 use super::scene::Slider;
-use super::strip::Point;
+use super::strip::StripPoint;
 
 /// Schema version of the object.
 pub const SCHEMA: &str = "tofsim.page/1";
@@ -49,7 +49,7 @@ pub struct View<'a> {
     /// Progress of the present frame.
     pub progress: ProgressView,
     /// Depths of the last frames.
-    pub strip: &'a std::collections::VecDeque<Point>,
+    pub strip: &'a std::collections::VecDeque<StripPoint>,
     /// Notes on the results.
     pub notes: Vec<String>,
     /// Simulation speed.

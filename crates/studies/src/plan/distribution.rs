@@ -17,7 +17,7 @@ pub enum Quantiles {
         sd: f64,
         /// Cumulative probabilities at the ends of the interval.
         parts: [f64; 2],
-        /// Whether it is the distribution of the logarithm.
+        /// Whether this is the distribution of the logarithm.
         is_log: bool,
     },
     /// Triangular: lower limit, mode, upper limit.

@@ -1,9 +1,7 @@
 //! Alignment for best agreement, over all offsets at once by Fourier transforms.
 
-use std::sync::Arc;
+mod matcher;
 
-use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
 use vcd::Value;
 
 use tofsim::error::{Input, Result};
@@ -17,6 +15,7 @@ use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
 use super::survey::survey;
 use crate::words::Bits;
+use matcher::Matcher;
 
 /// Longest sequence that is searched for [samples].
 pub(super) const LONGEST: u64 = 1 << 17;
@@ -104,24 +103,12 @@ pub(super) struct Search {
 /// Returns the best offsets, best first.
 pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
     let mut probe = PairBits::new(plan, signals)?;
-    let pieces = [search.piece.clone()];
-    let mut needle = Rows::new();
-    let mut selected = Selected::new(plan.samples(search.side)?, &pieces);
-    while let Some(place) = selected.next()? {
-        if place.sample.held || needle.len() as u64 == LONGEST {
-            break;
-        }
-        needle.push(probe.row(search.side, &selected.samples.state));
-    }
-    if needle.len() < 2 {
-        let source = &plan.sources[search.side].name;
-        return Err(Input::new(source, "expected at least two samples to align by").into());
-    }
-    let length = needle.len();
+    let template = template(plan, search, &mut probe)?;
+    let length = template.len();
     let hang = if search.overhangs { length / 2 } else { 0 };
-    let mut matcher = Matcher::new(needle, probe.width);
+    let mut matcher = Matcher::new(template, probe.width);
     let unknown = vec![0; probe.width];
-    let mut hay = vec![unknown.clone(); hang];
+    let mut chunk = vec![unknown.clone(); hang];
     let other = 1 - search.side;
     let mut samples = plan.samples(other)?;
     let mut base = -(hang as i64);
@@ -131,37 +118,55 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
     let mut goes_on = true;
     let mut end = SearchEnd::new(plan, other, length)?;
     while goes_on {
-        match samples.next()?.filter(|&sample| !sample.held && end.takes(sample)) {
+        match samples.next()?.filter(|&sample| !sample.is_extended && end.takes(sample)) {
             Some(sample) if sample.index < search.from || !plan.is_looked_at(other, sample) => {}
             Some(sample) => {
                 first.get_or_insert(sample.index);
                 taken += 1;
-                hay.push(probe.row(other, &samples.state));
+                chunk.push(probe.row(other, &samples.state));
             }
             None if end.is_reached() => goes_on = false,
             None => {
-                hay.resize(hay.len() + hang, unknown.clone());
+                chunk.resize(chunk.len() + hang, unknown.clone());
                 goes_on = false;
             }
         }
-        while hay.len() >= if goes_on { matcher.size } else { length } {
-            matcher.scan(&hay, base, &mut best);
-            let step = (matcher.size - length + 1).min(hay.len());
-            hay.drain(..step);
+        while chunk.len() >= if goes_on { matcher.size } else { length } {
+            matcher.scan(&chunk, base, &mut best);
+            let step = (matcher.size - length + 1).min(chunk.len());
+            chunk.drain(..step);
             base += step as i64;
         }
     }
-    let first = first.unwrap_or(0) as i64;
+    let (first, width) = (first.unwrap_or(0) as i64, probe.width as u64);
     for candidate in &mut best {
         let begin = candidate.offset.max(0);
         let end = (candidate.offset + length as i64).min(taken as i64);
-        candidate.compared = (end - begin).max(0) as u64 * probe.width as u64;
-        let outside = length as u64 * probe.width as u64 - candidate.compared;
+        candidate.compared = (end - begin).max(0) as u64 * width;
+        let outside = length as u64 * width - candidate.compared;
         candidate.differing = candidate.differing.saturating_sub(outside / 2);
         candidate.offset += first;
     }
     best.sort_by(|a, b| a.rate().total_cmp(&b.rate()).then(b.compared.cmp(&a.compared)));
     Ok(best)
+}
+
+/// Reads the sequence to search for.
+fn template(plan: &Plan, search: &Search, probe: &mut PairBits) -> Result<Rows> {
+    let pieces = [search.piece.clone()];
+    let mut template = Rows::new();
+    let mut selected = Selected::new(plan.samples(search.side)?, &pieces);
+    while let Some(place) = selected.next()? {
+        if place.sample.is_extended || template.len() as u64 == LONGEST {
+            break;
+        }
+        template.push(probe.row(search.side, &selected.samples.state));
+    }
+    if template.len() < 2 {
+        let source = &plan.sources[search.side].name;
+        return Err(Input::new(source, "expected at least two samples to align by").into());
+    }
+    Ok(template)
 }
 
 /// End of the search on a side of unlimited length.
@@ -193,56 +198,6 @@ impl SearchEnd {
     }
 }
 
-/// Searches chunks of one sequence for another.
-struct Matcher {
-    needle: Rows,
-    /// Bits per sample.
-    width: usize,
-    size: usize,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
-}
-
-impl Matcher {
-    fn new(needle: Rows, width: usize) -> Self {
-        let size = (4 * needle.len()).next_power_of_two();
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
-        Matcher { needle, width, size, forward, inverse }
-    }
-
-    /// Ranks the offsets at which the sequence lies within the chunk that begins at sample `base`.
-    fn scan(&mut self, hay: &Rows, base: i64, best: &mut Vec<Candidate>) {
-        let zero = Complex::new(0.0, 0.0);
-        let mut product = vec![zero; self.size];
-        let mut both = vec![zero; self.size];
-        for bit in 0..self.width {
-            both.fill(zero);
-            both.iter_mut().zip(&self.needle).for_each(|(z, row)| z.re = f64::from(row[bit]));
-            both.iter_mut().zip(hay).for_each(|(z, row)| z.im = f64::from(row[bit]));
-            self.forward.process(&mut both);
-            for k in 0..self.size {
-                let (z, mirror) = (both[k], both[(self.size - k) % self.size].conj());
-                let (a, b) = ((z + mirror) * 0.5, (z - mirror) * Complex::new(0.0, -0.5));
-                product[k] += a.conj() * b;
-            }
-        }
-        self.inverse.process(&mut product);
-        let all = (self.needle.len() * self.width) as f64;
-        let offsets = (hay.len().min(self.size) + 1).saturating_sub(self.needle.len());
-        for (k, score) in product.iter().enumerate().take(offsets) {
-            let differing = ((all - score.re / self.size as f64) / 2.0).round().max(0.0) as u64;
-            let worst = best.last().map_or(u64::MAX, |worst| worst.differing);
-            if best.len() < KEPT || differing < worst {
-                let candidate = Candidate { offset: base + k as i64, differing, compared: 0 };
-                let place = best.partition_point(|other| other.differing <= differing);
-                best.insert(place, candidate);
-                best.truncate(KEPT);
-            }
-        }
-    }
-}
-
 /// Returns the best candidate, if it is unique: the second must differ in more than twice as many bits.
 ///
 /// # Errors
@@ -255,14 +210,14 @@ pub(super) fn decide(
     let Some(best) = candidates.first() else {
         return Err(Input::new("--align", format!("{what}: one side is too short")).into());
     };
-    let tell = |candidate: &Candidate| {
+    let describe = |candidate: &Candidate| {
         let Candidate { differing, compared, .. } = candidate;
         let offset = candidate.later(side);
         format!("{offset} ({differing} of {compared} bits differ)")
     };
     let near: Vec<_> = candidates.iter().filter(|c| c.rate() <= 2.0 * best.rate()).collect();
     if near.len() > 1 {
-        let list: Vec<_> = near.iter().take(LISTED).map(|candidate| tell(candidate)).collect();
+        let list: Vec<_> = near.iter().take(LISTED).map(|candidate| describe(candidate)).collect();
         let more = if near.len() > LISTED { " and more" } else { "" };
         let expected = format!(
             "ambiguous, {what} fits at several offsets: {}{more}; align by trigger, an edge or an \
@@ -272,20 +227,21 @@ pub(super) fn decide(
         return Err(Input::new("--align", expected).into());
     }
     if best.rate() > 0.25 {
-        let expected = format!("{what} fits nowhere; the best offset is {}", tell(best));
+        let expected = format!("{what} fits nowhere; the best offset is {}", describe(best));
         return Err(Input::new("--align", expected).into());
     }
-    let next = candidates.get(1).map(|next| format!("next best {}", tell(next)));
+    let next = candidates.get(1).map(|next| format!("next best {}", describe(next)));
     let next = next.unwrap_or("no other is near".to_owned());
-    Ok((*best, format!("correlation: offset {}; {next}", tell(best))))
+    Ok((*best, format!("correlation: offset {}; {next}", describe(best))))
 }
 
 /// Aligns both sides by one constant offset.
 pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     let (side, overhangs) = (plan.capture().unwrap_or(0), plan.capture().is_none());
-    let (windows, longest, what) = match overhangs {
-        true => (1, Some(LONGEST), "the first side"),
-        false => (survey(plan.sources[side])?.windows.len(), None, "the capture"),
+    let (windows, longest, what) = if overhangs {
+        (1, Some(LONGEST), "the first side")
+    } else {
+        (survey(plan.sources[side])?.windows.len(), None, "the capture")
     };
     if windows > 1 {
         let expected = format!(

@@ -130,7 +130,7 @@ fn find(
     mut wanted: impl FnMut(Sample, &SourceState) -> bool,
 ) -> Result<Option<Sample>> {
     let mut samples = plan.samples(side)?;
-    while let Some(sample) = samples.next()?.filter(|sample| !sample.held) {
+    while let Some(sample) = samples.next()?.filter(|sample| !sample.is_extended) {
         if wanted(sample, &samples.state) {
             return Ok(Some(sample));
         }

@@ -34,7 +34,7 @@ pub struct Survey {
 /// If it cannot be read.
 pub fn survey(source: &Source) -> Result<Survey> {
     let mut survey = Survey::default();
-    // Of a VCD, only the changes of all signals tell how far it goes.
+    // Of a VCD, only the changes of all signals describe how far it goes.
     let is_vcd = source.format == SourceFormat::IlaVcd;
     let count = if is_vcd { usize::MAX } else { 1 };
     let ids: Vec<usize> = source.signals.iter().take(count).map(|signal| signal.id).collect();
@@ -70,8 +70,9 @@ pub(super) fn windows_differ(a: &[Window], b: &[Window]) -> Option<String> {
 /// Describes different trigger positions in window `k`, if they differ.
 pub(super) fn triggers_differ(k: usize, a: &Window, b: &Window) -> Option<String> {
     let [a, b] = [a, b].map(|window| window.trigger.map(|at| at - window.first));
-    let tell = |at: Option<u64>| at.map_or("none".to_owned(), |at| at.to_string());
-    let places = || format!("at sample {} of the first, {} of the second", tell(a), tell(b));
+    let describe = |at: Option<u64>| at.map_or("none".to_owned(), |at| at.to_string());
+    let places =
+        || format!("at sample {} of the first, {} of the second", describe(a), describe(b));
     (a != b).then(|| format!("window {k}: trigger {}", places()))
 }
 

@@ -3,6 +3,7 @@
 
 use tofsim::error::{Input, Result};
 
+use crate::ila::Capture;
 use crate::ila::core::{Core, Shape};
 
 use super::super::find;
@@ -108,7 +109,7 @@ fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alig
 
 fn never(plan: &Plan, side: usize, last: Option<Sample>, found: usize, windows: usize) -> String {
     let after = plan.terms.after;
-    let end = last.map(|last| format!(" (it ends at {})", tell(plan, side, last)));
+    let end = last.map(|last| format!(" (it ends at {})", describe(plan, side, last)));
     let end = end.unwrap_or_default();
     match found {
         0 => format!("the trigger never comes after {after}{end}"),
@@ -116,7 +117,7 @@ fn never(plan: &Plan, side: usize, last: Option<Sample>, found: usize, windows: 
     }
 }
 
-fn tell(plan: &Plan, side: usize, sample: Sample) -> String {
+fn describe(plan: &Plan, side: usize, sample: Sample) -> String {
     Described::new(plan.sources[side]).place(sample.at)
 }
 
@@ -154,10 +155,12 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
             continue;
         }
         let triggers = trigger.sample(&samples.state);
-        match core.triggers().is_empty() {
-            true if triggers && core.is_filling() => early = early.or(Some(sample)),
-            true if !triggers => lost = lost.or(early),
-            _ => {}
+        if core.triggers().is_empty() {
+            if !triggers {
+                lost = lost.or(early);
+            } else if core.is_filling() {
+                early = early.or(Some(sample));
+            }
         }
         let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(&samples.state));
         core.sample(&[sample.index - skipped + missing], triggers, qualifies);
@@ -170,7 +173,7 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
             "the window would begin too early: the trigger at sample {} ({}) does not count, \
              because the capture has {position} samples before its trigger, and there are {before}",
             sample.index,
-            tell(plan, side, sample),
+            describe(plan, side, sample),
         )
     });
     if found < shape.windows {
@@ -178,18 +181,30 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
         let expected = early.map_or(never.clone(), |early| format!("{never}; {early}"));
         return Err(Input::new(&plan.sources[side].name, expected).into());
     }
+    let pieces = stored_pieces(&capture, skipped, missing, qualifier.is_some());
+    Ok(Stored { pieces, early })
+}
+
+/// Returns the samples of each window, and the number of its samples before the waveform's first. The words of
+/// `capture` number the samples, of which `missing` precede the waveform and `skipped` were left out at its start.
+fn stored_pieces(
+    capture: &Capture,
+    skipped: u64,
+    missing: u64,
+    is_qualified: bool,
+) -> Vec<(Piece, u64)> {
     let ends = capture.windows.iter().skip(1).copied().chain([capture.samples()]);
     let windows = capture.windows.iter().zip(ends).map(|(&begin, end)| {
         let numbers = &capture.words[begin..end];
         let lead = numbers.partition_point(|&number| number < missing);
         let kept = numbers[lead..].iter().map(|number| number - missing + skipped);
-        let piece = match (&qualifier, kept.clone().next()) {
-            (None, Some(first)) => Piece::Run(first, Some(kept.len() as u64)),
+        let piece = match kept.clone().next() {
+            Some(first) if !is_qualified => Piece::Run(first, Some(kept.len() as u64)),
             _ => Piece::Kept(kept.collect()),
         };
         (piece, lead as u64)
     });
-    Ok(Stored { pieces: windows.collect(), early })
+    windows.collect()
 }
 
 /// Returns the first sample of a waveform that triggers.

@@ -4,8 +4,8 @@
 //! compared. A window that differs in so many samples that none of its sections may be intact is compared at all
 //! positions, in a second pass.
 
-mod hay;
-mod needle;
+mod recent;
+mod template;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -16,8 +16,8 @@ use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
 use super::correlation::{KEPT, LONGEST, PairBits, Search, decide, search};
 use super::survey::survey;
-use hay::{hash, pass, power};
-use needle::{Needle, packed};
+use recent::{hash, pass, power};
+use template::{Template, packed};
 
 /// Number of windows that are listed individually.
 const LISTED: usize = 8;
@@ -32,12 +32,12 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     let capture: Vec<Piece> =
         windows.iter().map(|window| Piece::Run(window.first, window.count)).collect();
     let mut bits = PairBits::new(plan, signals)?;
-    let mut needles = needles(plan, side, &capture, &mut bits)?;
-    lay_over_seeds(plan, 1 - side, &mut needles, &mut bits)?;
-    lay_over_all(plan, 1 - side, &mut needles, &mut bits)?;
+    let mut templates = templates(plan, side, &capture, &mut bits)?;
+    lay_over_seeds(plan, 1 - side, &mut templates, &mut bits)?;
+    lay_over_all(plan, 1 - side, &mut templates, &mut bits)?;
     let (mut found, mut waveform, mut from) = (Vec::new(), Vec::new(), 0);
-    for (k, (needle, window)) in needles.iter().zip(&windows).enumerate() {
-        let candidates = match needle.candidates(from, bits.width) {
+    for (k, (template, window)) in templates.iter().zip(&windows).enumerate() {
+        let candidates = match template.candidates(from, bits.width) {
             Some(candidates) => candidates,
             None => {
                 let piece = Piece::Run(window.first, window.count);
@@ -61,19 +61,19 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     Ok(Alignment { pieces, found: found.join("\n"), ..Alignment::default() })
 }
 
-fn needles(
+fn templates(
     plan: &Plan,
     side: usize,
     windows: &[Piece],
     bits: &mut PairBits,
-) -> Result<Vec<Needle>> {
+) -> Result<Vec<Template>> {
     let mut selected = Selected::new(plan.samples(side)?, windows);
     let stride = 2 * bits.width.div_ceil(64);
-    let mut needles = Vec::new();
+    let mut templates = Vec::new();
     loop {
         let (mut rows, mut count) = (Vec::new(), 0);
         while let Some(place) = selected.next()? {
-            if place.sample.held || count == LONGEST {
+            if place.sample.is_extended || count == LONGEST {
                 break;
             }
             rows.extend(packed(&bits.row(side, &selected.samples.state)));
@@ -84,15 +84,15 @@ fn needles(
             let expected = "expected at least two samples of each window to align by";
             return Err(Input::new(source, expected).into());
         }
-        needles.push(Needle::new(rows, stride));
+        templates.push(Template::new(rows, stride));
         if !selected.next_piece() {
-            return Ok(needles);
+            return Ok(templates);
         }
     }
 }
 
-fn longest(needles: &[Needle]) -> usize {
-    needles.iter().map(Needle::length).max().unwrap_or(0)
+fn longest(templates: &[Template]) -> usize {
+    templates.iter().map(Template::length).max().unwrap_or(0)
 }
 
 /// For each hash, the windows with such a section, and the number of samples after it.
@@ -102,13 +102,13 @@ type Seeds = HashMap<u64, Vec<(usize, usize)>>;
 fn lay_over_seeds(
     plan: &Plan,
     side: usize,
-    needles: &mut [Needle],
+    templates: &mut [Template],
     bits: &mut PairBits,
 ) -> Result<()> {
     let stride = 2 * bits.width.div_ceil(64);
     let mut by_length: BTreeMap<usize, Seeds> = BTreeMap::new();
-    for (k, needle) in needles.iter_mut().enumerate() {
-        for (rows, behind) in needle.seeds() {
+    for (k, template) in templates.iter_mut().enumerate() {
+        for (rows, behind) in template.seeds() {
             let seeds = by_length.entry(rows.len() / stride).or_default();
             seeds.entry(hash(rows, stride)).or_default().push((k, behind));
         }
@@ -117,18 +117,18 @@ fn lay_over_seeds(
         by_length.into_iter().map(|(length, seeds)| (length, power(length), seeds)).collect();
     // Windows that are to be laid over once their last sample is there.
     let mut waiting: BTreeSet<(u64, usize)> = BTreeSet::new();
-    pass(plan, side, bits, longest(needles), |hay| {
+    pass(plan, side, bits, longest(templates), |recent| {
         for (length, power, seeds) in &by_length {
-            let found = hay.hash(*length, *power).and_then(|hash| seeds.get(&hash));
+            let found = recent.hash(*length, *power).and_then(|hash| seeds.get(&hash));
             waiting.extend(
-                found.into_iter().flatten().map(|&(k, behind)| (hay.last() + behind as u64, k)),
+                found.into_iter().flatten().map(|&(k, behind)| (recent.last() + behind as u64, k)),
             );
         }
-        while let Some(&(end, k)) = waiting.first().filter(|(end, _)| *end <= hay.last()) {
+        while let Some(&(end, k)) = waiting.first().filter(|(end, _)| *end <= recent.last()) {
             waiting.pop_first();
-            let length = needles[k].length();
-            if let Some(first) = hay.first_of(end, length) {
-                needles[k].lay_over(hay.samples(first, length), first);
+            let length = templates[k].length();
+            if let Some(first) = recent.first_of(end, length) {
+                templates[k].lay_over(recent.samples(first, length), first);
             }
         }
     })
@@ -138,25 +138,25 @@ fn lay_over_seeds(
 fn lay_over_all(
     plan: &Plan,
     side: usize,
-    needles: &mut [Needle],
+    templates: &mut [Template],
     bits: &mut PairBits,
 ) -> Result<()> {
-    let longest = longest(needles);
+    let longest = longest(templates);
     let width = bits.width;
-    let unclear = |needle: &&mut Needle| needle.candidates(0, width).is_none();
-    let mut needles: Vec<&mut Needle> = needles.iter_mut().filter(unclear).collect();
-    if needles.is_empty() {
+    let unclear = |template: &&mut Template| template.candidates(0, width).is_none();
+    let mut templates: Vec<&mut Template> = templates.iter_mut().filter(unclear).collect();
+    if templates.is_empty() {
         return Ok(());
     }
-    needles.iter_mut().for_each(|needle| needle.begin_anew());
-    pass(plan, side, bits, longest, |hay| {
-        for needle in &mut needles {
-            let length = needle.length();
+    templates.iter_mut().for_each(|template| template.begin_anew());
+    pass(plan, side, bits, longest, |recent| {
+        for template in &mut templates {
+            let length = template.length();
             // Nothing moves where all samples are alike: the first KEPT places say it all.
-            if hay.steady < length + KEPT
-                && let Some(first) = hay.first_of(hay.last(), length)
+            if recent.steady < length + KEPT
+                && let Some(first) = recent.first_of(recent.last(), length)
             {
-                needle.lay_over(hay.samples(first, length), first);
+                template.lay_over(recent.samples(first, length), first);
             }
         }
     })

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use super::super::result::{BeatDifference, BeatKind, BeatPlace, Beats};
-use super::stream::{Stream, Words};
+use super::stream::{BeatWords, Stream};
 
 /// Two streams and their words.
 pub(super) struct Classifier<'a> {
     pub(super) sides: [&'a Stream; 2],
-    pub(super) words: &'a Words,
+    pub(super) words: &'a BeatWords,
     pub(super) window: usize,
 }
 

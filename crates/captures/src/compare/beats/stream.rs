@@ -39,12 +39,12 @@ pub(super) struct Stream {
 
 /// Distinct words of both sides.
 #[derive(Debug, Default)]
-pub(super) struct Words {
+pub(super) struct BeatWords {
     numbers: HashMap<Box<[u64]>, u32>,
     texts: Vec<String>,
 }
 
-impl Words {
+impl BeatWords {
     /// Returns the number of a side's present word, in the first side's form.
     fn number(&mut self, pairs: &[&Pair], side: usize, samples: &Samples) -> u32 {
         let mut key = Vec::new();
@@ -96,7 +96,7 @@ pub(super) fn stream(
     side: usize,
     condition: &SideCondition,
     pairs: &[&Pair],
-    words: &mut Words,
+    words: &mut BeatWords,
     more: usize,
 ) -> Result<Stream> {
     let mut stream = Stream::default();
@@ -109,7 +109,7 @@ pub(super) fn stream(
         time.is_some_and(|time| time >= plan.terms.until_fs)
     };
     while let Some(sample) = samples.next()?
-        && !sample.held
+        && !sample.is_extended
         && !is_late(sample)
         && end.takes(sample)
     {

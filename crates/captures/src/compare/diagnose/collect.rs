@@ -74,7 +74,7 @@ pub(super) fn collect(
     let (a, b) = ([a.part(skip, LONGEST)], [b.part(skip, LONGEST)]);
     let mut sides = [Selected::new(plan.samples(0)?, &a), Selected::new(plan.samples(1)?, &b)];
     while let [Some(a), Some(b)] = [sides[0].next()?, sides[1].next()?] {
-        if a.sample.held && b.sample.held {
+        if a.sample.is_extended && b.sample.is_extended {
             break;
         }
         for (side, selected) in sides.iter().enumerate() {

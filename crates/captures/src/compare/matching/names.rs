@@ -178,15 +178,13 @@ pub(super) fn by_name(
         }
     }
     for side in 0..2 {
-        for &k in &candidates[side] {
-            let signal = &sides[side].signals[k];
-            if joined[side].contains(&signal.id) {
-                continue;
-            }
-            let reason = reasons[side].remove(&k).unwrap_or(UnmatchedReason::Alone);
-            let name = signal.name.text.clone();
-            matching.unmatched.push(Unmatched { side, name, signal: k, reason });
-        }
+        let (source, reasons) = (sides[side], &mut reasons[side]);
+        let left = candidates[side].iter().copied();
+        let left = left.filter(|&k| !joined[side].contains(&source.signals[k].id));
+        matching.unmatched.extend(left.map(|k| {
+            let reason = reasons.remove(&k).unwrap_or(UnmatchedReason::Alone);
+            Unmatched { side, name: source.signals[k].name.text.clone(), signal: k, reason }
+        }));
     }
 }
 

@@ -14,7 +14,7 @@ use super::super::capture::Radix;
 use super::buffer::Buffer;
 use super::csv;
 use super::dump::Dump;
-use super::heads::Heads;
+use super::header::Header;
 use super::ltx::{self, List, Placed};
 use super::opened::{CaptureForm, Column, Opened, lay_out};
 use super::table::first_lines;
@@ -41,29 +41,23 @@ pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<O
     let csv = parts.read("waveform.csv", |source, entry| {
         Ok((source.to_owned(), whole(source, entry, LARGEST_ENTRY)?))
     });
-    let heads = csv.as_ref().and_then(|(source, bytes)| {
+    let header = csv.as_ref().and_then(|(source, bytes)| {
         let lines = first_lines(&bytes[..]).unwrap_or_default();
-        parts.keep("waveform.csv", Heads::read(source, &lines))
+        parts.keep("waveform.csv", Header::read(source, &lines))
     });
     let placed = match (&list, &dump) {
         (Some(list), Some(dump)) => list.placed(&dump.core, dump.width),
         _ => None,
     };
-    let radix_told = heads.as_ref().is_some_and(|heads| heads.radix_row);
-    let has_names = heads.is_some();
-    let columns = heads.map(|heads| heads.columns).or_else(|| named(placed.as_deref()));
+    let radix_stated = header.as_ref().is_some_and(|header| header.radix_row);
+    let has_names = header.is_some();
+    let columns = header.map(|header| header.columns).or_else(|| named(placed.as_deref()));
     let Some(columns) = columns else { return parts.vcd_alone(dump.is_some()) };
     let places = places(&columns, dump.as_ref(), placed.as_deref());
     let are_all = places.iter().all(Option::is_some);
     // Without radices the digits of a CSV say less than the dump's bits.
-    let table = match csv.filter(|_| has_names && (radix_told || !are_all)) {
-        Some((source, bytes)) => {
-            let lines = bytes.iter().filter(|&&byte| byte == b'\n').count() as u64 + 1;
-            let table = csv::open(source, Cursor::new(bytes), radix);
-            parts.keep("waveform.csv", table).map(|table| (table, lines))
-        }
-        None => None,
-    };
+    let csv = csv.filter(|_| has_names && (radix_stated || !are_all));
+    let table = csv.and_then(|(source, bytes)| parts.table(source, bytes, radix));
     if table.is_none() && dump.is_none() {
         return parts.vcd_alone(false);
     }
@@ -74,13 +68,11 @@ pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<O
     let needs_vcd = |(column, place): (&Column, &Option<usize>)| {
         place.is_none() && (column.text || table.is_none())
     };
-    let vcd = match columns.iter().zip(&places).any(needs_vcd) {
-        true => parts.vcd().filter(|vcd| {
-            let widths = |columns: &[Column]| columns.iter().map(|c| c.width).collect::<Vec<_>>();
-            widths(&vcd.columns) == widths(&columns)
-        }),
-        false => None,
-    };
+    let vcd = columns.iter().zip(&places).any(needs_vcd).then(|| parts.vcd()).flatten();
+    let vcd = vcd.filter(|vcd| {
+        let widths = |columns: &[Column]| columns.iter().map(|c| c.width).collect::<Vec<_>>();
+        widths(&vcd.columns) == widths(&columns)
+    });
     let has_dump = dump.is_some();
     let buffer = dump.map(|dump| dump.buffer);
     let mut merge =
@@ -89,26 +81,26 @@ pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<O
         merge.table(table, (!has_dump).then_some(lines))?;
     }
     let (buffer, mut columns, places) = merge.finish();
-    parts.say((!has_dump).then_some("waveform.csv"));
+    parts.add_notes((!has_dump).then_some("waveform.csv"));
     if columns.is_empty() {
         return Err(parts.nothing());
     }
     for column in columns.iter_mut().filter(|column| !column.text && column.radix.is_none()) {
         column.radix = radix;
     }
-    Ok(opened(buffer, columns, places, radix_told, parts.notes))
+    Ok(opened(buffer, columns, places, radix_stated, parts.notes))
 }
 
 fn opened(
     buffer: Buffer,
     mut columns: Vec<Column>,
     places: Vec<usize>,
-    radix_told: bool,
+    radix_stated: bool,
     notes: Vec<String>,
 ) -> Opened {
     lay_out(&mut columns);
     let rows = Box::new(buffer.rows(columns.clone(), places));
-    Opened { form: CaptureForm::Archive, columns, radix_told, rows, notes }
+    Opened { form: CaptureForm::Archive, columns, radix_stated, rows, notes }
 }
 
 /// Returns the columns of a list of probes, one for each name.
@@ -171,6 +163,18 @@ impl Parts {
         result.map_err(|error| self.faults.push((name, error))).ok()
     }
 
+    /// Opens the CSV, and returns it with its number of lines.
+    fn table(
+        &mut self,
+        source: String,
+        bytes: Vec<u8>,
+        radix: Option<Radix>,
+    ) -> Option<(Opened, u64)> {
+        let lines = bytes.iter().filter(|&&byte| byte == b'\n').count() as u64 + 1;
+        let table = csv::open(source, Cursor::new(bytes), radix);
+        self.keep("waveform.csv", table).map(|table| (table, lines))
+    }
+
     fn vcd(&mut self) -> Option<Vcd> {
         self.read("waveform.vcd", |source, entry| {
             Vcd::read(source, &text(source, entry, LARGEST_VCD)?)
@@ -178,7 +182,7 @@ impl Parts {
     }
 
     /// Adds notes on the parts that are not used, and on the part that replaces the dump.
-    fn say(&mut self, values: Option<&str>) {
+    fn add_notes(&mut self, values: Option<&str>) {
         for (name, error) in self.faults.drain(..) {
             self.notes.push(format!("{name} is not used: {error}"));
         }
@@ -191,8 +195,8 @@ impl Parts {
     fn vcd_alone(mut self, nameless: bool) -> Result<Opened> {
         let vcd = self.vcd();
         let Some((vcd, (buffer, places))) = vcd.and_then(|vcd| {
-            let held = vcd.buffer()?;
-            (!vcd.columns.is_empty()).then_some((vcd, held))
+            let contents = vcd.buffer()?;
+            (!vcd.columns.is_empty()).then_some((vcd, contents))
         }) else {
             if nameless && self.faults.is_empty() {
                 let expected =
@@ -201,7 +205,7 @@ impl Parts {
             }
             return Err(self.nothing());
         };
-        self.say(Some("waveform.vcd"));
+        self.add_notes(Some("waveform.vcd"));
         self.notes.push("a VCD ends with the last change: samples after it are missing".to_owned());
         Ok(opened(buffer, vcd.columns, places, false, self.notes))
     }

@@ -110,9 +110,10 @@ impl CaptureRows for BufferRows {
         row.gap = buffer.gaps.binary_search(&sample).is_ok();
         row.clear(&self.columns);
         for (column, &low) in self.columns.iter().zip(&self.places) {
-            match row.gap {
-                true => ones(&mut row.unknown[column.place()], column.bits()),
-                false => buffer.get(low, column.bits(), sample, &mut row.value[column.place()]),
+            if row.gap {
+                ones(&mut row.unknown[column.place()], column.bits())
+            } else {
+                buffer.get(low, column.bits(), sample, &mut row.value[column.place()])
             }
         }
         Ok(true)

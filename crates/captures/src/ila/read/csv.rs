@@ -6,7 +6,7 @@ use tofsim::error::{Error, Result};
 
 use super::super::capture::Radix;
 use super::digits;
-use super::heads::{FIXED, Heads};
+use super::header::{FIXED, Header};
 use super::opened::{CaptureForm, CaptureRow, CaptureRows, LONGEST_WORD, Opened, put_word};
 use super::order::Order;
 use super::survey::survey;
@@ -21,40 +21,40 @@ pub(super) fn open<R: Read + Seek + Send + 'static>(
     let fault = |error| Error::io(source.as_ref(), "read")(error);
     let lines = first_lines(&mut file).map_err(fault)?;
     file.rewind().map_err(fault)?;
-    let mut heads = Heads::read(&source, &lines)?;
-    let mut table = below(&source, file, &heads)?;
-    survey(&mut table, &mut heads, hint)?;
+    let mut header = Header::read(&source, &lines)?;
+    let mut table = below(&source, file, &header)?;
+    survey(&mut table, &mut header, hint)?;
     file = table.into_inner();
     file.rewind().map_err(fault)?;
-    let table = below(&source, file, &heads)?;
-    let form = if heads.radix_row { CaptureForm::Csv } else { CaptureForm::LegacyCsv };
-    let columns = heads.columns.clone();
-    let (radix_told, notes) = (heads.radix_row, std::mem::take(&mut heads.notes));
-    let rows = Box::new(CsvRows { table, heads, order: Order::default() });
-    Ok(Opened { form, columns, radix_told, rows, notes })
+    let table = below(&source, file, &header)?;
+    let form = if header.radix_row { CaptureForm::Csv } else { CaptureForm::LegacyCsv };
+    let columns = header.columns.clone();
+    let (radix_stated, notes) = (header.radix_row, std::mem::take(&mut header.notes));
+    let rows = Box::new(CsvRows { table, header, order: Order::default() });
+    Ok(Opened { form, columns, radix_stated, rows, notes })
 }
 
-/// Returns the table from the first row below the heads on.
-fn below<R: Read>(source: &str, file: R, heads: &Heads) -> Result<Table<R>> {
-    let mut table = Table::new(source, file, heads.delimiter);
-    for _ in 0..1 + usize::from(heads.radix_row) {
+/// Returns the table from the first row below the header on.
+fn below<R: Read>(source: &str, file: R, header: &Header) -> Result<Table<R>> {
+    let mut table = Table::new(source, file, header.delimiter);
+    for _ in 0..1 + usize::from(header.radix_row) {
         table.advance()?;
     }
     Ok(table)
 }
 
-/// Rows below the heads.
+/// Rows below the header.
 struct CsvRows<R> {
     table: Table<R>,
-    heads: Heads,
+    header: Header,
     order: Order,
 }
 
 impl<R: Read + Send> CaptureRows for CsvRows<R> {
     fn next(&mut self, row: &mut CaptureRow) -> Result<bool> {
-        let CsvRows { table, heads, order } = self;
-        let first = FIXED.len() + heads.gap as usize;
-        if !table.advance_to(first + heads.columns.len())? {
+        let CsvRows { table, header, order } = self;
+        let first = FIXED.len() + header.gap as usize;
+        if !table.advance_to(first + header.columns.len())? {
             return Ok(false);
         }
         let cells = &table.row;
@@ -65,12 +65,12 @@ impl<R: Read + Send> CaptureRows for CsvRows<R> {
         row.sample = number(0, u64::MAX, "expected a whole number")?;
         row.in_window = number(1, u64::MAX, "expected a whole number")?;
         row.trigger = number(2, 1, "expected 0 or 1")? == 1;
-        row.gap = heads.gap && number(3, 1, "expected 0 or 1")? == 1;
+        row.gap = header.gap && number(3, 1, "expected 0 or 1")? == 1;
         row.window_start = order
             .check(row.sample, row.in_window, row.trigger)
             .map_err(|(index, expected)| cells.fault(index, expected).field(FIXED[index]))?;
-        row.clear(&heads.columns);
-        for (index, column) in heads.columns.iter().enumerate() {
+        row.clear(&header.columns);
+        for (index, column) in header.columns.iter().enumerate() {
             let index = first + index;
             let place = column.place();
             let Some(radix) = column.radix.filter(|_| !column.text) else {
@@ -84,7 +84,7 @@ impl<R: Read + Send> CaptureRows for CsvRows<R> {
             };
             let read = digits::read(&cells.field(index), radix, column.width);
             let bits = read.map_err(|fault| {
-                let expected = fault.say(radix, column.width);
+                let expected = fault.message(radix, column.width);
                 cells.fault(index, expected).field(column.head())
             })?;
             row.value[place.clone()].copy_from_slice(&bits.value);

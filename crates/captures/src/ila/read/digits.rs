@@ -17,7 +17,7 @@ pub(crate) enum Fault {
 
 impl Fault {
     /// Formats the error.
-    pub(super) fn say(self, radix: Radix, width: u32) -> String {
+    pub(super) fn message(self, radix: Radix, width: u32) -> String {
         let word = radix.word();
         match self {
             Fault::Empty => format!("expected {word} digits"),

@@ -41,9 +41,10 @@ impl Dump {
                         dump.size(source, width, samples)?;
                     }
                     if key != format!("ch[{bit}]") || bit == dump.width {
-                        let expected = match bit == dump.width {
-                            true => format!("expected no more than {bit} channels (data_width)"),
-                            false => format!("expected ch[{bit}] next"),
+                        let expected = if bit == dump.width {
+                            format!("expected no more than {bit} channels (data_width)")
+                        } else {
+                            format!("expected ch[{bit}] next")
                         };
                         return Err(line.fault(1, expected).into());
                     }
@@ -138,7 +139,7 @@ mod tests {
                     ch[1]: 001";
         let dump = Dump::read("a.dmp", format!("{HEAD}{text}").as_bytes()).unwrap();
         assert_eq!((dump.core.as_str(), dump.width, dump.buffer.samples), ("7", 2, 3));
-        let column = super::super::heads::parse("a[1:0]").unwrap();
+        let column = super::super::header::parse("a[1:0]").unwrap();
         let mut rows = dump.buffer.rows(vec![column], vec![0]);
         let (mut row, mut found) = (CaptureRow::default(), Vec::new());
         while rows.next(&mut row).unwrap() {

@@ -41,12 +41,11 @@ impl Guess {
             self.telling = Some(row.fault(index, "").field(column.head()));
         }
         if self.left.is_empty() {
-            let expected = match self.seen {
-                true => {
-                    self.left = before;
-                    format!("expected {} of {} bits, as above", self.names(), column.width)
-                }
-                false => format!("expected a number of {} bits", column.width),
+            let expected = if self.seen {
+                self.left = before;
+                format!("expected {} of {} bits, as above", self.names(), column.width)
+            } else {
+                format!("expected a number of {} bits", column.width)
             };
             return Err(row.fault(index, expected).field(column.head()).into());
         }
@@ -113,12 +112,13 @@ mod tests {
                 guess.telling = Some(Input::new("a.csv", "").value(cell));
             }
         }
-        match guess.left.is_empty() {
-            true => "none".to_owned(),
-            false => match guess.decide(None) {
+        if guess.left.is_empty() {
+            "none".to_owned()
+        } else {
+            match guess.decide(None) {
                 Ok(radix) => radix.word().to_owned(),
                 Err(error) => error.to_string(),
-            },
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use roxmltree::{Document, Node};
 
 use tofsim::error::{Input, Result};
 
-use super::heads;
+use super::header;
 use super::opened::{Column, WIDEST_PROBE};
 
 /// Probes of each core.
@@ -148,7 +148,7 @@ fn column(nets: &[&str]) -> std::result::Result<Column, String> {
         let bit =
             |(place, net): (usize, &(&str, u32))| *net == (name, msb.wrapping_sub(place as u32));
         if msb as usize >= nets.len() - 1 && indexed.iter().enumerate().all(bit) {
-            return heads::parse(&format!("{name}[{msb}:{lsb}]"));
+            return header::parse(&format!("{name}[{msb}:{lsb}]"));
         }
     }
     let (name, width) = (nets[0].to_owned(), nets.len() as u32);
@@ -214,7 +214,7 @@ mod tests {
         let text =
             format!("<p>{}{}</p>", probe("u", 0, 0, &["addra[0]"]), probe("u", 1, 0, &["b"]));
         let placed = List::read("a.ltx", &text).unwrap().placed("u", 2).unwrap();
-        let find = |head| place(&placed, &heads::parse(head).unwrap());
+        let find = |head| place(&placed, &header::parse(head).unwrap());
         assert_eq!(
             [find("b"), find("addra"), find("b[1:0]"), find("c")],
             [Some(1), Some(0), None, None]

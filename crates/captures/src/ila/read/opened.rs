@@ -37,14 +37,14 @@ pub struct Column {
     /// Whether there are numbers among the words.
     pub mixed: bool,
     /// Words in the file, with their values if the file states them.
-    pub states: Vec<State>,
+    pub states: Vec<NamedValue>,
     /// Index of its first word in a row.
     pub word: usize,
 }
 
 /// A word that represents a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct State {
+pub struct NamedValue {
     /// Text of the word.
     pub name: String,
     /// Value, if it is known.
@@ -70,15 +70,16 @@ impl Column {
     /// Stores a word of the file, unless there are too many.
     pub(super) fn learn(&mut self, name: &str, bits: Option<u64>) {
         if self.states.len() < MOST_STATES && self.states.iter().all(|known| known.name != name) {
-            self.states.push(State { name: name.to_owned(), bits });
+            self.states.push(NamedValue { name: name.to_owned(), bits });
         }
     }
 
     /// Returns name and range, as in the head of a column.
     pub fn head(&self) -> String {
-        match self.vector {
-            true => format!("{}[{}:{}]", self.name, self.lsb + (self.width - 1), self.lsb),
-            false => self.name.clone(),
+        if self.vector {
+            format!("{}[{}:{}]", self.name, self.lsb + (self.width - 1), self.lsb)
+        } else {
+            self.name.clone()
         }
     }
 }
@@ -140,7 +141,7 @@ pub struct Opened {
     /// Columns.
     pub columns: Vec<Column>,
     /// Whether the file states the radices; otherwise they were inferred, or there are none.
-    pub radix_told: bool,
+    pub radix_stated: bool,
     /// Samples.
     pub rows: Box<dyn CaptureRows>,
     /// Notes on deviations from Vivado's format, and on values taken from another part.

@@ -9,9 +9,9 @@ use std::io::Read;
 use tofsim::error::{Input, Result};
 
 use super::super::capture::Radix;
-use super::heads::{FIXED, Heads, TRAIL};
+use super::header::{FIXED, Header, TRAIL};
 use super::infer::Guess;
-use super::opened::lay_out;
+use super::opened::{Column, lay_out};
 use super::table::{Row, Table};
 
 /// Findings about a column.
@@ -25,15 +25,38 @@ struct Found {
     first_bare: Option<Input>,
 }
 
-/// Reads the rest of `table`, and stores the types of the columns in `heads`. `hint` decides between several possible
+impl Found {
+    /// Sets the type of the column, and returns a note on unquoted words.
+    fn conclude(
+        self,
+        column: &mut Column,
+        radix_row: bool,
+        hint: Option<Radix>,
+    ) -> Result<Option<String>> {
+        if !radix_row && (self.numbers || !self.words) {
+            column.radix = Some(self.guess.decide(hint)?);
+        }
+        column.text |= self.words;
+        column.mixed = column.text && self.numbers;
+        let Some(Input { place: Some((line, _)), value: Some(value), .. }) = self.first_bare else {
+            return Ok(None);
+        };
+        let (head, count) = (column.head(), self.bare);
+        Ok(Some(format!(
+            "{head}: {count} cells are words without quotes, the first `{value}` in line {line}"
+        )))
+    }
+}
+
+/// Reads the rest of `table`, and stores the types of the columns in `header`. `hint` decides between several possible
 /// radices.
 pub(super) fn survey(
     table: &mut Table<impl Read>,
-    heads: &mut Heads,
+    header: &mut Header,
     hint: Option<Radix>,
 ) -> Result<()> {
-    let first = FIXED.len() + usize::from(heads.gap);
-    let fields = first + heads.columns.len();
+    let first = FIXED.len() + usize::from(header.gap);
+    let fields = first + header.columns.len();
     let new = |_| Found {
         guess: Guess::new(hint),
         words: false,
@@ -41,14 +64,14 @@ pub(super) fn survey(
         bare: 0,
         first_bare: None,
     };
-    let mut found: Vec<Found> = (0..heads.columns.len()).map(new).collect();
+    let mut found: Vec<Found> = (0..header.columns.len()).map(new).collect();
     let mut all_quoted = false;
     while table.advance_to(fields)? {
         let row = &table.row;
         // Vivado never quotes the number of a sample.
         let quoted = row.is_quoted(0);
         all_quoted |= quoted;
-        for (index, (column, found)) in heads.columns.iter_mut().zip(&mut found).enumerate() {
+        for (index, (column, found)) in header.columns.iter_mut().zip(&mut found).enumerate() {
             let index = first + index;
             let has_quotes = row.is_quoted(index) && !quoted;
             if column.text || has_quotes || is_name(row, index, column.radix) {
@@ -62,31 +85,21 @@ pub(super) fn survey(
                 continue;
             }
             found.numbers = true;
-            if !heads.radix_row {
+            if !header.radix_row {
                 found.guess.take(row, index, column)?;
             }
         }
     }
-    if table.trails && !heads.notes.iter().any(|note| note == TRAIL) {
-        heads.notes.push(TRAIL.to_owned());
+    if table.trails && !header.notes.iter().any(|note| note == TRAIL) {
+        header.notes.push(TRAIL.to_owned());
     }
     if all_quoted {
-        heads.notes.push("quotes say nothing: there are some around numbers too".to_owned());
+        header.notes.push("quotes say nothing: there are some around numbers too".to_owned());
     }
-    for (column, found) in heads.columns.iter_mut().zip(found) {
-        if !heads.radix_row && (found.numbers || !found.words) {
-            column.radix = Some(found.guess.decide(hint)?);
-        }
-        column.text |= found.words;
-        column.mixed = column.text && found.numbers;
-        if let Some(Input { place: Some((line, _)), value: Some(value), .. }) = found.first_bare {
-            let (head, count) = (column.head(), found.bare);
-            heads.notes.push(format!(
-                "{head}: {count} cells are words without quotes, the first `{value}` in line {line}"
-            ));
-        }
+    for (column, found) in header.columns.iter_mut().zip(found) {
+        header.notes.extend(found.conclude(column, header.radix_row, hint)?);
     }
-    lay_out(&mut heads.columns);
+    lay_out(&mut header.columns);
     Ok(())
 }
 

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use tofsim::error::{Input, Result};
 
 use super::buffer::Buffer;
-use super::heads;
+use super::header;
 use super::opened::Column;
 
 /// Names of the variables that are not probes: trigger, window, gap.
@@ -33,10 +33,9 @@ impl Vcd {
         let mut vcd = Vcd::default();
         let mut ids: HashMap<&str, (usize, u32)> = HashMap::new();
         let mut marks = HashMap::new();
-        let (mut sample, mut number) = (0, 0);
-        let mut lines = text.lines();
-        for line in lines.by_ref() {
-            number += 1;
+        let mut sample = 0;
+        let mut lines = (1..).zip(text.lines());
+        for (number, line) in lines.by_ref() {
             let fault = |expected: &str| Input::new(source, expected).at(number, 1).value(line);
             let mut words = line.split_ascii_whitespace();
             match words.next() {
@@ -54,7 +53,7 @@ impl Vcd {
             }
             let name = name.strip_prefix('\\').unwrap_or(name);
             let column =
-                heads::parse(&format!("{name}{}", range.concat())).map_err(|e| fault(&e))?;
+                header::parse(&format!("{name}{}", range.concat())).map_err(|e| fault(&e))?;
             if *width != column.width.to_string() {
                 return Err(fault("expected a range as wide as the variable").into());
             }
@@ -64,8 +63,7 @@ impl Vcd {
         let probes = vcd.columns.len();
         ids.extend(marks.into_iter().map(|(id, mark)| (id, (probes + mark, 1))));
         vcd.changes.resize(probes + MARKS.len(), Vec::new());
-        for line in lines {
-            number += 1;
+        for (number, line) in lines {
             let fault = |expected: &str| Input::new(source, expected).at(number, 1).value(line);
             let (digits, id) = match line.as_bytes().first() {
                 None | Some(b'$') => continue,

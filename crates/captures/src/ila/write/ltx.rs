@@ -78,9 +78,8 @@ mod tests {
         ltx(&mut out, &Capture::new(vec![bus, wire])).unwrap();
         let text = String::from_utf8(out).unwrap();
         let document = roxmltree::Document::parse(&text).unwrap();
-        let nets = document.descendants().filter_map(|node| match node.has_tag_name("net") {
-            true => node.attribute("name"),
-            false => None,
+        let nets = document.descendants().filter_map(|node| {
+            if node.has_tag_name("net") { node.attribute("name") } else { None }
         });
         let names: Vec<_> = nets.collect();
         assert_eq!(names, ["u/<const0>_\"17\"&[5]", "u/<const0>_\"17\"&[4]", "valid"]);

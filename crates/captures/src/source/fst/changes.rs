@@ -1,32 +1,31 @@
-//! A block of changes in an FST file: the first values, the changes of each signal, where they are, and
-//! the times.
+//! Check of a value change block in an FST file: initial values, changes of each signal, their offsets, and times.
 
 use std::io::{Read, Seek, SeekFrom};
 
 use super::super::bytes::Bytes;
 use super::super::span::{Checked, Fault, Span, at_most, word};
-use super::unpack::{most, zlib};
+use super::unpack::most;
 
-/// Bytes of a block before the first values: its length, begin, end and size.
+/// Size of the fields before the initial values: length, start, end and memory [bytes].
 const HEAD: u64 = 4 * 8;
-/// Bytes behind the times: their size unpacked and packed, and their number.
+/// Size of the fields after the times: their uncompressed and compressed size, and their number [bytes].
 const TAIL: u64 = 3 * 8;
-/// Most bytes of a number below 2^64, and of three.
+/// Largest size of a variable-length integer [bytes].
 const NUMBER: u64 = 10;
-/// How the numbers of a block say where changes are: since 2010, and since 2014.
+/// Kind of a block whose offsets are signed integers, the format since 2014.
 const SIGNED: u8 = 8;
 
-/// A block and where it is.
+/// Position of a block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Section {
     pub(super) kind: u8,
-    /// Place of its length, from which on it is so long.
+    /// Offset of its length field, from which the length counts [bytes].
     pub(super) begin: u64,
     pub(super) length: u64,
 }
 
 impl Section {
-    /// That its parts are within it, and that nothing in it says of more than there is.
+    /// Checks that all parts lie within the block, and that no count or size exceeds its contents.
     pub(super) fn check(self, file: &mut Bytes, signals: u64) -> Checked<()> {
         let end = self.begin + self.length;
         let least = HEAD + 3 + 2 + 8 + TAIL;
@@ -37,22 +36,24 @@ impl Section {
         let tail = file.range(end - TAIL, TAIL)?;
         let [size, packed, count] = [0, 8, 16].map(|place| word(&tail[place..]));
         at_most("packed times", packed, self.length - least)?;
-        times(&file.range(end - TAIL - packed, packed)?, size, count)?;
+        at_most("times' size", size, most(packed, true).max(packed))?;
+        at_most("number of times", count, size)?;
         let chain_end = end - TAIL - packed - 8;
         let length = word(&file.range(chain_end, 8)?);
         let values = self.values(file, chain_end, signals)?;
         at_most("the length of the places", length, (chain_end - values).saturating_sub(1))?;
         let chain_begin = chain_end - length;
         let chain = file.range(chain_begin, length)?;
-        let places = match self.kind == SIGNED {
-            true => signed_places(&chain, signals)?,
-            false => places(&chain, signals)?,
+        let places = if self.kind == SIGNED {
+            signed_places(&chain, signals)?
+        } else {
+            places(&chain, signals)?
         };
         let is_deflated = !matches!(file.range(values, 1)?[..], [b'4' | b'F']);
         sizes(file, values, &places, chain_begin - values, is_deflated)
     }
 
-    /// The place of what is packed of the changes, behind the first values.
+    /// Returns the offset of the compressed changes, after the initial values.
     fn values(self, file: &mut Bytes, chain_end: u64, signals: u64) -> Checked<u64> {
         let begin = self.begin + HEAD;
         let head = file.range(begin, (3 * NUMBER).min(chain_end - begin))?;
@@ -69,19 +70,7 @@ impl Section {
     }
 }
 
-/// That the times are as many as they should be, and do not go back.
-fn times(packed: &[u8], size: u64, count: u64) -> Checked<()> {
-    let bytes = zlib(packed, size, "times' size")?;
-    at_most("number of times", count, bytes.len() as u64)?;
-    let (mut span, mut last) = (Span::new(&bytes, "times"), 0u64);
-    for _ in 0..count {
-        let next = last.checked_add(span.number()?);
-        last = next.ok_or_else(|| Fault::of("times", "expected times below 2^64"))?;
-    }
-    Ok(())
-}
-
-/// The place of each signal's changes, from the first packed byte on, in ascending order.
+/// Parses the offset of each signal's changes, relative to the first compressed byte, in ascending order.
 fn places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
     let (mut span, mut places) = (Span::new(chain, "places"), Vec::new());
     let mut count = 0;
@@ -102,25 +91,24 @@ fn places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
     Ok(places)
 }
 
-/// The same in the newer form.
+/// Parses the offsets in the format since 2014.
 fn signed_places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
     let (mut span, mut places) = (Span::new(chain, "places"), Vec::new());
     let mut count = 0;
     while span.left() > 0 {
         let is_place = span.clone().byte()? % 2 == 1;
-        count += match is_place {
-            true => {
-                let number = span.signed()? >> 1;
-                match u64::try_from(number) {
-                    Ok(0) => {}
-                    Ok(further) => add(&mut places, further)?,
-                    Err(_) => {
-                        at_most("a signal that another is like", number.unsigned_abs(), signals)?;
-                    }
+        count += if is_place {
+            let number = span.signed()? >> 1;
+            match u64::try_from(number) {
+                Ok(0) => {}
+                Ok(further) => add(&mut places, further)?,
+                Err(_) => {
+                    at_most("a signal that another is like", number.unsigned_abs(), signals)?;
                 }
-                1
             }
-            false => at_most("signals without changes", span.number()? / 2, signals)?,
+            1
+        } else {
+            at_most("signals without changes", span.number()? / 2, signals)?
         };
         at_most("places", count, signals)?;
     }
@@ -133,7 +121,7 @@ fn add(places: &mut Vec<u64>, further: u64) -> Checked<()> {
     Ok(())
 }
 
-/// That the changes of each signal unpack to no more than they can.
+/// Checks the uncompressed size of each signal's changes against their compressed size.
 fn sizes(
     file: &mut Bytes,
     values: u64,

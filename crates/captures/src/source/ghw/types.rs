@@ -1,48 +1,48 @@
-//! The types of a GHW file, as far as they say how many signals a name has.
+//! Types of a GHW file, as far as they determine the number of signals of a name.
 
 use super::super::span::{Checked, Fault, Span, at_most};
 use super::words::count;
 
-/// Deepest that types may be within each other.
+/// Largest nesting depth of types.
 const DEEPEST: u32 = 256;
-/// Steps that the library may take for a name, for each byte of the file.
+/// Limit of the library's steps for a name, per byte of the file.
 const STEPS: u64 = 64;
 
-/// What a type is.
+/// Structure of a type.
 #[derive(Clone, Debug, PartialEq)]
 enum Form {
     /// An enumeration.
     Literals,
-    /// A number, whether it has a range, and how many values that is.
+    /// A number, with the number of values in its range if it has one.
     Number(Option<u64>),
     Real,
-    /// Elements of a type, so many if that is said.
+    /// An array of a type, with its length if it is known.
     Array(usize, Option<u64>),
     Record(Vec<usize>),
-    /// The same as another.
+    /// Another name of a type.
     Alias(usize),
 }
 
-/// A type, and what comes of it.
+/// A type with derived properties.
 #[derive(Clone, Debug)]
 struct Type {
     form: Form,
-    /// Signals that an object of it has.
+    /// Number of signals of an object of this type.
     signals: u64,
-    /// Steps to go through them.
+    /// Number of steps to visit them.
     steps: u64,
     depth: u32,
-    /// Whether all its arrays say how long they are.
+    /// Whether all its arrays have a known length.
     is_whole: bool,
 }
 
-/// The types of a file, in its order.
+/// Types of a file, in order.
 pub(super) struct Types {
     version: u8,
     types: Vec<Type>,
-    /// Index of each that has a number in the file; those within others have none.
+    /// Index of each type that has a number in the file; anonymous types have none.
     numbered: Vec<usize>,
-    /// Steps for a name at most.
+    /// Limit of the steps for a name.
     most: u64,
 }
 
@@ -51,7 +51,7 @@ impl Types {
         Types { version, types: Vec::new(), numbered: Vec::new(), most: 0 }
     }
 
-    /// Reads them.
+    /// Parses the section of types.
     pub(super) fn section(&mut self, file: &mut Span, is_big: bool) -> Checked<()> {
         file.take(4)?;
         let count = count(file, is_big, "types")?;
@@ -67,7 +67,7 @@ impl Types {
         }
     }
 
-    /// The index of a type that has been read.
+    /// Parses a reference to a type, and returns the type's index.
     pub(super) fn of(&self, file: &mut Span) -> Checked<usize> {
         let number = file.number()?;
         match number {
@@ -79,14 +79,13 @@ impl Types {
         }
     }
 
-    /// How many signals a name of that type has; more than there can be if it takes too long to go
-    /// through them.
+    /// Returns the number of signals of a name of this type; [`u64::MAX`] if visiting them takes too many steps.
     pub(super) fn signals(&self, index: usize) -> u64 {
         let found = &self.types[index];
         if found.steps > self.most { u64::MAX } else { found.signals }
     }
 
-    /// Passes over a value of that type.
+    /// Skips a value of this type.
     pub(super) fn value(&self, file: &mut Span, index: usize) -> Checked<()> {
         match self.types[self.base(index)].form {
             Form::Literals => drop(file.byte()?),
@@ -130,20 +129,7 @@ impl Types {
                     _ => Form::Number(Some(length)),
                 }
             }
-            31 => {
-                let element = self.of(file)?;
-                let dimensions = file.count("dimensions")?;
-                if dimensions != 1 {
-                    return Err(Fault::value("dimensions", dimensions, "expected 1"));
-                }
-                let index = self.of(file)?;
-                let length = match self.types[self.base(index)].form {
-                    Form::Literals => Some(u64::MAX),
-                    Form::Number(length) => length,
-                    _ => None,
-                };
-                Form::Array(element, length)
-            }
+            31 => self.array(file)?,
             32 => {
                 let count = file.count("fields")?;
                 let mut field = |_| {
@@ -167,7 +153,22 @@ impl Types {
         })
     }
 
-    /// A type with the ranges of those of its arrays that have none.
+    fn array(&self, file: &mut Span) -> Checked<Form> {
+        let element = self.of(file)?;
+        let dimensions = file.count("dimensions")?;
+        if dimensions != 1 {
+            return Err(Fault::value("dimensions", dimensions, "expected 1"));
+        }
+        let index = self.of(file)?;
+        let length = match self.types[self.base(index)].form {
+            Form::Literals => Some(u64::MAX),
+            Form::Number(length) => length,
+            _ => None,
+        };
+        Ok(Form::Array(element, length))
+    }
+
+    /// Parses the ranges of a type's arrays without a length.
     fn bounded(&mut self, file: &mut Span, base: usize) -> Checked<Form> {
         let base = self.base(base);
         match self.types[base].form.clone() {
@@ -185,7 +186,7 @@ impl Types {
         }
     }
 
-    /// The same of an element or a field, which becomes a type of its own.
+    /// Parses the ranges of an element or a field, which becomes an anonymous type.
     fn bounded_part(&mut self, file: &mut Span, part: usize) -> Checked<usize> {
         if self.types[part].is_whole {
             return Ok(part);
@@ -222,7 +223,7 @@ impl Types {
     }
 }
 
-/// How many values a range has.
+/// Parses a range, and returns its number of values.
 fn range(file: &mut Span) -> Checked<u64> {
     let head = file.byte()?;
     let falls = head & 0x80 != 0;

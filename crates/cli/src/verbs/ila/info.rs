@@ -57,7 +57,7 @@ fn unsaid(source: &Source, survey: &Survey) -> Vec<&'static str> {
     match source.format {
         SourceFormat::IlaVcd => unsaid.extend(["the number of samples", "the radix of the probes"]),
         SourceFormat::LegacyIlaCsv => unsaid.push("the radix of the probes, which is inferred"),
-        _ if !source.radix_told => unsaid.push("the radix of the probes"),
+        _ if !source.radix_stated => unsaid.push("the radix of the probes"),
         _ => {}
     }
     unsaid

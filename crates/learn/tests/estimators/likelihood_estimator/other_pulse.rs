@@ -71,7 +71,7 @@ fn light_that_leaves_late_is_estimated_near_its_bound() {
 #[test]
 fn a_wrong_pulse_is_seen_in_the_errors() {
     let told =
-        Instrument::load("kc705", &["laser.pulse_tail_ps=150", "estimator.told_sigma_ps=137"]);
+        Instrument::load("kc705", &["laser.pulse_tail_ps=150", "estimator.assumed_sigma_ps=137"]);
     let tally = at(&told, 0.3, 200);
     let row = tally.row("told a Gaussian of 137 ps");
     assert!(tally.mean_mm().abs() > 5.0 || tally.raised_part() > 0.2, "{row}");

@@ -129,9 +129,10 @@ fn last(path: &str) -> &str {
 pub(super) fn whole(source: &str, entry: &mut dyn Read, limit: u64) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     entry.take(limit + 1).read_to_end(&mut bytes).map_err(|error| damaged(source, error))?;
-    match bytes.len() as u64 > limit {
-        true => Err(Input::new(source, format!("unpacks to more than {limit} bytes")).into()),
-        false => Ok(bytes),
+    if bytes.len() as u64 > limit {
+        Err(Input::new(source, format!("unpacks to more than {limit} bytes")).into())
+    } else {
+        Ok(bytes)
     }
 }
 

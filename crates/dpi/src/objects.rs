@@ -8,23 +8,23 @@ use std::sync::{Mutex, PoisonError};
 use crate::checker::Checker;
 use crate::photons::Source;
 
-/// All objects, by handle; 0 has the errors of objects that could not be created.
-static HELD: Mutex<All> = Mutex::new(All { last: 0, held: BTreeMap::new() });
+/// Objects objects, by handle; 0 has the errors of objects that could not be created.
+static OBJECTS: Mutex<Objects> = Mutex::new(Objects { last: 0, by_handle: BTreeMap::new() });
 
-struct All {
+struct Objects {
     last: usize,
-    held: BTreeMap<usize, Held>,
+    by_handle: BTreeMap<usize, Object>,
 }
 
 /// An object behind a handle.
 #[derive(Default)]
-pub struct Held {
+pub struct Object {
     pub errors: Vec<CString>,
-    pub what: What,
+    pub kind: ObjectKind,
 }
 
 #[derive(Default)]
-pub enum What {
+pub enum ObjectKind {
     /// No object, only errors.
     #[default]
     Nothing,
@@ -32,41 +32,41 @@ pub enum What {
     Photons(Box<Source>),
 }
 
-impl Held {
+impl Object {
     /// Records an error. Zeros in its text, which would end a C string, are replaced.
-    pub fn say(&mut self, error: impl ToString) {
+    pub fn record(&mut self, error: impl ToString) {
         let text = error.to_string().replace('\0', " ");
         self.errors.extend(CString::new(text));
     }
 
     pub fn checker(&mut self) -> Result<&mut Checker, String> {
-        match &mut self.what {
-            What::Checker(checker) => Ok(checker),
+        match &mut self.kind {
+            ObjectKind::Checker(checker) => Ok(checker),
             _ => Err("this handle is of no block".to_owned()),
         }
     }
 
     pub fn photons(&mut self) -> Result<&mut Source, String> {
-        match &mut self.what {
-            What::Photons(source) => Ok(source),
+        match &mut self.kind {
+            ObjectKind::Photons(source) => Ok(source),
             _ => Err("this handle is of no photons".to_owned()),
         }
     }
 }
 
 /// Creates an object, and returns its handle, or 0.
-pub fn make(function: &str, run: impl FnOnce() -> Result<What, String>) -> usize {
+pub fn make(function: &str, run: impl FnOnce() -> Result<ObjectKind, String>) -> usize {
     let made = guarded(run);
-    let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut objects = OBJECTS.lock().unwrap_or_else(PoisonError::into_inner);
     match made {
-        Ok(what) => {
-            all.last += 1;
-            let handle = all.last;
-            all.held.insert(handle, Held { what, ..Held::default() });
+        Ok(kind) => {
+            objects.last += 1;
+            let handle = objects.last;
+            objects.by_handle.insert(handle, Object { kind, ..Object::default() });
             handle
         }
         Err(error) => {
-            all.held.entry(0).or_default().say(format_args!("{function}: {error}"));
+            objects.by_handle.entry(0).or_default().record(format_args!("{function}: {error}"));
             0
         }
     }
@@ -77,14 +77,14 @@ pub fn with<T>(
     function: &str,
     handle: usize,
     otherwise: T,
-    run: impl FnOnce(&mut Held) -> Result<T, String>,
+    run: impl FnOnce(&mut Object) -> Result<T, String>,
 ) -> T {
-    let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
-    let all = &mut *all;
-    let known = handle != 0 && all.held.contains_key(&handle);
-    let held = all.held.entry(if known { handle } else { 0 }).or_default();
+    let mut objects = OBJECTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let objects = &mut *objects;
+    let known = handle != 0 && objects.by_handle.contains_key(&handle);
+    let object = objects.by_handle.entry(if known { handle } else { 0 }).or_default();
     if !known {
-        held.say(match handle {
+        object.record(match handle {
             0 => format!(
                 "{function}: the handle is null: nothing was made, and what that said is above"
             ),
@@ -92,24 +92,24 @@ pub fn with<T>(
         });
         return otherwise;
     }
-    guarded(|| run(held)).unwrap_or_else(|error| {
-        held.say(format_args!("{function}: {error}"));
+    guarded(|| run(object)).unwrap_or_else(|error| {
+        object.record(format_args!("{function}: {error}"));
         otherwise
     })
 }
 
 /// Calls a function with the errors of a handle, or of null.
 pub fn errors<T>(handle: usize, run: impl FnOnce(&mut Vec<CString>) -> T) -> T {
-    let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
-    let known = all.held.contains_key(&handle);
-    let held = all.held.entry(if known { handle } else { 0 }).or_default();
-    run(&mut held.errors)
+    let mut objects = OBJECTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = objects.by_handle.contains_key(&handle);
+    let object = objects.by_handle.entry(if known { handle } else { 0 }).or_default();
+    run(&mut object.errors)
 }
 
 /// Deletes the object behind a handle.
 pub fn delete(handle: usize) {
-    let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
-    all.held.remove(&handle);
+    let mut objects = OBJECTS.lock().unwrap_or_else(PoisonError::into_inner);
+    objects.by_handle.remove(&handle);
 }
 
 /// Converts a panic to an error.
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_panic_is_an_error() {
-        let handle = make("tofsim_new", || Ok(What::Nothing));
+        let handle = make("tofsim_new", || Ok(ObjectKind::Nothing));
         let got = with("tofsim_step", handle, -1, |_| panic!("out of range"));
         let said = errors(handle, |errors| errors[0].to_str().unwrap().to_owned());
         assert_eq!((got, said.as_str()), (-1, "tofsim_step: a fault of tofsim: out of range"));

@@ -4,13 +4,13 @@ use tofsim::error::Result;
 
 use super::super::super::plan::Plan;
 use super::super::correlation::{PairBits, SearchEnd};
-use super::needle::packed;
+use super::template::packed;
 
 /// Base of the polynomial hash.
 const BASE: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The most recent samples of a waveform.
-pub(super) struct Hay {
+pub(super) struct RecentSamples {
     rows: Vec<u64>,
     stride: usize,
     /// Hash of all samples up to each, preceded by the hash of none.
@@ -24,7 +24,7 @@ pub(super) struct Hay {
     pub(super) steady: usize,
 }
 
-impl Hay {
+impl RecentSamples {
     fn push(&mut self, row: &[u64]) {
         let count = self.hashes.len() - 1;
         let before = self.rows.len().checked_sub(self.stride).map(|begin| &self.rows[begin..]);
@@ -89,30 +89,32 @@ pub(super) fn pass(
     side: usize,
     bits: &mut PairBits,
     longest: usize,
-    mut seen: impl FnMut(&Hay),
+    mut seen: impl FnMut(&RecentSamples),
 ) -> Result<()> {
     let stride = 2 * bits.width.div_ceil(64);
     let (rows, hashes) = (Vec::new(), vec![0]);
-    let mut hay = Hay { rows, stride, hashes, begin: 0, first: 0, longest, steady: 0 };
+    let mut recent = RecentSamples { rows, stride, hashes, begin: 0, first: 0, longest, steady: 0 };
     let mut samples = plan.samples(side)?;
     let mut row = None;
     let mut end = SearchEnd::new(plan, side, longest)?;
-    while let Some(sample) = samples.next()?.filter(|&sample| !sample.held && end.takes(sample)) {
+    while let Some(sample) =
+        samples.next()?.filter(|&sample| !sample.is_extended && end.takes(sample))
+    {
         let mut changed = false;
         samples.changes(|_| changed = true);
         if !plan.is_looked_at(side, sample) {
             continue;
         }
         if row.is_none() {
-            (hay.begin, hay.first) = (sample.index, sample.index);
+            (recent.begin, recent.first) = (sample.index, sample.index);
         }
         let now = match row {
             Some(row) if !changed => row,
             _ => packed(&bits.row(side, &samples.state)),
         };
-        hay.push(&now);
+        recent.push(&now);
         row = Some(now);
-        seen(&hay);
+        seen(&recent);
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ const MARK: &[u8] = b"Radix - ";
 pub(super) const TRAIL: &str = "empty fields at the end of lines are left out";
 
 /// Contents of the header rows.
-pub(super) struct Heads {
+pub(super) struct Header {
     pub(super) columns: Vec<Column>,
     /// Whether there is a row of radices.
     pub(super) radix_row: bool,
@@ -31,7 +31,7 @@ pub(super) struct Heads {
     pub(super) notes: Vec<String>,
 }
 
-impl Heads {
+impl Header {
     /// Parses the first lines of a file.
     pub(super) fn read(source: &str, [head, second]: &[Vec<u8>; 2]) -> Result<Self> {
         let mark = "\u{feff}".as_bytes();
@@ -41,34 +41,33 @@ impl Heads {
         if bare.is_some() {
             notes.push("a byte order mark at the begin is passed over".to_owned());
         }
-        let mut heads = Row::new(source, 1, head, delimiter);
-        if heads.take_trail() {
+        let mut header = Row::new(source, 1, head, delimiter);
+        if header.take_trail() {
             notes.push(TRAIL.to_owned());
         }
-        if let Some(wrong) = FIXED.iter().enumerate().position(|(k, name)| !heads.is(k, name)) {
+        if let Some(wrong) = FIXED.iter().enumerate().position(|(k, name)| !header.is(k, name)) {
             let expected = format!("expected a head that begins with `{}`", FIXED.join(","));
-            return Err(heads.fault(wrong, expected).into());
+            return Err(header.fault(wrong, expected).into());
         }
         let mut radices = Row::new(source, 2, second, delimiter);
         let radix_row = radices.field(0).starts_with(MARK);
         radices.take_trail();
         // chipscopy leaves GAP out of the radices; Vivado gives a net of that name one like HEX.
-        let short = radices.len() + 1 == heads.len();
-        let gap = radix_row && heads.is(3, "GAP") && (short || radices.is(3, "UNSIGNED"));
+        let short = radices.len() + 1 == header.len();
+        let gap = radix_row && header.is(3, "GAP") && (short || radices.is(3, "UNSIGNED"));
         let first = FIXED.len() + gap as usize;
         if radix_row {
-            check_radices(&radices, heads.len() - (gap && short) as usize)?;
+            check_radices(&radices, header.len() - (gap && short) as usize)?;
         }
-        if !(first + 1..=first + MOST_PROBES).contains(&heads.len()) {
-            let (most, found) = (MOST_PROBES, heads.len() - first);
-            let text = format!("{found} probes, expected 1 to {most}");
-            return Err(heads.row_fault(text).into());
+        if !(first + 1..=first + MOST_PROBES).contains(&header.len()) {
+            let text = format!("{} probes, expected 1 to {MOST_PROBES}", header.len() - first);
+            return Err(header.row_fault(text).into());
         }
         let mut columns = Vec::new();
         let (mut names, mut width, mut word) = (HashSet::new(), 0, 0);
-        for index in first..heads.len() {
-            let fault = |text: String| heads.fault(index, text);
-            let head = heads.text(index)?;
+        for index in first..header.len() {
+            let fault = |text: String| header.fault(index, text);
+            let head = header.text(index)?;
             let mut column = parse(&head).map_err(fault)?;
             if !names.insert(head) {
                 return Err(fault("a second column of this name".into()).into());
@@ -92,7 +91,7 @@ impl Heads {
             word += column.words();
             columns.push(column);
         }
-        Ok(Heads { columns, radix_row, gap, delimiter, notes })
+        Ok(Header { columns, radix_row, gap, delimiter, notes })
     }
 }
 
@@ -169,14 +168,14 @@ fn range(head: &str) -> Option<(&str, &str, &str)> {
 mod tests {
     use super::*;
 
-    fn heads(lines: [&str; 2]) -> std::result::Result<Heads, String> {
-        Heads::read("a.csv", &lines.map(|line| line.as_bytes().to_vec()))
+    fn header(lines: [&str; 2]) -> std::result::Result<Header, String> {
+        Header::read("a.csv", &lines.map(|line| line.as_bytes().to_vec()))
             .map_err(|error| error.to_string())
     }
 
     fn fault(probes: &str) -> String {
         let head = format!("Sample in Buffer,Sample in Window,TRIGGER,{probes}");
-        heads([&head, ""]).err().unwrap()
+        header([&head, ""]).err().unwrap()
     }
 
     #[test]
@@ -205,11 +204,11 @@ mod tests {
         let wide: Vec<_> = (0..257).map(|place| format!("a{place}[4095:0]")).collect();
         assert!(fault(&wide.join(",")).ends_with("more than 1048576 bits in a sample"));
         let head = ["Sample in Buffer,Sample in Window,TRIGGER", ""];
-        assert!(heads(head).err().unwrap().ends_with("0 probes, expected 1 to 16384"));
+        assert!(header(head).err().unwrap().ends_with("0 probes, expected 1 to 16384"));
         let head = ["Sample in Buffer,Window,TRIGGER,a", ""];
         let expected = "a.csv:1:18: Window: expected a head that begins with `Sample in Buffer,";
-        assert!(heads(head).err().unwrap().starts_with(expected));
-        assert!(heads(["", ""]).err().unwrap().contains("expected a head that begins with"));
+        assert!(header(head).err().unwrap().starts_with(expected));
+        assert!(header(["", ""]).err().unwrap().contains("expected a head that begins with"));
     }
 
     #[test]
@@ -217,12 +216,12 @@ mod tests {
         let head = "Sample in Buffer,Sample in Window,TRIGGER,GAP,a";
         let told = |radices: &str| {
             let radices = format!("Radix - UNSIGNED,UNSIGNED,UNSIGNED,{radices}");
-            let heads = heads([head, &radices]).unwrap();
-            (heads.gap, heads.columns.len())
+            let header = header([head, &radices]).unwrap();
+            (header.gap, header.columns.len())
         };
         assert_eq!(told("HEX"), (true, 1));
         assert_eq!(told("UNSIGNED,HEX"), (true, 1));
         assert_eq!(told("HEX,HEX"), (false, 2));
-        assert!(!heads([head, ""]).unwrap().gap);
+        assert!(!header([head, ""]).unwrap().gap);
     }
 }

@@ -17,11 +17,12 @@ pub fn setup(text: &str) -> Result<Arc<Setup>, String> {
 /// Checks that the caller was written for this version.
 pub fn check_version(version: &str) -> Result<(), String> {
     let own = env!("CARGO_PKG_VERSION");
-    match version == own {
-        true => Ok(()),
-        false => Err(format!(
+    if version == own {
+        Ok(())
+    } else {
+        Err(format!(
             "the SystemVerilog is of tofsim {version}, this library of {own}: write it anew with `tofsim dpi`"
-        )),
+        ))
     }
 }
 

@@ -6,7 +6,7 @@ use super::super::correlation::{Candidate, KEPT};
 const SEEDS: usize = 16;
 
 /// A window with its best positions.
-pub(super) struct Needle {
+pub(super) struct Template {
     /// Packed bits of its samples.
     rows: Vec<u64>,
     /// Words per sample.
@@ -20,13 +20,13 @@ pub(super) struct Needle {
     sure: u64,
 }
 
-impl Needle {
+impl Template {
     /// Creates a window from samples of `stride` words.
-    pub(super) fn new(rows: Vec<u64>, stride: usize) -> Needle {
+    pub(super) fn new(rows: Vec<u64>, stride: usize) -> Template {
         let row = |k: usize| &rows[k * stride..(k + 1) * stride];
         let changes = |&k: &usize| k > 0 && row(k) != row(k - 1);
         let (first, last): (Vec<_>, Vec<_>) = (0..rows.len() / stride).partition(changes);
-        Needle { order: [first, last].concat(), rows, stride, best: Vec::new(), sure: 0 }
+        Template { order: [first, last].concat(), rows, stride, best: Vec::new(), sure: 0 }
     }
 
     /// Returns the number of samples.
@@ -81,13 +81,13 @@ impl Needle {
             return None;
         }
         let compared = (self.length() * width) as u64;
-        let told = self.best.iter().filter(|(first, twice)| *first >= from || *twice > 2 * best);
+        let kept = self.best.iter().filter(|(first, twice)| *first >= from || *twice > 2 * best);
         let candidate = |&(first, twice): &(u64, u64)| Candidate {
             offset: first as i64,
             differing: twice.div_ceil(2),
             compared,
         };
-        Some(told.map(candidate).collect())
+        Some(kept.map(candidate).collect())
     }
 }
 
@@ -134,31 +134,31 @@ mod tests {
 
     #[test]
     fn a_window_keeps_the_places_where_it_fits_best() {
-        let mut needle = Needle::new(rows(&[0, 3, 1]), 2);
+        let mut template = Template::new(rows(&[0, 3, 1]), 2);
         let wave = rows(&[0, 0, 3, 1, 2, 0, 3, 3]);
-        needle.begin_anew();
-        (0..6).for_each(|first| needle.lay_over(&wave[2 * first..][..6], first as u64));
-        let told = |from: u64| {
-            let candidates = needle.candidates(from, 2).unwrap();
+        template.begin_anew();
+        (0..6).for_each(|first| template.lay_over(&wave[2 * first..][..6], first as u64));
+        let kept = |from: u64| {
+            let candidates = template.candidates(from, 2).unwrap();
             candidates.iter().map(|c| (c.offset, c.differing)).collect::<Vec<_>>()
         };
-        assert_eq!(told(0)[..2], [(1, 0), (5, 1)]);
-        assert_eq!(told(2)[0], (5, 1));
-        assert!(needle.candidates(6, 2).is_none());
+        assert_eq!(kept(0)[..2], [(1, 0), (5, 1)]);
+        assert_eq!(kept(2)[0], (5, 1));
+        assert!(template.candidates(6, 2).is_none());
     }
 
     #[test]
     fn what_differs_in_as_many_places_as_there_are_seeds_is_not_sure() {
-        let mut needle = Needle::new(rows(&[0, 1].repeat(32)), 2);
+        let mut template = Template::new(rows(&[0, 1].repeat(32)), 2);
         let seeds: Vec<_> =
-            needle.seeds().iter().map(|(rows, behind)| (rows.len(), *behind)).collect();
+            template.seeds().iter().map(|(rows, behind)| (rows.len(), *behind)).collect();
         assert_eq!((seeds.len(), seeds[0], seeds[15]), (16, (8, 60), (8, 0)));
         let mut other = [0, 1].repeat(32);
         for (k, is_sure) in [(3, true), (9, true), (11, true), (20, false)] {
             other[k] ^= 1;
-            needle.best.clear();
-            needle.lay_over(&rows(&other), 5);
-            assert_eq!(needle.candidates(0, 2).is_some(), is_sure, "{k}");
+            template.best.clear();
+            template.lay_over(&rows(&other), 5);
+            assert_eq!(template.candidates(0, 2).is_some(), is_sure, "{k}");
         }
     }
 }

@@ -1,0 +1,64 @@
+//! Former names of keys, which remain valid in input.
+//!
+//! The present key's schema holds its former name in the attribute `formerly`.
+
+use schemars::JsonSchema;
+use serde_json::{Map, Value as Json};
+use toml_edit::{Table, TableLike};
+
+use crate::error::{Input, Result};
+
+use super::walk::{resolve, shown};
+
+/// A key that was given by its former name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenamedKey {
+    /// Former dotted key, as given.
+    pub former: String,
+    /// Present dotted key.
+    pub present: String,
+    /// Value of the key, as a message shows it.
+    pub value: String,
+}
+
+/// Returns the schema of the property whose former name is `key`.
+pub(super) fn by_former_name<'a>(key: &str, known: &'a Map<String, Json>) -> Option<&'a Json> {
+    known.values().find(|schema| schema["formerly"] == key)
+}
+
+/// Replaces former names of keys in a table of type `T` by the present ones, and returns those that it replaced.
+///
+/// # Errors
+/// If a key is given by both of its names.
+pub fn rename<T: JsonSchema>(source: &str, table: &mut Table) -> Result<Vec<RenamedKey>> {
+    let schema = schemars::schema_for!(T);
+    let mut renamed = Vec::new();
+    below(source, table, schema.as_value(), schema.as_value(), "", &mut renamed)?;
+    Ok(renamed)
+}
+
+fn below(
+    source: &str,
+    table: &mut dyn TableLike,
+    root: &Json,
+    schema: &Json,
+    path: &str,
+    renamed: &mut Vec<RenamedKey>,
+) -> Result<()> {
+    let properties = resolve(root, schema)["properties"].as_object();
+    for (key, schema) in properties.into_iter().flatten() {
+        let present = format!("{path}{key}");
+        let former = schema["formerly"].as_str().unwrap_or_default();
+        if let Some(item) = table.remove(former) {
+            let (former, value) = (format!("{path}{former}"), shown(&item));
+            if table.insert(key, item).is_some() {
+                let expected = format!("expected one of {present} and its former name");
+                return Err(Input::new(source, expected).field(former).value(value).into());
+            }
+            renamed.push(RenamedKey { former, present, value });
+        } else if let Some(inner) = table.get_mut(key).and_then(|item| item.as_table_like_mut()) {
+            below(source, inner, root, schema, &format!("{present}."), renamed)?;
+        }
+    }
+    Ok(())
+}
