@@ -166,7 +166,7 @@ pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
         let path = path.display().to_string();
         return Err(Input::new("--cycle-counts", expected).value(path).into());
     }
-    let design = count::Design::of(&args.from.setting()?.setup);
+    let design = count::CountedDesign::of(&args.from.setting()?.setup);
     let counts = count::cycle_counts(&rtl, &design, &limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };
         let word = coloured(word, count.holds(), &std::io::stderr());

@@ -16,7 +16,7 @@ mod simulate;
 #[cfg(test)]
 mod tests;
 
-pub use design::Design;
+pub use design::CountedDesign;
 use promises::Promise;
 
 use serde::Serialize;
@@ -65,7 +65,7 @@ impl Count {
 /// is missing), the simulation does not end, or the user stops.
 pub fn cycle_counts(
     rtl: &Rtl,
-    design: &Design,
+    design: &CountedDesign,
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
@@ -81,7 +81,7 @@ pub fn cycle_counts(
 
 fn count(
     promises: &[Promise],
-    design: &Design,
+    design: &CountedDesign,
     rtl: &Rtl,
     limits: &Limits,
     done: impl Fn(&Count),

@@ -3,7 +3,7 @@
 use tofsim::firmware::centroid_estimator;
 use tofsim::firmware::histogram_builder;
 
-use super::design::{Define, Design};
+use super::design::{CountedDesign, Define};
 
 /// A Verilog module with properties of some modules of the design.
 #[derive(Debug)]
@@ -140,7 +140,7 @@ fn with_latency(mut defines: Vec<Define>, latency: u64) -> Vec<Define> {
 }
 
 /// Returns the promise of an estimator that a design may leave out.
-pub fn centroid(design: &Design) -> Promise {
+pub fn centroid(design: &CountedDesign) -> Promise {
     let bins = design.estimator.bins;
     let histogram = histogram_builder::Params { bins, ..histogram_builder::Params::default() };
     let done = centroid_estimator::Params { histogram, ..Default::default() }.done();
@@ -153,7 +153,7 @@ pub fn centroid(design: &Design) -> Promise {
 }
 
 /// As [`centroid`], where the estimator's model holds.
-pub fn likelihood(design: &Design) -> Option<Promise> {
+pub fn likelihood(design: &CountedDesign) -> Option<Promise> {
     let done = design.likelihood.as_ref()?.done();
     let what = "likelihood estimator: algo_start taken to algo_done";
     Some(Promise {
@@ -164,7 +164,7 @@ pub fn likelihood(design: &Design) -> Option<Promise> {
 }
 
 /// Everything else that is promised of a design.
-pub fn promises(design: &Design) -> Vec<Promise> {
+pub fn promises(design: &CountedDesign) -> Vec<Promise> {
     let (bins, neurons) = (design.estimator.bins as u64, design.estimator.neurons as u64);
     let pairs = neurons.div_ceil(2);
     let latency = bins + (3 + neurons).max(7 + pairs);

@@ -10,7 +10,7 @@ use crate::verify::process::{End, Limits};
 use crate::verify::rtl::Rtl;
 use crate::verify::simulator::Simulator;
 
-use super::design::{Design, with_defines};
+use super::design::{CountedDesign, with_defines};
 use super::measured::Measured;
 
 /// The bench of an estimator: the part of its own between the head and the tail that all have.
@@ -33,7 +33,12 @@ const BENCHES: [(&str, &str); 4] = [
 /// # Errors
 /// When a tool is missing, the Verilog cannot be compiled with a bench, the simulation does not
 /// end, `folder` cannot be written, or the user stops.
-pub fn measure(rtl: &Rtl, design: &Design, folder: &Path, limits: &Limits) -> Result<Measured> {
+pub fn measure(
+    rtl: &Rtl,
+    design: &CountedDesign,
+    folder: &Path,
+    limits: &Limits,
+) -> Result<Measured> {
     let mut measured = Measured::default();
     let is_there = |(name, _): &(&str, &str)| match *name {
         "bench_centroid" => rtl.has(CENTROID),

@@ -15,12 +15,12 @@ fn limits() -> Limits<'static> {
 /// A place in a file of ours, and what to put there.
 pub type Edit = [&'static str; 3];
 
-fn kc705() -> Design {
+fn kc705() -> CountedDesign {
     of(&[])
 }
 
-fn of(set: &[&str]) -> Design {
-    Design::of(&Setup::load("kc705", set).unwrap())
+fn of(set: &[&str]) -> CountedDesign {
+    CountedDesign::of(&Setup::load("kc705", set).unwrap())
 }
 
 /// The count of `key` in our Verilog after some edits.
