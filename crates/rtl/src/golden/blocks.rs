@@ -150,7 +150,7 @@ mod tests {
             for name in &columns {
                 let is_read = spec
                     .glue
-                    .is_some_and(|glue| (glue.verilog)(&Sizes::default()).contains(name.as_str()));
+                    .is_some_and(|glue| glue.verilog(&Sizes::default()).contains(name.as_str()));
                 let is_late =
                     |step: &BenchStep| step.late.is_some_and(|(_, column)| column == name.as_str());
                 let is_read = is_read || spec.timing.steps.iter().any(is_late);
@@ -158,7 +158,7 @@ mod tests {
                 assert!(is_input || is_read, "{}: {name}", spec.name);
             }
             for port in inputs.iter().filter(|port| !port.name.starts_with("clk")) {
-                let is_glued = spec.glue.is_some_and(|glue| glue.drives == port.name);
+                let is_glued = spec.is_glued(&port.name);
                 let is_driven = columns.contains(&&port.name) || port.name == "tdc_stop";
                 assert!(is_driven || is_glued, "{}: {}", spec.name, port.name);
             }

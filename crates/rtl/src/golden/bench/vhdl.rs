@@ -111,7 +111,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
     }
     if let Some(glue) = vectors.spec.glue {
         text += include_str!("words.vhd");
-        text += &format!("  {}\n", (glue.vhdl)(&vectors.sizes)[0]);
+        text += &format!("  {}\n", glue.vhdl(&vectors.sizes)[0]);
     }
     text
 }
@@ -120,7 +120,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
 fn statements(vectors: &Vectors) -> String {
     let mut text = String::new();
     if let Some(glue) = vectors.spec.glue {
-        text += &format!("\n  {}\n", (glue.vhdl)(&vectors.sizes)[1]);
+        text += &format!("\n  {}\n", glue.vhdl(&vectors.sizes)[1]);
     }
     if vectors.spec.timing.oscillator {
         let half = physical(vectors.half_of_oscillator());

@@ -94,7 +94,7 @@ impl Listed {
                     self.unknown.push(unknown);
                 }
                 word if word.starts_with(['-', '+']) => {
-                    if !self.joined(word, &folder)? {
+                    if !self.joined(word, folder)? {
                         self.unknown.push(format!("{}: {word}", place(line)));
                     }
                 }
