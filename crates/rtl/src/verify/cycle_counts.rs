@@ -24,8 +24,6 @@ use serde::Serialize;
 use tofsim::error::Result;
 use tofsim::files::staged::ScratchFolder;
 
-use crate::golden::blocks::{CENTROID, LIKELIHOOD};
-
 use super::process::Limits;
 use super::rtl::Rtl;
 
@@ -69,14 +67,7 @@ pub fn cycle_counts(
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
-    let mut promises = promises::promises(design);
-    if rtl.has(CENTROID) {
-        promises.push(promises::centroid(design));
-    }
-    if rtl.has(LIKELIHOOD) {
-        promises.extend(promises::likelihood(design));
-    }
-    count(&promises, design, rtl, limits, done)
+    count(&promises::of(rtl, design), design, rtl, limits, done)
 }
 
 fn count(
@@ -87,7 +78,7 @@ fn count(
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let folder = ScratchFolder::new()?;
-    let simulated = simulate::measure(rtl, design, folder.path(), limits)?;
+    let simulated = simulate::measure(promises, rtl, design, folder.path(), limits)?;
     let modelled = model::measure(design);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);

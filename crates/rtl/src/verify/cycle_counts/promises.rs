@@ -3,6 +3,9 @@
 use tofsim::firmware::centroid_estimator;
 use tofsim::firmware::histogram_builder;
 
+use crate::golden::blocks::{CENTROID as CENTROID_MODULE, LIKELIHOOD as LIKELIHOOD_MODULE};
+use crate::verify::rtl::Rtl;
+
 use super::design::{CountedDesign, Define};
 
 /// A Verilog module with properties of some modules of the design.
@@ -12,6 +15,8 @@ pub struct Properties {
     pub module: &'static str,
     /// The file.
     pub text: &'static str,
+    /// The bench that counts the same in a simulation.
+    pub bench: &'static str,
     /// Unit of the numbers.
     pub unit: &'static str,
     /// Modules that are left open: nothing proven depends on what they do.
@@ -27,9 +32,19 @@ pub struct Properties {
 }
 
 impl Properties {
-    const fn new(module: &'static str, text: &'static str) -> Self {
+    const fn new(module: &'static str, bench: &'static str, text: &'static str) -> Self {
         let (unit, step, steps) = ("cycles of clk_sys", "async2sync", 4);
-        Properties { module, text, unit, open: &[], registers: &[], logic: "proc", step, steps }
+        Properties {
+            module,
+            text,
+            bench,
+            unit,
+            open: &[],
+            registers: &[],
+            logic: "proc",
+            step,
+            steps,
+        }
     }
 }
 
@@ -43,12 +58,12 @@ macro_rules! of_estimator {
 static ESTIMATOR: Properties = Properties {
     open: &["forward1", "forward2", "tansig"],
     registers: &["estimator_ctrl.busy", "estimator_ctrl.step"],
-    ..Properties::new("check_estimator", of_estimator!("check_estimator.sv"))
+    ..Properties::new("check_estimator", "bench_estimator", of_estimator!("check_estimator.sv"))
 };
 
 static CENTROID: Properties = Properties {
     registers: &["busy", "step"],
-    ..Properties::new("check_centroid", of_estimator!("check_centroid.sv"))
+    ..Properties::new("check_centroid", "bench_centroid", of_estimator!("check_centroid.sv"))
 };
 
 /// The solver's program is a large `case`, which `proc` would make a memory, and no proof reads memories. What only
@@ -69,7 +84,7 @@ static LIKELIHOOD: Properties = Properties {
     logic: "proc -norom; delete */t:likelihood_memory */t:likelihood_terms */t:likelihood_sums */t:likelihood_scan \
             */t:$memwr*",
     steps: 2,
-    ..Properties::new("check_likelihood", of_estimator!("check_likelihood.sv"))
+    ..Properties::new("check_likelihood", "bench_likelihood", of_estimator!("check_likelihood.sv"))
 };
 
 static SHOT: Properties = Properties {
@@ -77,6 +92,7 @@ static SHOT: Properties = Properties {
     steps: 40,
     ..Properties::new(
         "check_shot",
+        "bench_shot",
         concat!(include_str!("check_shot.sv"), include_str!("check_tail.sv")),
     )
 };
@@ -85,7 +101,7 @@ static PULSE: Properties = Properties {
     unit: "ps",
     step: "clk2fflogic",
     steps: 40,
-    ..Properties::new("check_pulse", include_str!("check_pulse.sv"))
+    ..Properties::new("check_pulse", "bench_shot", include_str!("check_pulse.sv"))
 };
 
 /// A promise.
@@ -161,6 +177,13 @@ pub fn likelihood(design: &CountedDesign) -> Option<Promise> {
         defines: with_latency(design.of_likelihood(), done),
         ..Promise::new(&LIKELIHOOD, "likelihood_latency", done, what)
     })
+}
+
+/// Returns what is promised of a design with those modules.
+pub fn of(rtl: &Rtl, design: &CountedDesign) -> Vec<Promise> {
+    let centroid = rtl.has(CENTROID_MODULE).then(|| centroid(design));
+    let likelihood = rtl.has(LIKELIHOOD_MODULE).then(|| likelihood(design)).flatten();
+    promises(design).into_iter().chain(centroid).chain(likelihood).collect()
 }
 
 /// Everything else that is promised of a design.
