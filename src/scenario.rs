@@ -12,6 +12,8 @@ pub mod chain;
 pub mod dark;
 #[doc(hidden)]
 pub mod drift;
+#[doc(hidden)]
+pub mod effects;
 mod illuminance;
 mod load;
 #[doc(hidden)]

@@ -1,4 +1,4 @@
-//! The documents say what the code does: port tables in `docs/model.md`.
+//! The documents say what the code does: port tables in `docs/model.md`, the table of effects in `docs/accuracy.md`.
 //!
 //! `UPDATE_DOCS=1 cargo test -p tofsim --test simulator docs` writes the tables anew.
 
@@ -7,6 +7,7 @@ use std::fs;
 
 use tofsim::hierarchy::{Entry, Kind, TOP, every_entry_of};
 use tofsim::kernel::sizes::Sizes;
+use tofsim::scenario::effects::{Effect, Method};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -80,12 +81,40 @@ fn the_port_tables_are_those_of_the_code() {
         let (_, rest) = rest.split_once(END).unwrap();
         write!(new, "{BEGIN}{module} -->\n\n{}\n{END}{rest}", table(module, &entries)).unwrap();
     }
+    assert_or_update("docs/model.md", &old, &new);
+}
+
+/// The table of effects: keys, what they invalidate and from which value on, and why.
+fn effects() -> String {
+    let mut rows = String::from("| keys | invalidate | because |\n|---|---|---|\n");
+    for effect in Effect::ALL {
+        let keys: Vec<_> = effect.keys().iter().map(|key| format!("`{}`", key.name)).collect();
+        let broken = Method::ALL.into_iter().filter_map(|method| match effect.limit(method)? {
+            _ if method == Method::IndependentShots => None,
+            0.0 => Some(method.name().to_owned()),
+            limit => Some(format!("{} (above {limit})", method.name())),
+        });
+        let broken = broken.collect::<Vec<_>>().join(", ");
+        writeln!(rows, "| {} | {broken} | {} |", keys.join(", "), effect.why()).unwrap();
+    }
+    rows
+}
+
+#[test]
+fn the_table_of_effects_is_that_of_the_code() {
+    let old = fs::read_to_string(format!("{ROOT}/docs/accuracy.md")).unwrap();
+    let (before, rest) = old.split_once("<!-- effects -->").unwrap();
+    let (_, after) = rest.split_once(END).unwrap();
+    let new = format!("{before}<!-- effects -->\n\n{}\n{END}{after}", effects());
+    assert_or_update("docs/accuracy.md", &old, &new);
+}
+
+/// Writes a document anew if `UPDATE_DOCS` is set, or fails if it is out of date.
+fn assert_or_update(document: &str, old: &str, new: &str) {
     if std::env::var_os("UPDATE_DOCS").is_some() {
-        fs::write(&model, &new).unwrap();
+        fs::write(format!("{ROOT}/{document}"), new).unwrap();
     } else {
-        assert!(
-            old == new,
-            "docs/model.md is out of date: UPDATE_DOCS=1 cargo test -p tofsim --test simulator docs"
-        );
+        let how = "UPDATE_DOCS=1 cargo test -p tofsim --test simulator docs";
+        assert!(old == new, "{document} is out of date: {how}");
     }
 }

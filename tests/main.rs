@@ -5,6 +5,7 @@ mod common;
 mod conditions;
 mod depth;
 mod docs;
+mod effects;
 mod fast_ways;
 mod histogram_file;
 mod layers;

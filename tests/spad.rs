@@ -181,7 +181,7 @@ fn a_frame_is_not_drawn_as_a_whole_with_afterpulses() {
     let of = |set: &[&str]| {
         let setup = setup("kc705", set);
         let refused = independent_shots(&setup, "who").err().map(|error| error.to_string());
-        (refused, setup.has_frames_apart())
+        (refused, setup.has_separate_frames())
     };
     let (refused, apart) = of(&["spad.afterpulse_probability=0.01"]);
     assert!(refused.is_some_and(|why| why.contains("spad.afterpulse_probability = 0.01")));

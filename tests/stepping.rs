@@ -56,7 +56,8 @@ fn run(setup: &Setup, count: u64, way: Way) -> Result {
     Result { frames, end_fs, cycles, shots, notes: outcome.notes }
 }
 
-fn assert_all_alike(setup: &Setup, count: u64) -> std::result::Result<(), TestCaseError> {
+/// Compares what each fidelity gives, on one thread and on two, with what the plain step gives.
+pub fn assert_all_alike(setup: &Setup, count: u64) -> std::result::Result<(), TestCaseError> {
     static THREADS: LazyLock<ThreadPool> =
         LazyLock::new(|| ThreadPoolBuilder::new().num_threads(2).build().unwrap());
     let plain = run(setup, count, Way::OneByOne(Stepping::EveryCycle));

@@ -86,7 +86,7 @@ impl Budget {
     /// Computes the budget of a scene that may have a mesh, for the given laser pulse and without measured dark
     /// rates.
     pub fn of_scene(scenario: &Scenario, pulse: Pulse, mesh: Option<&Mesh>) -> Self {
-        let scene = scenario.beside_one_echo().map(|_| Scene::new(scenario, mesh));
+        let scene = scenario.complex_scene().map(|_| Scene::new(scenario, mesh));
         let seen = match &scene {
             None => Ambient { target_sr: seen_sr(scenario), air_sr: 0.0 },
             Some(scene) => scene.ambient(),

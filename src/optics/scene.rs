@@ -14,6 +14,7 @@ mod surface;
 use std::f64::consts::PI;
 
 use crate::scenario::Scenario;
+use crate::scenario::effects::Effect;
 use crate::scenario::mesh::Mesh;
 
 use super::air::Air;
@@ -63,6 +64,16 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// Whether all light of the target comes after the way along the axis.
+    fn is_plain(&self) -> bool {
+        Effect::Target.occurrence(self.scenario).is_none()
+    }
+
+    /// Whether there is nothing in the air.
+    fn is_clear(&self) -> bool {
+        Effect::Air.occurrence(self.scenario).is_none()
+    }
+
     /// Computes the ambient light: that from the target, attenuated on its way to the sensor, and that scattered by
     /// the air (Koschmieder).
     pub fn ambient(&self) -> Ambient {
@@ -74,7 +85,7 @@ impl<'a> Scene<'a> {
             target_sr += projected_sr * passes;
             hidden_sr += projected_sr * passes;
         });
-        if self.scenario.atmosphere.is_clear() {
+        if self.is_clear() {
             return Ambient { target_sr, air_sr: 0.0 };
         }
         let sin = libm::sin((full_angle_deg / 2.0).to_radians());
@@ -87,7 +98,7 @@ impl<'a> Scene<'a> {
         let (laser, spad) = (&self.scenario.laser, &self.scenario.spad);
         let full_angle_deg = laser.field_of_illumination_deg.min(spad.field_of_view_deg);
         let target = &self.scenario.target;
-        let together = target.is_plain().then_some(target.distance_m);
+        let together = self.is_plain().then_some(target.distance_m);
         let mut returned = Returned::default();
         let mut hidden = Vec::new();
         self.elements(full_angle_deg, |element| {
@@ -105,7 +116,7 @@ impl<'a> Scene<'a> {
             of.add(at_m, spread_m, weight * passes, weight);
             hidden.push([sight_m, sr]);
         });
-        if !self.scenario.atmosphere.is_clear() {
+        if !self.is_clear() {
             let cone_sr = 2.0 * PI * (1.0 - libm::cos((full_angle_deg / 2.0).to_radians()));
             returned.air = Some(Haze::new(self.air, cone_sr, hidden));
         }

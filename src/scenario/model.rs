@@ -6,7 +6,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::firmware::histogram_builder;
-use crate::note::NoteValue;
 
 use super::window::Window;
 
@@ -103,18 +102,6 @@ impl Scenario {
         let (bins, count_bits) = (self.tdc.bins as usize, self.firmware.count_bits);
         histogram_builder::Params { bins, count_bits }
     }
-
-    /// Returns the key, value and usual value of a setting that makes a shot's light differ from one echo of the
-    /// laser pulse, if there is one.
-    pub fn beside_one_echo(&self) -> Option<(&'static str, NoteValue, &'static str)> {
-        let air = [
-            ("atmosphere.visibility_m", self.atmosphere.visibility_m),
-            ("atmosphere.rain_mm_h", self.atmosphere.rain_mm_h),
-        ];
-        let air = air.into_iter().find(|(_, amount)| *amount != 0.0);
-        let air = air.map(|(key, amount)| (key, amount.into(), "0"));
-        self.target.beside_a_plain_one().or(air)
-    }
 }
 
 table! {
@@ -145,30 +132,5 @@ table! {
         #[schemars(extend("source" = "choice: a first look under 5 MB"))]
         #[schemars(with = "Vec<String>")]
         pub windows: Vec<Window> = Vec::new(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_key_that_makes_more_than_one_echo_is_named() {
-        let key = |change: &dyn Fn(&mut Scenario)| {
-            let mut scenario = Scenario::default();
-            change(&mut scenario);
-            scenario.beside_one_echo().map(|(key, value, _)| (key, value.to_string()))
-        };
-        let named = |key: &'static str, value: &str| Some((key, value.to_owned()));
-        assert_eq!(key(&|_| ()), None);
-        assert_eq!(key(&|s| s.target.radius_m = 7.0), None);
-        assert_eq!(key(&|s| s.target.shape = Shape::Sphere), named("target.shape", "sphere"));
-        assert_eq!(key(&|s| s.target.extended = true), named("target.extended", "true"));
-        assert_eq!(key(&|s| s.target.yaw_deg = -3.0), named("target.yaw_deg", "-3"));
-        assert_eq!(key(&|s| s.target.retro_side_m = 0.1), named("target.retro_side_m", "0.1"));
-        let fog = |s: &mut Scenario| s.atmosphere.visibility_m = 50.0;
-        assert_eq!(key(&fog), named("atmosphere.visibility_m", "50"));
-        let rain = |s: &mut Scenario| s.atmosphere.rain_mm_h = 5.0;
-        assert_eq!(key(&rain), named("atmosphere.rain_mm_h", "5"));
     }
 }

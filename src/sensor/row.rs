@@ -16,7 +16,7 @@ use super::streams::{Source, Stretches, exponential, uniform};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
     /// Probability that an avalanche traps a carrier [1].
-    pub afterpulse_probability: f64,
+    pub trap_probability: f64,
     /// Mean lifetime of a trapped carrier [fs].
     pub afterpulse_fs: f64,
     /// Mean lifetime in a trap of the second kind [fs].
@@ -51,7 +51,7 @@ impl Effects {
         let late = |(share, mean_fs): (f64, f64)| {
             if share > 0.0 { share * libm::exp(-fs / mean_fs) } else { 0.0 }
         };
-        self.afterpulse_probability * self.traps().map(late).iter().sum::<f64>()
+        self.trap_probability * self.traps().map(late).iter().sum::<f64>()
     }
 
     /// Returns whether `count` SPADs have none of the effects, so that they need not be tracked.
@@ -60,7 +60,7 @@ impl Effects {
             return false;
         }
         let together = self.crosstalk_probability == 0.0 && self.dark_rates.is_empty();
-        self.afterpulse_probability == 0.0 && !self.paralysable && (together || count == 1)
+        self.trap_probability == 0.0 && !self.paralysable && (together || count == 1)
     }
 }
 
@@ -210,7 +210,7 @@ impl SpadRow {
 
     /// Draws whether an avalanche at `now` traps a carrier.
     fn trap(&mut self, diode: usize, now: Time) {
-        let chance = self.effects.afterpulse_probability;
+        let chance = self.effects.trap_probability;
         if chance == 0.0 {
             return;
         }

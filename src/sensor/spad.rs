@@ -90,7 +90,7 @@ impl Spads {
     fn most(&self) -> usize {
         match &self.row {
             Some(row) if self.passive && row.effects().paralysable => usize::MAX,
-            Some(row) if row.effects().afterpulse_probability > 0.0 => self.count,
+            Some(row) if row.effects().trap_probability > 0.0 => self.count,
             Some(row) if row.effects().on_tdc.is_some() => self.count,
             _ if self.passive => self.count,
             _ => 1,

@@ -1,8 +1,9 @@
-//! A scenario beside what a network was trained for.
+//! The domain of a network: what it was trained for, and where a scenario lies outside of that.
 
 mod keys;
 mod scene;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::Value;
@@ -12,21 +13,12 @@ use crate::network::Network;
 use crate::network::domain::{Domain, holds, in_words};
 use crate::note::{Note, NoteCode, NoteValue};
 use crate::scenario::Scenario;
+use crate::scenario::effects::USUAL;
 
-use keys::{DARK_FILE, FOLLOWING, KEYS, LATER, PULSE_FILE};
-use scene::{EXTENDED, RECTANGLE, SHAPE};
+use keys::{CALIBRATION, CHAIN, DARK_RATE, DEPENDENT, NAMED, silent};
+use scene::SHAPE;
 
-pub(crate) use keys::OF_DRIFT;
-
-const CHAIN: &str = "tdc.profile";
-const CALIBRATION: &str = "tdc.calibration";
-const DECODER: &str = "tdc.decoder";
-/// What files say nothing of: the only calibration and the only decoder that there was, and the only target.
-const UNSAID: [(&str, &str); 4] =
-    [(CALIBRATION, OWN_DELAYS), (DECODER, ONES), (SHAPE, RECTANGLE), (EXTENDED, "false")];
-const OWN_DELAYS: &str = "true";
-const ONES: &str = "ones";
-const DARK_RATE: &str = "spad.dark_rate_hz";
+pub(crate) use keys::DRIFT as DRIFT_KEYS;
 
 /// Text of a note on a network outside its training domain.
 const TEXT: &str = "the network was not trained for it";
@@ -34,23 +26,25 @@ const TEXT: &str = "the network was not trained for it";
 /// A key of the scenario, and the least and the largest value that a grid gives it.
 pub type GridRange<'a> = (&'a str, [f64; 2]);
 
-/// The domain of a network that is trained on histograms of a scenario, whose keys in `grid` have those
+/// Returns the domain of a network that is trained on histograms of a scenario, whose keys in `grid` have those
 /// ranges.
 ///
 /// # Errors
 /// When the scenario has no such key.
 pub fn of(scenario: &Scenario, grid: &[GridRange]) -> Result<Domain> {
     let values = Values::new(scenario, grid)?;
+    let usual = Values::new(&USUAL, &[])?;
     let mut domain = Domain::default();
-    let words = [CHAIN, CALIBRATION, DECODER, PULSE_FILE, DARK_FILE, SHAPE, EXTENDED];
-    for key in KEYS.into_iter().chain(words).chain(values.of_scene()) {
+    for key in NAMED.into_iter().chain(silent()).chain(values.of_scene()) {
+        let is_silent =
+            || silent().any(|silent| silent == key) && values.get(key) == usual.get(key);
         match values.get(key) {
-            Some(Found::Word(word)) if UNSAID.contains(&(key, word.as_str())) => {}
             Some(Found::Range([_, most])) if key == DARK_RATE => {
                 // Fewer dark counts are no other histograms: there is one in some 10,000 shots.
                 domain.ranges.insert(key.to_owned(), [0.0, most]);
             }
             Some(Found::Range(range)) => drop(domain.ranges.insert(key.to_owned(), range)),
+            Some(Found::Word(_)) if is_silent() => {}
             Some(Found::Word(word)) => drop(domain.words.insert(key.to_owned(), word)),
             None => {}
         }
@@ -58,98 +52,56 @@ pub fn of(scenario: &Scenario, grid: &[GridRange]) -> Result<Domain> {
     Ok(domain)
 }
 
-/// Where a scenario, whose keys in `grid` have those ranges, lies outside of what a network was trained
-/// for.
+/// Returns notes on where a scenario, whose keys in `grid` have those ranges, lies outside of what a network was
+/// trained for.
 ///
 /// # Errors
 /// When the scenario has no such key.
 pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Result<Vec<Note>> {
     let values = Values::new(scenario, grid)?;
-    let outside = |key: &str, value: NoteValue, expected: String| {
-        Note::new(NoteCode::OutsideTraining, key, value, expected, TEXT)
-    };
-    let chain = |trained: &str| {
-        let own = &scenario.tdc.profile;
-        let differs = file_name(trained) != file_name(own);
-        differs.then(|| outside(CHAIN, own.as_str().into(), trained.to_owned()))
-    };
     let Some(domain) = &network.domain else {
         let text = "the network's file does not say what it was trained for";
         let name = network.name.as_str();
         let expected = "a file with [domain]";
         let key = "estimator.network";
         let unknown = Note::new(NoteCode::OutsideTraining, key, name, expected, text);
-        return Ok([unknown].into_iter().chain(chain(&network.training.chain)).collect());
+        let chain = Found::Word(network.training.chain.clone());
+        return Ok([unknown].into_iter().chain(values.outside(CHAIN, Some(&chain))).collect());
     };
-    let mut notes = Vec::new();
-    let later = LATER.into_iter().filter(|(key, _)| !domain.ranges.contains_key(*key));
-    let ranges = domain.ranges.iter().map(|(key, range)| (key.as_str(), *range));
-    for (key, range) in ranges.chain(later.map(|(key, only)| (key, [only; 2]))) {
-        match values.get(key) {
-            Some(Found::Range(found)) if holds(range, found) => {}
-            _ if values.decides_nothing(key) => {}
-            Some(Found::Range([least, largest])) if least == largest => {
-                notes.push(outside(key, least.into(), in_words(range)));
-            }
-            Some(Found::Range(found)) => {
-                notes.push(outside(key, in_words(found).as_str().into(), in_words(range)));
-            }
-            _ => notes.push(outside(key, NoteValue::None, in_words(range))),
-        }
-    }
-    for (key, file) in
-        [(PULSE_FILE, &scenario.laser.pulse_file), (DARK_FILE, &scenario.spad.dark_file)]
-    {
-        if let (Some(file), false) = (file, domain.words.contains_key(key)) {
-            notes.push(outside(key, file.as_str().into(), "none".to_owned()));
-        }
-    }
-    let trained = domain.words.get(CALIBRATION).map_or(OWN_DELAYS, String::as_str);
-    let own = scenario.tdc.calibration.to_string();
-    if file_name(trained) != file_name(&own) {
-        notes.push(outside(CALIBRATION, own.as_str().into(), trained.to_owned()));
-    }
-    let trained = domain.words.get(DECODER).map_or(ONES, String::as_str);
-    let own = scenario.tdc.decoder.name();
-    if trained != own {
-        notes.push(outside(DECODER, own.into(), trained.to_owned()));
-    }
-    for (key, usual) in [(SHAPE, RECTANGLE), (EXTENDED, "false")] {
-        let trained = domain.words.get(key).map_or(usual, String::as_str);
-        match values.get(key) {
-            Some(Found::Word(own)) if own != trained => {
-                notes.push(outside(key, own.as_str().into(), trained.to_owned()));
-            }
-            _ => {}
-        }
-    }
-    for (key, trained) in &domain.words {
-        match values.get(key) {
-            _ if key == CHAIN => notes.extend(chain(trained)),
-            _ if UNSAID.iter().any(|(unsaid, _)| key == unsaid) => {}
-            Some(Found::Word(word)) if word == *trained => {}
-            Some(Found::Word(word)) => {
-                notes.push(outside(key, word.as_str().into(), trained.clone()))
-            }
-            _ => notes.push(outside(key, NoteValue::None, trained.clone())),
-        }
-    }
-    Ok(notes)
+    let usual = Values::new(&USUAL, &[])?;
+    let mut trained: BTreeMap<&str, Option<Found>> =
+        silent().map(|key| (key, usual.get(key))).collect();
+    let ranges = domain.ranges.iter().map(|(key, range)| (key, Found::Range(*range)));
+    let words = domain.words.iter().map(|(key, word)| (key, Found::Word(word.clone())));
+    trained.extend(ranges.chain(words).map(|(key, found)| (key.as_str(), Some(found))));
+    let (numbers, words): (Vec<_>, Vec<_>) =
+        trained.iter().partition(|(_, found)| matches!(found, Some(Found::Range(_))));
+    let outside = |(key, found): (&&str, &Option<Found>)| values.outside(key, found.as_ref());
+    Ok(numbers.into_iter().chain(words).filter_map(outside).collect())
 }
 
-/// A chain's name, wherever its file is.
+/// Whether a key's files may move and mean the same.
+fn is_of_chain(key: &str) -> bool {
+    [CHAIN, CALIBRATION].contains(&key)
+}
+
+/// Returns the name of a chain or a calibration, wherever its file is.
 fn file_name(profile: &str) -> Option<&std::ffi::OsStr> {
     Path::new(profile).file_name()
 }
 
-/// What stands at the keys of a scenario.
+/// The values of a scenario's keys.
 struct Values<'a> {
     scenario: Value,
     grid: &'a [GridRange<'a>],
 }
 
+/// The values of a key.
+#[derive(Clone, PartialEq)]
 enum Found {
+    /// Numbers from the first to the second.
     Range([f64; 2]),
+    /// A word or a name.
     Word(String),
 }
 
@@ -174,6 +126,33 @@ impl<'a> Values<'a> {
         self.scenario.pointer(&format!("/{}", key.replace('.', "/")))
     }
 
+    /// Returns a note that a key is not as a network was trained, if it is not.
+    fn outside(&self, key: &str, trained: Option<&Found>) -> Option<Note> {
+        let own = self.get(key);
+        let holds = match (trained, &own) {
+            (Some(Found::Range(trained)), Some(Found::Range(own))) => holds(*trained, *own),
+            (Some(Found::Word(trained)), Some(Found::Word(own))) if is_of_chain(key) => {
+                file_name(trained) == file_name(own)
+            }
+            (trained, own) => trained == own.as_ref(),
+        };
+        if holds || self.decides_nothing(key) {
+            return None;
+        }
+        let value = match own {
+            Some(Found::Range([least, largest])) if least == largest => least.into(),
+            Some(Found::Range(range)) => NoteValue::Text(in_words(range)),
+            Some(Found::Word(word)) => NoteValue::Text(word),
+            None => NoteValue::None,
+        };
+        let expected = match trained {
+            Some(Found::Range(range)) => in_words(*range),
+            Some(Found::Word(word)) => word.clone(),
+            None => NoteValue::None.to_string(),
+        };
+        Some(Note::new(NoteCode::OutsideTraining, key, value, expected, TEXT))
+    }
+
     /// Keys that decide something of a scene like this one, and nothing of a plain rectangle in clear air.
     fn of_scene(&self) -> Vec<&'static str> {
         let shape = match self.get(SHAPE) {
@@ -188,8 +167,8 @@ impl<'a> Values<'a> {
 
     /// Whether all that the key would have an effect by is at the reference.
     fn decides_nothing(&self, key: &str) -> bool {
-        let following = FOLLOWING.iter().find(|(following, ..)| *following == key);
-        following.is_some_and(|(_, causes, reference)| {
+        let dependent = DEPENDENT.iter().find(|(dependent, ..)| *dependent == key);
+        dependent.is_some_and(|(_, causes, reference)| {
             let is_there =
                 |cause| matches!(self.get(cause), Some(Found::Range(range)) if range == [*reference; 2]);
             causes.iter().all(|cause| is_there(cause))

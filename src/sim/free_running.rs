@@ -70,7 +70,7 @@ impl FreeRunning {
 
     /// The same without afterpulses, and with that dead time.
     pub fn without_afterpulses(&self, paralysable: bool) -> Self {
-        let effects = Effects { afterpulse_probability: 0.0, paralysable, ..self.effects.clone() };
+        let effects = Effects { trap_probability: 0.0, paralysable, ..self.effects.clone() };
         FreeRunning { effects, ..self.clone() }
     }
 

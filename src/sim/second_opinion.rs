@@ -10,7 +10,7 @@ use crate::firmware::tof_top::Estimator;
 use crate::network::file::Accuracy;
 use crate::note::{Note, NoteCode, NoteValue};
 use crate::optics::budget::LIGHT_M_S;
-use crate::scenario::wiring::Wiring;
+use crate::scenario::effects::Method;
 use crate::sensor::light::Light;
 
 use super::estimates::likelihood::estimate;
@@ -69,49 +69,9 @@ impl SecondOpinion {
         if let (Light::List(_) | Light::None, Some(why)) = (&setup.light, setup.no_depth()) {
             return Err(why.clone());
         }
-        let scenario = &setup.scenario;
-        let changes = scenario.control.len() as u64;
-        if changes > 0 {
-            return Err(none("control", changes.into(), "no changes: all shots are alike"));
-        }
-        let jitter_ps = scenario.pll.jitter_rms_ps;
-        if jitter_ps > 0.0 {
-            return Err(none("pll.jitter_rms_ps", jitter_ps.into(), "0: it blurs the pulse"));
-        }
-        let tdc = &scenario.tdc;
-        if let (true, Some(file)) = (setup.course.is_some(), tdc.conditions.as_deref()) {
-            return Err(none("tdc.conditions", file.into(), "none: bins that stand still"));
-        }
-        let window_ps = tdc.setup_window_ps;
-        if window_ps > 0.0 {
-            return Err(none("tdc.setup_window_ps", window_ps.into(), "0: it blurs the bins"));
-        }
-        let laser = &scenario.laser;
-        for (key, value) in [
-            ("laser.timing_jitter_ps", laser.timing_jitter_ps),
-            ("laser.energy_jitter", laser.energy_jitter),
-        ] {
-            if value > 0.0 {
-                return Err(none(key, value.into(), "0: pulses of all shots that are alike"));
-            }
-        }
-        if let Some((key, value, usual)) = scenario.beside_one_echo() {
-            let expected = format!("{usual}: one echo of the laser's pulse");
-            return Err(none(key, value, &expected));
-        }
-        let afterpulses = scenario.spad.afterpulse_probability;
-        if afterpulses > 0.0 {
-            let (key, expected) = ("spad.afterpulse_probability", "0: shots are independent");
-            return Err(none(key, afterpulses.into(), expected));
-        }
-        let crosstalk = scenario.spad.crosstalk_probability;
-        if crosstalk > 0.0 && Wiring::of(&scenario.spad).has_unwired() {
-            let (key, expected) =
-                ("spad.crosstalk_probability", "0 with spad.row_outputs: hits come of light");
-            return Err(none(key, crosstalk.into(), expected));
-        }
-        if let Some((key, ns)) = scenario.spad.shaping().next() {
-            return Err(none(key, ns.into(), "0: the TDC sees every first avalanche"));
+        if let Some(found) = setup.obstacles(Method::SecondOpinion).next() {
+            let expected = format!("{}: {}", found.expected(), found.effect.why());
+            return Err(none(found.key, found.value, &expected));
         }
         let params = setup.likelihood(setup.shots(1)).map_err(|fault| refused(&fault))?;
         let (name, accuracy) = match setup.params.estimator {
@@ -119,7 +79,7 @@ impl SecondOpinion {
             Estimator::Centroid => ("centroid", None),
             Estimator::Likelihood => ("likelihood", None),
         };
-        let bin_m = scenario.tdc.bin_ps * 1e-12 * LIGHT_M_S / 2.0;
+        let bin_m = setup.scenario.tdc.bin_ps * 1e-12 * LIGHT_M_S / 2.0;
         let socket = Socket { name, accuracy, bin_m };
         Ok(SecondOpinion { params, has_pairs: setup.has_pairs(), socket })
     }

@@ -2,6 +2,7 @@
 
 mod converter;
 mod detector;
+mod effects;
 mod elaboration;
 mod expectations;
 mod fits;

@@ -2,6 +2,7 @@
 //! same. The only module that the rest of a run knows fast ways by.
 
 use crate::firmware::tof_top::Params;
+use crate::scenario::effects::Method;
 
 use super::device::Device;
 use super::fast::{Tables, acquire, leap_frame_end, leap_shots, skip_idle};
@@ -21,13 +22,10 @@ pub enum Stepping {
 }
 
 impl Stepping {
-    /// Returns this fidelity, or the plain step where the firmware calibrates itself, its chain is another at each
-    /// edge, or pulses are shaped: fast ways model no ring, no disturbance, and no pulses that end by themselves.
+    /// Returns this fidelity, or the plain step where an effect of the scenario invalidates fast ways. What has to hold
+    /// from shot to shot they ask of the device.
     pub(super) fn at_most(self, setup: &Setup) -> Self {
-        let is_plain = setup.params.tdc_calibration.is_some()
-            || setup.disturbance().is_some()
-            || setup.scenario.spad.shaping().next().is_some();
-        if is_plain { Stepping::EveryCycle } else { self }
+        if setup.allows(Method::FastForward) { self } else { Stepping::EveryCycle }
     }
 }
 

@@ -77,7 +77,8 @@ fn the_chances_of_a_shot_are_what_a_simulation_counts() {
 fn where_shots_depend_on_each_other_there_is_no_chance_to_tell() {
     let args = ["budget", "-s", "firmware.mode=1"];
     assert!(
-        stdout(empty().path(), &args).contains("known only where the first avalanche of a shot decides")
+        stdout(empty().path(), &args)
+            .contains("known only where the first avalanche of a shot decides")
     );
     let budget = json(empty().path(), &[&args[..], &["--json"]].concat());
     assert!(budget["hit_probability"].is_null() && budget["signal_to_noise"].is_null());
@@ -124,7 +125,9 @@ fn a_laser_above_class_1_is_said_on_stderr_and_refused_when_strict() {
     let (table, talk) = (String::from_utf8(found.stdout), String::from_utf8(found.stderr));
     let table = table.unwrap();
     assert!(
-        table.contains(" eye safety            above        52.08 of 10.85 mW, Class 1 for one frame")
+        table.contains(
+            " eye safety            above        52.08 of 10.85 mW, Class 1 for one frame"
+        )
     );
     let talk = talk.unwrap();
     assert!(talk.contains("note: laser.average_power_w = 0.1: a frame: 52.08 mW"), "{talk}");

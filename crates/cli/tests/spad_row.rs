@@ -121,12 +121,19 @@ fn network_and_second_opinion_say_what_they_do_not_know() {
         );
         String::from_utf8(said.stderr).unwrap()
     };
-    assert!(
-        said("likelihood", "spad.pulse_ns=20").contains("it takes the TDC to see an avalanche")
-    );
+    assert!(said("likelihood", "spad.pulse_ns=20").contains("the TDC misses avalanches"));
     let found = said("matched", "seed=2");
-    assert!(found.contains("it takes hits to be of light and of the dark"), "{found}");
-    assert!(said("centroid", "spad.pulse_ns=20").contains("it takes the TDC to see"));
+    assert!(found.contains("SPADs that are not on the TDC set off those that are"), "{found}");
+    assert!(said("centroid", "spad.pulse_ns=20").contains("the TDC misses avalanches"));
+}
+
+#[test]
+fn the_firmware_s_likelihood_estimator_notes_what_its_model_does_not_have() {
+    let here = empty();
+    let gap = ["-s", "estimator.kind=likelihood", "-s", "spad.pulse_gap_ns=10"];
+    let args = ["run", "--waves", "none", "--no-second-opinion", "--strict"];
+    let error = refused(here.path(), &[&args[..], &gap].concat());
+    assert!(error.contains("spad.pulse_gap_ns = 10: likelihood_estimator: "), "{error}");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod any_histogram;
 mod detector;
+mod effects;
 mod likelihood_estimator;
 mod scipy;
 mod subtraction;

@@ -187,12 +187,6 @@ impl Spad {
     pub fn detection_efficiency(&self) -> f64 {
         self.pdp * self.fill_factor
     }
-
-    /// Returns the keys that shape the pulses on `tdc_stop`, with their values, if they are not zero [ns].
-    pub fn shaping(&self) -> impl Iterator<Item = (&'static str, f64)> {
-        let keys = [("spad.pulse_ns", self.pulse_ns), ("spad.pulse_gap_ns", self.pulse_gap_ns)];
-        keys.into_iter().filter(|(_, ns)| *ns > 0.0)
-    }
 }
 
 impl Laser {

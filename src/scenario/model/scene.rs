@@ -3,8 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::note::NoteValue;
-
 /// Shape of a target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -138,43 +136,9 @@ table! {
     }
 }
 
-impl Atmosphere {
-    /// Returns whether the air has no effect.
-    pub fn is_clear(&self) -> bool {
-        self.visibility_m == 0.0 && self.rain_mm_h == 0.0
-    }
-}
-
 impl Target {
     /// Returns whether the target is flat: a rectangle, a disc or a step.
     pub fn is_flat(&self) -> bool {
         matches!(self.shape, Shape::Rectangle | Shape::Disc | Shape::Step)
-    }
-
-    /// Returns the key, value and usual value of a setting by which the target differs from the plain rectangle of
-    /// eq. 3.23, if there is one.
-    pub fn beside_a_plain_one(&self) -> Option<(&'static str, NoteValue, &'static str)> {
-        if self.shape != Shape::Rectangle {
-            let name = format!("{:?}", self.shape).to_lowercase();
-            return Some(("target.shape", NoteValue::Text(name), "rectangle"));
-        }
-        let numbers = [
-            ("target.tilt_deg", self.tilt_deg),
-            ("target.yaw_deg", self.yaw_deg),
-            ("target.offset_x_m", self.offset_x_m),
-            ("target.offset_y_m", self.offset_y_m),
-            ("target.retro_side_m", self.retro_side_m),
-        ];
-        let (key, value) = match numbers.into_iter().find(|(_, number)| *number != 0.0) {
-            Some((key, number)) => (key, number.into()),
-            None if self.extended => return Some(("target.extended", true.into(), "false")),
-            None => return None,
-        };
-        Some((key, value, "0"))
-    }
-
-    /// Returns whether all light has the time of flight along the axis, as in eq. 3.23.
-    pub fn is_plain(&self) -> bool {
-        self.beside_a_plain_one().is_none()
     }
 }

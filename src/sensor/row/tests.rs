@@ -9,7 +9,7 @@ fn row(count: usize, effects: Effects) -> SpadRow {
 #[test]
 fn an_avalanche_traps_a_carrier_with_its_chance_and_for_an_exponential_time() {
     let mut row =
-        row(1, Effects { afterpulse_probability: 0.3, afterpulse_fs: 5e7, ..Effects::default() });
+        row(1, Effects { trap_probability: 0.3, afterpulse_fs: 5e7, ..Effects::default() });
     let mut held_ns = Vec::new();
     for shot in 0..20_000 {
         let now = Time::from_ns(1000 * shot);
@@ -32,7 +32,7 @@ fn an_avalanche_traps_a_carrier_with_its_chance_and_for_an_exponential_time() {
 /// Effects with two kinds of trap.
 fn two_kinds(share: f64) -> Effects {
     Effects {
-        afterpulse_probability: 0.6,
+        trap_probability: 0.6,
         afterpulse_fs: 3e7,
         afterpulse_second_fs: 4e8,
         afterpulse_second_share: share,
@@ -60,7 +60,7 @@ fn held_fs(effects: &Effects, avalanches: u64) -> Vec<u64> {
 fn kolmogorov(held_fs: &[u64], effects: &Effects) -> f64 {
     let count = held_fs.len() as f64;
     let off = held_fs.iter().enumerate().map(|(k, &fs)| {
-        let part = 1.0 - effects.released_after(fs as f64) / effects.afterpulse_probability;
+        let part = 1.0 - effects.released_after(fs as f64) / effects.trap_probability;
         (part - k as f64 / count).abs().max((part - (k + 1) as f64 / count).abs())
     });
     off.fold(0.0, f64::max) * count.sqrt()
@@ -83,7 +83,7 @@ fn with_traps_of_two_kinds_release_times_are_those_of_the_mixture() {
 
 #[test]
 fn traps_of_a_second_kind_that_nothing_is_in_move_no_draw() {
-    let one = Effects { afterpulse_probability: 0.6, afterpulse_fs: 3e7, ..Effects::default() };
+    let one = Effects { trap_probability: 0.6, afterpulse_fs: 3e7, ..Effects::default() };
     let held = held_fs(&one, 1000);
     assert_eq!(held_fs(&two_kinds(0.0), 1000), held);
     let all = Effects { afterpulse_fs: 1.0, afterpulse_second_fs: 3e7, ..two_kinds(1.0) };
@@ -146,7 +146,7 @@ fn carriers_of_the_dark_come_to_diodes_by_their_rates_and_photons_to_all_alike()
 
 #[test]
 fn what_a_shot_draws_does_not_hang_on_how_much_the_one_before_drew() {
-    let effects = Effects { afterpulse_probability: 0.5, afterpulse_fs: 5e7, ..Effects::default() };
+    let effects = Effects { trap_probability: 0.5, afterpulse_fs: 5e7, ..Effects::default() };
     let release = |avalanches: u64| {
         let mut row = row(1, effects.clone());
         row.begin_shot();

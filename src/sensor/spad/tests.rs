@@ -58,9 +58,8 @@ fn in_mode_1_the_others_stay_armed_and_the_last_to_recover_ends_the_output() {
 
 /// A SPAD that traps a carrier for 50 ns in nearly every avalanche, with an avalanche at 5 ns.
 fn trapping(paralysable: bool) -> Spads {
-    let (afterpulse_probability, afterpulse_fs) = (1.0 - 1e-9, 5e7);
-    let effects =
-        Effects { afterpulse_probability, afterpulse_fs, paralysable, ..Effects::default() };
+    let (trap_probability, afterpulse_fs) = (1.0 - 1e-9, 5e7);
+    let effects = Effects { trap_probability, afterpulse_fs, paralysable, ..Effects::default() };
     let mut spads = one().with_effects(effects, 1);
     assert_eq!(spads.event(&mut Light::None), Event::Avalanche);
     spads

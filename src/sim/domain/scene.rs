@@ -1,15 +1,9 @@
 //! Keys of a target that is no plain rectangle, and of the air.
 
-pub const TILT: &str = "target.tilt_deg";
-pub const YAW: &str = "target.yaw_deg";
-pub const OFFSET_X: &str = "target.offset_x_m";
-pub const OFFSET_Y: &str = "target.offset_y_m";
-pub const PATCH: &str = "target.retro_side_m";
-pub const VISIBILITY: &str = "atmosphere.visibility_m";
-pub const RAIN: &str = "atmosphere.rain_mm_h";
+const PATCH: &str = "target.retro_side_m";
+const VISIBILITY: &str = "atmosphere.visibility_m";
+const RAIN: &str = "atmosphere.rain_mm_h";
 pub const SHAPE: &str = "target.shape";
-pub const EXTENDED: &str = "target.extended";
-pub const RECTANGLE: &str = "rectangle";
 /// Keys that decide something with one shape.
 const OF_SHAPE: [(&str, &[&str]); 4] = [
     ("disc", &["target.radius_m"]),

@@ -12,8 +12,7 @@ use crate::error::{Input, Result};
 use crate::kernel::Time;
 use crate::network::Histogram;
 use crate::optics::BinProbabilities;
-use crate::scenario::QuenchMode;
-use crate::scenario::wiring::Wiring;
+use crate::scenario::effects::Method;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
 use crate::sim::frames::Frame;
@@ -24,77 +23,24 @@ use crate::waves::Marks;
 use super::many::deliver;
 use super::outcomes::ShotOutcomes;
 
-/// The light of a setup and what becomes of its shots, where a frame is one draw. `who` wants to know,
-/// for the error.
+/// Returns the light of a setup and the outcomes of its shots, where a frame is one draw; `user` names what needs them
+/// in the error.
 ///
 /// # Errors
-/// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, crosstalk from SPADs that
-/// are not on the TDC, shaped pulses, a calibration in the firmware, jitter, a chain that is another at each edge,
-/// control changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
-pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, ShotOutcomes)> {
-    let refusal = |field: &str, why: &str| {
-        let expected = format!("{who} draws a frame as a whole: {why}");
+/// When an effect of the scenario invalidates [`Method::HistogramDraw`], or the chain is too long for the laser rate.
+pub fn independent_shots<'a>(setup: &'a Setup, user: &str) -> Result<(&'a Optics, ShotOutcomes)> {
+    setup.require(Method::HistogramDraw, user)?;
+    let refused = |field: &str, why: &str| {
+        let expected = format!("expected another for {user}: {why}");
         Input::new(format!("scenario {}", setup.name), expected).field(field)
     };
-    let firmware = &setup.scenario.firmware;
-    for (field, value, held) in [
-        ("firmware.rst", firmware.rst, true),
-        ("firmware.dsp_rst", firmware.dsp_rst, true),
-        ("firmware.dsp_en", firmware.dsp_en, false),
-    ] {
-        if value == held {
-            return Err(refusal(field, "no frame would end").value(value).into());
-        }
-    }
-    if firmware.mode != QuenchMode::EachShot {
-        let why = "expected 0: in MODE 1 a shot may have several avalanches";
-        return Err(refusal("firmware.mode", why).value(u64::from(firmware.mode)).into());
-    }
-    let afterpulses = setup.scenario.spad.afterpulse_probability;
-    if afterpulses > 0.0 {
-        let why = "expected 0: an afterpulse of one shot may be the first avalanche of the next";
-        return Err(refusal("spad.afterpulse_probability", why).value(afterpulses).into());
-    }
-    let spad = &setup.scenario.spad;
-    if spad.crosstalk_probability > 0.0 && Wiring::of(spad).has_unwired() {
-        let why = "expected 0 with spad.row_outputs: SPADs that are not on the TDC set off those that are";
-        let refused = refusal("spad.crosstalk_probability", why);
-        return Err(refused.value(spad.crosstalk_probability).into());
-    }
-    if let Some((field, value)) = spad.shaping().next() {
-        let why = "expected 0: what pulses the TDC sees is not worked out for a shaper";
-        return Err(refusal(field, why).value(value).into());
-    }
-    let recalibrated = setup.scenario.tdc.recalibrate_frames;
-    if recalibrated > 0 {
-        let why = "expected 0: ages are those of the hits of each calibration";
-        return Err(refusal("tdc.recalibrate_frames", why).value(recalibrated).into());
-    }
-    let tdc = &setup.scenario.tdc;
-    if tdc.setup_window_ps > 0.0 {
-        let why = "expected 0: each edge draws when its registers sample";
-        return Err(refusal("tdc.setup_window_ps", why).value(tdc.setup_window_ps).into());
-    }
-    if let (true, Some(file)) = (setup.disturbance().is_some(), &tdc.conditions) {
-        let why = "expected none: the chain changes within a frame";
-        return Err(refusal("tdc.conditions", why).value(file).into());
-    }
-    if !setup.scenario.control.is_empty() {
-        return Err(refusal("control", "nothing may change within it").into());
-    }
-    if setup.scenario.pll.jitter_rms_ps > 0.0 {
-        let why = "expected 0: with jitter shots differ";
-        let refused = refusal("pll.jitter_rms_ps", why);
-        return Err(refused.value(setup.scenario.pll.jitter_rms_ps).into());
-    }
     let Light::Optics(optics) = &setup.light else {
-        return Err(refusal("stimulus", "it needs the light of the link budget").into());
+        return Err(refused("stimulus", "it needs the light of the link budget").into());
     };
-    let outcomes = ShotOutcomes::new(&setup.params.tdc, setup.laser_period());
-    let Some(outcomes) = outcomes else {
+    let Some(outcomes) = ShotOutcomes::new(&setup.params.tdc, setup.laser_period()) else {
         let why = "the chain is so long that a shot reaches into the next one";
-        let refused = refusal("tdc.profile", why).value(&setup.scenario.tdc.profile);
-        return Err(refused.into());
+        let fault = refused("tdc.profile", why).value(&setup.scenario.tdc.profile);
+        return Err(fault.into());
     };
     Ok((optics, outcomes))
 }

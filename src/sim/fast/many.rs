@@ -11,10 +11,8 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
-use crate::firmware::tof_top::CodeSource;
 use crate::kernel::Time;
-use crate::scenario::QuenchMode;
-use crate::sensor::light::Light;
+use crate::scenario::effects::Method;
 use crate::sim::callback::{Callback, call, poll_stop};
 use crate::sim::clockwork::Clockwork;
 use crate::sim::device::Off;
@@ -29,20 +27,10 @@ use crate::waves::Marks;
 const BATCH: u64 = 64;
 
 impl Setup {
-    /// Whether a frame gives the same whatever came of the one before.
-    pub fn has_frames_apart(&self) -> bool {
-        let (firmware, delays) = (&self.scenario.firmware, &self.params.tdc.delays);
-        self.scenario.control.is_empty()
-            && firmware.mode == QuenchMode::EachShot
-            && matches!(self.params.code_source, CodeSource::Tdc)
-            && !matches!(self.light, Light::List(_))
-            // A carrier that is trapped in one frame may be released in the next.
-            && self.scenario.spad.afterpulse_probability == 0.0
-            // A pulse of one frame may end in the next.
-            && self.scenario.spad.shaping().next().is_none()
-            // A frame has the ages of the calibration before it.
-            && self.params.tdc_calibration.is_none()
-            && self.course.is_none()
+    /// Whether each frame gives the same whatever came of the one before, so that it can be simulated by itself.
+    pub fn has_separate_frames(&self) -> bool {
+        let delays = &self.params.tdc.delays;
+        self.allows(Method::SeparateFrames)
             && delays.tap_0() <= self.cycle()
             && delays.longest() <= self.cycle() + self.cycle()
     }
@@ -50,7 +38,7 @@ impl Setup {
 
 impl Run<'_> {
     /// Simulates until `count` frames are done, on all threads of the current pool where frames are
-    /// [apart](Setup::has_frames_apart), or else on one. Of `observers`, the shots of the first frame are
+    /// [separate](Setup::has_separate_frames), or else on one. Of `observers`, the shots of the first frame are
     /// shown, every frame in order, and no waveform.
     ///
     /// # Errors
@@ -63,7 +51,7 @@ impl Run<'_> {
             let shown = count.min(self.setup.frames_together());
             self.go(shown, &mut Off, &mut Recording::new(shots), &mut frames, stop)?;
         }
-        if !self.setup.has_frames_apart() || rayon::current_num_threads() < 2 || count < 2 {
+        if !self.setup.has_separate_frames() || rayon::current_num_threads() < 2 || count < 2 {
             if self.done() < count {
                 self.go(count, &mut Off, &mut Off, &mut frames, stop)?;
             }

@@ -55,7 +55,7 @@ fn point(diode: &FreeRunning, counts: u64, k: i32) -> Point {
     let plain = |kind: usize| {
         measure(&diode.without_afterpulses(kind == 1), kind as u64, closed_form_hz[kind])
     };
-    let has_afterpulses = diode.effects.afterpulse_probability > 0.0;
+    let has_afterpulses = diode.effects.trap_probability > 0.0;
     let own = usize::from(diode.effects.paralysable);
     Point {
         incident_hz,

@@ -28,8 +28,8 @@ pub(super) fn shaper(spad: &Spad) -> Option<shaper::Params> {
     let span = |ns: f64| Time::from_ps_f64(ns * 1e3).max(Time::from_fs(1));
     let width = (spad.pulse_ns > 0.0).then(|| span(spad.pulse_ns));
     let gap = (spad.pulse_gap_ns > 0.0).then(|| span(spad.pulse_gap_ns));
-    let params = shaper::Params { width, gap: gap.unwrap_or(Time::ZERO) };
-    spad.shaping().next().map(|_| params)
+    let is_there = width.is_some() || gap.is_some();
+    is_there.then(|| shaper::Params { width, gap: gap.unwrap_or(Time::ZERO) })
 }
 
 /// Returns the driver of `tdc_stop` at power-up, with a ring if the firmware calibrates itself.
@@ -46,7 +46,7 @@ pub(super) fn by_budget(budget: &Budget, seed: u64) -> Light {
 /// Returns what a scenario's diodes do besides firing.
 pub(crate) fn effects(spad: &Spad, dark: &DarkRates) -> Effects {
     Effects {
-        afterpulse_probability: spad.afterpulse_probability,
+        trap_probability: spad.afterpulse_probability,
         afterpulse_fs: spad.afterpulse_ns * 1e6,
         afterpulse_second_fs: spad.afterpulse_second_ns * 1e6,
         afterpulse_second_share: spad.afterpulse_second_share,

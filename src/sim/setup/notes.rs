@@ -63,7 +63,7 @@ impl Setup {
     /// Returns a note if the chain has drifted since the TDC was calibrated. For estimators that are all the network,
     /// `of_network` has the notes on its training: it has learnt the drift that it was trained with.
     pub fn drift_for(&self, of_network: Option<&[Note]>) -> Option<Note> {
-        let is_of_drift = |note: &Note| domain::OF_DRIFT.contains(&note.key.as_str());
+        let is_of_drift = |note: &Note| domain::DRIFT_KEYS.contains(&note.key.as_str());
         let has_learnt = of_network
             .is_some_and(|notes| self.network.domain.is_some() && !notes.iter().any(is_of_drift));
         if has_learnt && self.course.is_none() { None } else { self.drift() }
@@ -84,9 +84,9 @@ impl Setup {
     fn drift_in_run(&self) -> Option<Note> {
         let [least, most] = self.course.as_ref()?.range.map(|factor| self.off_ps(factor));
         let file = self.scenario.tdc.conditions.as_deref().unwrap_or_default();
-        let since = match self.scenario.tdc.recalibrate_frames {
-            0 => "it was calibrated",
-            _ => "power-up, but for what calibrations on the way make good",
+        let since = match self.params.tdc_calibration {
+            None => "it was calibrated",
+            Some(_) => "power-up, but for what calibrations on the way make good",
         };
         let text = format!(
             "the chain drifts within the run: an age of a whole period of clk_sys is off by {most:+.1} to {least:+.1} ps \
@@ -170,7 +170,7 @@ impl Setup {
         ];
         let cause = factors.into_iter().find(|(_, factor)| *factor == 0.0);
         let cause = cause.map(|(key, factor)| (key, factor.into()));
-        let of_scene = || scenario.beside_one_echo().map(|(key, value, _)| (key, value));
+        let of_scene = || scenario.complex_scene().map(|effect| (effect.key, effect.value));
         let usual = ("target.reflectance", scenario.target.reflectance.into());
         let (key, value) = cause.or_else(of_scene).unwrap_or(usual);
         note(key, value, "a photon a frame at least")

@@ -99,9 +99,10 @@ impl PulseArgs {
 
 /// Returns the notes on light that is not one echo, and on a pulse that does not describe the histograms.
 fn notes(setup: &Setup, calibration: &Calibration) -> Vec<Note> {
-    let not_one_echo = setup.scenario.beside_one_echo().map(|(key, value, usual)| {
-        let text = "calibrate pulse: it takes a shot's light to be one echo of the laser's pulse";
-        Note::new(NoteCode::EstimatorOutsideModel, key, value, usual, text)
+    let not_one_echo = setup.scenario.complex_scene().map(|found| {
+        let text = format!("calibrate pulse: {}", found.effect.why());
+        let expected = found.expected();
+        Note::new(NoteCode::EstimatorOutsideModel, found.key, found.value, expected, text)
     });
     let goodness = calibration.taken().goodness;
     let text = "the pulse does not describe the histograms: try another --shape, and look whether shots and \

@@ -7,6 +7,7 @@ use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_decoder::TimeScale;
 use tofsim::kernel::Time;
 use tofsim::optics::Bins;
+use tofsim::scenario::effects::Method;
 use tofsim::sim::setup::Setup;
 
 use crate::estimation::Acquisition;
@@ -31,8 +32,7 @@ impl Bound {
     /// # Errors
     /// When its acquisition makes no sense.
     pub fn of(setup: &Setup) -> Result<Self> {
-        let alike = setup.budget.variation.is_none() && setup.budget.spread.is_none();
-        if !alike || setup.scenario.spad.afterpulse_probability > 0.0 {
+        if !setup.allows(Method::CramerRaoBound) {
             return Ok(Bound::default());
         }
         let of = |bins: &Bins| -> Result<Option<f64>> {

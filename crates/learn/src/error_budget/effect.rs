@@ -1,125 +1,92 @@
 //! The effects that a depth may be wrong by, and sets of them.
 
-/// An effect, which can be off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Effect {
+use tofsim::scenario::effects::{Effect as ScenarioEffect, Method};
+
+/// Declares the effects, their list, keys, names, and those of the scenario's table that they are.
+macro_rules! effects {
+    ($($(#[$meta:meta])* $effect:ident: $key:literal, $name:literal $(, $own:expr)?;)*) => {
+        /// An effect that can be switched off.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Effect {
+            $($(#[$meta])* $effect,)*
+        }
+
+        impl Effect {
+            /// All effects, in the order in which a photon comes through them.
+            pub const ALL: [Effect; [$($key),*].len()] = [$(Effect::$effect),*];
+
+            /// Returns the effect's name for programs.
+            pub fn key(self) -> &'static str {
+                match self {
+                    $(Effect::$effect => $key,)*
+                }
+            }
+
+            /// Returns the effect's name for people.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Effect::$effect => $name,)*
+                }
+            }
+
+            /// Returns the effect of the scenario's table that it is, if it is one; its keys switch it off.
+            pub fn of_scenario(self) -> Option<ScenarioEffect> {
+                let own: &[ScenarioEffect] = match self {
+                    $(Effect::$effect => &[$($own)?],)*
+                };
+                own.first().copied()
+            }
+        }
+    };
+}
+
+effects! {
     /// Counts scatter around what is to be expected.
-    ShotNoise,
+    ShotNoise: "shot_noise", "shot noise";
     /// A shot counts its first avalanche and no other.
-    PileUp,
+    PileUp: "pile_up", "pile-up";
     /// Avalanches of light that is not the laser's.
-    Ambient,
+    Ambient: "ambient", "ambient light";
     /// Avalanches of no light at all.
-    DarkCounts,
+    DarkCounts: "dark_counts", "dark counts";
     /// The pulse is longer than half a bin.
-    PulseWidth,
+    PulseWidth: "pulse_width", "pulse width";
     /// The pulse has an exponential tail.
-    PulseTail,
+    PulseTail: "pulse_tail", "pulse tail", ScenarioEffect::PulseTail;
     /// Pulses leave the laser early or late.
-    LaserTiming,
+    LaserTiming: "laser_timing", "laser timing", ScenarioEffect::LaserTiming;
     /// Pulses differ in energy.
-    LaserEnergy,
+    LaserEnergy: "laser_energy", "laser energy", ScenarioEffect::LaserEnergy;
     /// Avalanches of carriers that earlier ones left in traps.
-    Afterpulses,
+    Afterpulses: "afterpulses", "afterpulses", ScenarioEffect::Afterpulses;
     /// The diode comes back by itself, after its dead time (MODE 1).
-    DeadTime,
+    DeadTime: "dead_time", "dead time", ScenarioEffect::FreeRunning;
     /// An avalanche sets off a neighbour.
-    Crosstalk,
+    Crosstalk: "crosstalk", "crosstalk", ScenarioEffect::Crosstalk;
     /// Edges of the clocks are early or late.
-    PllJitter,
+    PllJitter: "pll_jitter", "PLL jitter", ScenarioEffect::ClockJitter;
     /// A code begins where a tap does, and not where a bin ought to.
-    Taps,
+    Taps: "taps", "tap width";
     /// Taps differ in width.
-    UnevenTaps,
+    UnevenTaps: "dnl", "DNL";
     /// The decoder's ROM does not hold the chain's own delays.
-    Calibration,
+    Calibration: "calibration", "TDC calibration";
     /// Times are told apart by bins only.
-    BinWidth,
+    BinWidth: "bin_width", "bin width";
     /// The chain's delays have changed with temperature or supply since the calibration.
-    Drift,
+    Drift: "drift", "drift";
     /// The estimator computes with words of a few bits.
-    FixedPoint,
+    FixedPoint: "fixed_point", "fixed point";
     /// The network's activation is looked up in a table.
-    Table,
+    Table: "table", "tansig table";
 }
 
 impl Effect {
-    /// All of them, in the order of a photon's way.
-    pub const ALL: [Effect; 19] = [
-        Effect::ShotNoise,
-        Effect::PileUp,
-        Effect::Ambient,
-        Effect::DarkCounts,
-        Effect::PulseWidth,
-        Effect::PulseTail,
-        Effect::LaserTiming,
-        Effect::LaserEnergy,
-        Effect::Afterpulses,
-        Effect::DeadTime,
-        Effect::Crosstalk,
-        Effect::PllJitter,
-        Effect::Taps,
-        Effect::UnevenTaps,
-        Effect::Calibration,
-        Effect::BinWidth,
-        Effect::Drift,
-        Effect::FixedPoint,
-        Effect::Table,
-    ];
-
-    /// For programs.
-    pub fn key(self) -> &'static str {
-        match self {
-            Effect::ShotNoise => "shot_noise",
-            Effect::PileUp => "pile_up",
-            Effect::Ambient => "ambient",
-            Effect::DarkCounts => "dark_counts",
-            Effect::PulseWidth => "pulse_width",
-            Effect::PulseTail => "pulse_tail",
-            Effect::LaserTiming => "laser_timing",
-            Effect::LaserEnergy => "laser_energy",
-            Effect::Afterpulses => "afterpulses",
-            Effect::DeadTime => "dead_time",
-            Effect::Crosstalk => "crosstalk",
-            Effect::PllJitter => "pll_jitter",
-            Effect::Taps => "taps",
-            Effect::UnevenTaps => "dnl",
-            Effect::Calibration => "calibration",
-            Effect::BinWidth => "bin_width",
-            Effect::Drift => "drift",
-            Effect::FixedPoint => "fixed_point",
-            Effect::Table => "table",
-        }
-    }
-
-    /// For people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Effect::ShotNoise => "shot noise",
-            Effect::PileUp => "pile-up",
-            Effect::Ambient => "ambient light",
-            Effect::DarkCounts => "dark counts",
-            Effect::PulseWidth => "pulse width",
-            Effect::PulseTail => "pulse tail",
-            Effect::LaserTiming => "laser timing",
-            Effect::LaserEnergy => "laser energy",
-            Effect::Afterpulses => "afterpulses",
-            Effect::DeadTime => "dead time",
-            Effect::Crosstalk => "crosstalk",
-            Effect::PllJitter => "PLL jitter",
-            Effect::Taps => "tap width",
-            Effect::UnevenTaps => "DNL",
-            Effect::Calibration => "TDC calibration",
-            Effect::BinWidth => "bin width",
-            Effect::Drift => "drift",
-            Effect::FixedPoint => "fixed point",
-            Effect::Table => "tansig table",
-        }
-    }
-
-    /// Whether it makes shots depend on each other, so that histograms have no closed form.
+    /// Whether it makes shots depend on each other, so that histograms have no closed form. Crosstalk is never switched
+    /// off.
     pub fn joins_shots(self) -> bool {
-        matches!(self, Effect::Afterpulses | Effect::DeadTime)
+        let own = self.of_scenario().filter(|_| self != Effect::Crosstalk);
+        own.is_some_and(|own| own.breaks(Method::IndependentShots))
     }
 }
 

@@ -5,7 +5,7 @@ use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_decoder::Calibration;
 use tofsim::kernel::U;
 use tofsim::optics::{Bins, Hazard};
-use tofsim::scenario::{Loaded, QuenchMode, Scenario, TdcCalibration};
+use tofsim::scenario::{Loaded, Scenario, TdcCalibration};
 use tofsim::sim::setup::Setup;
 
 use crate::estimation::Acquisition;
@@ -46,10 +46,7 @@ impl Variant {
         let shots = loaded.scenario.firmware.shots_of_a_frame();
         // Without pile-up the light comes in the most shots that an estimator can be told of: so faint a shot has as
         // good as none.
-        let told_shots = match effects.has(Effect::PileUp) {
-            true => shots,
-            false => MOST_SHOTS,
-        };
+        let told_shots = if effects.has(Effect::PileUp) { shots } else { MOST_SHOTS };
         if told_shots != shots && loaded.scenario.estimator.assumed_shots == 0 {
             loaded.scenario.estimator.assumed_shots = told_shots;
         }
@@ -64,12 +61,11 @@ impl Variant {
             setup.params.tdc = evened(&setup, has_errors);
             "even taps".clone_into(&mut setup.scenario.tdc.profile);
         }
-        let bins = match is_own || has_taps {
-            true => setup.bins(),
-            false => {
-                "no taps".clone_into(&mut setup.scenario.tdc.profile);
-                Bins::without_taps(&setup.params.tdc)
-            }
+        let bins = if is_own || has_taps {
+            setup.bins()
+        } else {
+            "no taps".clone_into(&mut setup.scenario.tdc.profile);
+            Bins::without_taps(&setup.params.tdc)
         };
         let told_bins = match (is_own, has_taps) {
             (true, _) => setup.known_bins(),
@@ -99,8 +95,11 @@ pub fn shortest_ps(scenario: &Scenario) -> f64 {
     SHORTEST_BINS * scenario.tdc.bin_ps
 }
 
-/// Sets the scenario's keys as they are without an effect. Those that no key has are left to the rest.
+/// Sets the keys of a scenario as they are without an effect. An effect without keys is left to the rest.
 fn switch_off(effect: Effect, scenario: &mut Scenario) {
+    if let Some(own) = effect.of_scenario() {
+        return own.switch_off(scenario);
+    }
     match effect {
         Effect::Ambient => scenario.ambient.irradiance_w_m2_nm = 0.0,
         Effect::DarkCounts => {
@@ -113,24 +112,11 @@ fn switch_off(effect: Effect, scenario: &mut Scenario) {
                 None => scenario.laser.pulse_sigma_ps.min(shortest_ps),
             };
         }
-        Effect::PulseTail => scenario.laser.pulse_tail_ps = 0.0,
-        Effect::LaserTiming => scenario.laser.timing_jitter_ps = 0.0,
-        Effect::LaserEnergy => scenario.laser.energy_jitter = 0.0,
-        Effect::Afterpulses => scenario.spad.afterpulse_probability = 0.0,
-        Effect::DeadTime => scenario.firmware.mode = QuenchMode::EachShot,
-        Effect::Crosstalk => scenario.spad.crosstalk_probability = 0.0,
-        Effect::PllJitter => scenario.pll.jitter_rms_ps = 0.0,
         Effect::Calibration => scenario.tdc.calibration = TdcCalibration::True,
         Effect::Drift => {
             (scenario.tdc.calibrated_at_c, scenario.tdc.calibrated_at_mv) = (None, None);
         }
-        Effect::ShotNoise
-        | Effect::PileUp
-        | Effect::Taps
-        | Effect::UnevenTaps
-        | Effect::BinWidth
-        | Effect::FixedPoint
-        | Effect::Table => {}
+        _ => {}
     }
 }
 

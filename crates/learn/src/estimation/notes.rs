@@ -1,133 +1,77 @@
-//! What the estimators take for granted, and what of it a scenario does not have.
+//! Notes on what an estimator's model has and a scenario does not.
 //!
-//! The network's own limits are those of its training; they are not told here.
+//! The effects that a model does not have stand in the simulator's table ([`tofsim::scenario::effects`]); here are
+//! the limits of estimators' own constants. The limits of a network are those of its training.
 
-mod teller;
+mod model_check;
 
 use tofsim::Note;
-use tofsim::firmware::tof_top::Estimator;
+use tofsim::scenario::effects::Method;
 use tofsim::sim::setup::Setup;
 
 use super::by_name::EstimatorKind;
 use super::centroid::Centroid;
 use super::peak_detection::PeakDetection;
 
-use teller::{OPTION, Teller};
-
-/// Jitter of an edge that moves centroid and peak by a tenth of a millimetre [ps].
-const JITTER_PS: f64 = 20.0;
-/// Afterpulses that move centroid and peak by less than a tenth of a millimetre: they come evenly, as ambient
-/// light does [1].
-const FEW_AFTERPULSES: f64 = 0.01;
+use model_check::{ModelCheck, OPTION};
 
 impl EstimatorKind {
-    /// What this estimator takes for granted and the scenario does not have, whatever the scene.
-    pub fn notes(self, setup: &Setup) -> Vec<Note> {
-        let teller = Teller { name: self.name(), setup };
-        let found = match self {
-            EstimatorKind::Network | EstimatorKind::NetworkFloat => vec![],
-            EstimatorKind::Likelihood => vec![
-                teller.echo(),
-                teller.dead_time(),
-                teller.row(),
-                teller.pulses(0.0, 0.0),
-                teller.control(),
-                teller.recharge(),
-                teller.afterpulses(0.0),
-                teller.neighbours(),
-                teller.shaping(),
-                teller.metastable(),
-            ],
-            EstimatorKind::TwoEchoes => vec![
-                teller.echo(),
-                teller.mode(),
-                teller.row(),
-                teller.pulses(0.0, 0.0),
-                teller.control(),
-                teller.afterpulses(0.0),
-                teller.neighbours(),
-                teller.shaping(),
-                teller.metastable(),
-            ],
-            EstimatorKind::LikelihoodEstimator => vec![
-                teller.echo(),
-                teller.jitter(0.0),
-                teller.pulses(0.0, 0.0),
-                teller.control(),
-                teller.afterpulses(0.0),
-                teller.neighbours(),
-                teller.shaping(),
-                teller.metastable(),
-            ],
-            EstimatorKind::Matched => vec![
-                teller.echo(),
-                teller.mode(),
-                teller.jitter(0.0),
-                teller.pulses(0.0, 0.0),
-                teller.control(),
-                teller.afterpulses(0.0),
-                teller.neighbours(),
-                teller.shaping(),
-                teller.metastable(),
-            ],
-            EstimatorKind::Centroid => vec![
-                teller.echo(),
-                teller.mode(),
-                teller.jitter(JITTER_PS),
-                teller.pulses(JITTER_PS, f64::INFINITY),
-                teller.window(),
-                teller.scale(),
-                teller.afterpulses(FEW_AFTERPULSES),
-                teller.shaping(),
-            ],
-            EstimatorKind::Peak | EstimatorKind::Subtraction => vec![
-                teller.echo(),
-                teller.mode(),
-                teller.jitter(JITTER_PS),
-                teller.pulses(JITTER_PS, f64::INFINITY),
-                teller.pulse(),
-                teller.thesis_bins(),
-                teller.delay(),
-                teller.afterpulses(FEW_AFTERPULSES),
-                teller.shaping(),
-            ],
-        };
-        found.into_iter().flatten().collect()
+    /// Returns the estimator's model, as the table of effects has it; `None` for networks.
+    fn model(self) -> Option<Method> {
+        match self {
+            EstimatorKind::Network | EstimatorKind::NetworkFloat => None,
+            EstimatorKind::Likelihood => Some(Method::Likelihood),
+            EstimatorKind::TwoEchoes => Some(Method::TwoEchoes),
+            EstimatorKind::LikelihoodEstimator => Some(Method::LikelihoodEstimator),
+            EstimatorKind::Matched => Some(Method::Matched),
+            EstimatorKind::Centroid => Some(Method::Centroid),
+            EstimatorKind::Peak | EstimatorKind::Subtraction => Some(Method::Peak),
+        }
     }
 
-    /// The same for the scene of the scenario, too: what the estimator makes of the histogram that
-    /// is to be expected.
+    /// Returns notes on what the estimator's model does not have, whatever the scene.
+    pub fn notes(self, setup: &Setup) -> Vec<Note> {
+        let check = ModelCheck { name: self.name(), setup };
+        let effects = self.model().into_iter().flat_map(|model| check.effects(model));
+        let own = match self {
+            EstimatorKind::Likelihood => [check.dead_time(), None],
+            EstimatorKind::Centroid => [check.window(), check.scale()],
+            EstimatorKind::Peak | EstimatorKind::Subtraction => {
+                [check.pulse_width(), check.thesis_bins()]
+            }
+            _ => [None, None],
+        };
+        effects.chain(own.into_iter().flatten()).collect()
+    }
+
+    /// Returns the same notes, and those on the scene of the scenario: what the estimator finds in the expected
+    /// histogram.
     pub fn notes_of_scene(self, setup: &Setup) -> Vec<Note> {
-        let teller = Teller { name: self.name(), setup };
+        let check = ModelCheck { name: self.name(), setup };
         let of_scene = match self {
             EstimatorKind::Likelihood | EstimatorKind::TwoEchoes => {
-                teller.first_bin().or_else(|| teller.first_edge())
+                check.first_bin().or_else(|| check.first_edge())
             }
-            EstimatorKind::Matched => teller.first_bin(),
-            EstimatorKind::Centroid => teller
-                .expected(&Centroid(setup.params.centroid_estimator), "pile-up makes it early"),
-            EstimatorKind::Peak => teller.range().or_else(|| {
-                let detection = PeakDetection::of_bins(teller.shots(), &teller.setup.bins());
-                teller.expected(&detection, "its straight line knows neither signal nor background")
+            EstimatorKind::Matched => check.first_bin(),
+            EstimatorKind::Centroid => check.expected(
+                &Centroid(setup.params.centroid_estimator),
+                "pile-up shifts the centroid short",
+            ),
+            EstimatorKind::Peak => check.range().or_else(|| {
+                let detection = PeakDetection::of_bins(check.shots(), &setup.bins());
+                let why = "its straight line has no term for signal and background";
+                check.expected(&detection, why)
             }),
-            EstimatorKind::Subtraction => teller.range(),
+            EstimatorKind::Subtraction => check.range(),
             _ => None,
         };
         self.notes(setup).into_iter().chain(of_scene).collect()
     }
 }
 
-/// What the estimator in the firmware's socket takes for granted of the scenario and its scene; the
-/// network's limits are those of its training.
+/// Returns the notes on the estimator in the firmware: those that `--estimator` would give.
 pub fn notes_of_firmware(setup: &Setup) -> Vec<Note> {
-    let mut notes = match setup.params.estimator {
-        Estimator::Network => return Vec::new(),
-        Estimator::Centroid => EstimatorKind::Centroid.notes_of_scene(setup),
-        Estimator::Likelihood => {
-            let name = EstimatorKind::LikelihoodEstimator.name();
-            return Teller { name, setup }.echo().into_iter().collect();
-        }
-    };
+    let mut notes = EstimatorKind::in_socket(&setup.scenario).notes_of_scene(setup);
     for note in notes.iter_mut().filter(|note| note.key == OPTION) {
         "estimator.kind".clone_into(&mut note.key);
         "network".clone_into(&mut note.expected);

@@ -71,7 +71,7 @@ impl Weighting {
     /// When a scene tells nothing of its distance, as without signal.
     pub fn of_scenes(source: &HistogramSource, training: &Grid, test: &Grid) -> Result<Self> {
         let distances_m = test.distances_m.values.clone();
-        if source.scenarios().any(|scenario| scenario.beside_one_echo().is_some()) {
+        if source.scenarios().any(|scenario| scenario.complex_scene().is_some()) {
             // There is no bound to go by.
             let flat = Weighting::flat(&distances_m);
             return Ok(Weighting { reach_m: reach_m(&training.distances_m.values), ..flat });

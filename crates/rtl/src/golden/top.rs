@@ -6,6 +6,7 @@ use tofsim::firmware::vcsel_driver::Rate;
 use tofsim::hierarchy::{self, Entry, IDS, Part};
 use tofsim::kernel::Time;
 use tofsim::kernel::signals::Signals;
+use tofsim::scenario::effects::Method;
 use tofsim::signals;
 use tofsim::sim::Device;
 use tofsim::sim::device::{Off, SignalProbe};
@@ -99,28 +100,13 @@ fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<
 
 /// Refuses what the Verilog's PLL and the bench's clocks cannot do.
 pub(crate) fn check(setup: &Setup) -> Result<()> {
-    let (pll, source) = (&setup.scenario.pll, format!("scenario {}", setup.name));
-    let fault = |field: &str, value: String, expected: &str| {
-        Err(Input::new(&source, expected).field(field).value(value).into())
-    };
-    if pll.jitter_rms_ps > 0.0 {
-        let expected = "expected 0: a Verilog bench has clocks without jitter";
-        return fault("pll.jitter_rms_ps", pll.jitter_rms_ps.to_string(), expected);
+    setup.require(Method::VerilogBench, "a Verilog bench")?;
+    if setup.pll().locked_at.fs().is_multiple_of(1000) {
+        return Ok(());
     }
-    let tdc = &setup.scenario.tdc;
-    if tdc.setup_window_ps > 0.0 {
-        let expected = "expected 0: taps of a Verilog bench do not go metastable";
-        return fault("tdc.setup_window_ps", tdc.setup_window_ps.to_string(), expected);
-    }
-    if let (true, Some(file)) = (setup.disturbance().is_some(), &tdc.conditions) {
-        let expected = "expected none: delays of a Verilog bench stand still";
-        return fault("tdc.conditions", file.clone(), expected);
-    }
-    if !setup.pll().locked_at.fs().is_multiple_of(1000) {
-        let expected = "expected whole picoseconds, as pll.v counts them";
-        return fault("pll.lock_time_us", pll.lock_time_us.to_string(), expected);
-    }
-    Ok(())
+    let expected = "expected whole picoseconds, as pll.v counts them";
+    let fault = Input::new(format!("scenario {}", setup.name), expected);
+    Err(fault.field("pll.lock_time_us").value(setup.scenario.pll.lock_time_us).into())
 }
 
 /// Keeps what the bench would see.

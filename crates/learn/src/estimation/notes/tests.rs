@@ -125,9 +125,10 @@ fn a_note_says_how_far_off_the_estimate_is() {
     let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
     let notes = EstimatorKind::Centroid.notes_of_scene(&setup);
     let text = notes[0].text.as_str();
-    assert!(text.starts_with("centroid: in the histogram that is to be expected"), "{text}");
+    assert!(text.starts_with("centroid: in the expected histogram"), "{text}");
     assert!(
-        text.contains("it is -15.6 mm off") && text.ends_with("pile-up makes it early"),
+        text.contains("it is off by -15.6 mm")
+            && text.ends_with("pile-up shifts the centroid short"),
         "{text}"
     );
 }

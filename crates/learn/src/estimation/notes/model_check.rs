@@ -1,8 +1,8 @@
-//! What of a scenario an estimator's model does not have, condition by condition.
+//! Conditions that an estimator's model asks of a scenario.
 
 use tofsim::optics::BinProbabilities;
-use tofsim::scenario::wiring::Wiring;
-use tofsim::scenario::{DeadTimeKind, QuenchMode};
+use tofsim::scenario::QuenchMode;
+use tofsim::scenario::effects::{Effect, Method};
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode, NoteValue};
@@ -22,9 +22,9 @@ const THESIS_RANGE_M: [f64; 2] = [0.1, 0.6];
 const WINDOW_SIGMA: f64 = 4.0;
 /// Part of a pulse after which the range may end [sigma].
 const TAIL_SIGMA: f64 = 3.0;
-/// The longest dead time for which arming is worked out [ns].
+/// The longest dead time for which arming is modelled [ns].
 const LONGEST_DEAD_NS: f64 = 1000.0;
-/// What chooses estimators.
+/// The option that chooses estimators.
 pub const OPTION: &str = "--estimator";
 /// An error that is worth a note [m].
 const WORTH_M: f64 = 1e-3;
@@ -34,13 +34,13 @@ fn about(distance_m: f64) -> String {
     format!("about {distance_m:.6}")
 }
 
-/// Who says what of which scenario.
-pub struct Teller<'a> {
+/// Checks an estimator's model against a scenario.
+pub struct ModelCheck<'a> {
     pub name: &'static str,
     pub setup: &'a Setup,
 }
 
-impl Teller<'_> {
+impl ModelCheck<'_> {
     pub fn note(
         &self,
         key: &str,
@@ -52,106 +52,29 @@ impl Teller<'_> {
         Note::new(NoteCode::EstimatorOutsideModel, key, value, expected, text)
     }
 
-    pub fn is_free_running(&self) -> bool {
+    /// Returns a note for each effect of the scenario that the estimator's model does not have.
+    pub fn effects(&self, method: Method) -> impl Iterator<Item = Note> {
+        self.setup.obstacles(method).map(|found| {
+            let (key, expected) = (found.key, found.expected());
+            let text = format!("its model does not have this: {}", found.effect.why());
+            self.note(key, found.value, expected, &text)
+        })
+    }
+
+    fn is_free_running(&self) -> bool {
         self.setup.scenario.firmware.mode == QuenchMode::FreeRunning
     }
 
-    pub fn mode(&self) -> Option<Note> {
-        let text = "it takes the diode to be armed at every laser edge, and the chain to be empty";
-        self.is_free_running().then(|| self.note("firmware.mode", 1.0, "0", text))
-    }
-
-    /// That a shot's light is one echo of the laser's pulse.
-    pub fn echo(&self) -> Option<Note> {
-        let (key, value, usual) = self.setup.scenario.beside_one_echo()?;
-        let text = "it takes a shot's light to be one echo of the laser's pulse, after the way along the axis";
-        Some(self.note(key, value, usual, text))
-    }
-
-    pub fn jitter(&self, most_ps: f64) -> Option<Note> {
-        let rms_ps = self.setup.scenario.pll.jitter_rms_ps;
-        let text = "jitter blurs what pile-up has left of the pulse, and so moves it";
-        let expected = format!("{most_ps} at most");
-        (rms_ps > most_ps).then(|| self.note("pll.jitter_rms_ps", rms_ps, expected, text))
-    }
-
-    /// That each tap's register samples at the edge.
-    pub fn metastable(&self) -> Option<Note> {
-        let window_ps = self.setup.scenario.tdc.setup_window_ps;
-        let text = "it takes taps to be sampled at the edge, and so bins to have sharp borders";
-        (window_ps > 0.0).then(|| self.note("tdc.setup_window_ps", window_ps, "0", text))
-    }
-
-    /// That pulses are alike, or nearly.
-    pub fn pulses(&self, most_ps: f64, most_energy: f64) -> Option<Note> {
-        let laser = &self.setup.scenario.laser;
-        let (timing_ps, energy) = (laser.timing_jitter_ps, laser.energy_jitter);
-        let expected = |most: f64| format!("{most} at most");
-        if timing_ps > most_ps {
-            let text = "it takes the pulses of all shots to be as late";
-            return Some(self.note("laser.timing_jitter_ps", timing_ps, expected(most_ps), text));
-        }
-        let text = "it takes the pulses of all shots to be as strong";
-        let is_uneven = energy > most_energy;
-        is_uneven.then(|| self.note("laser.energy_jitter", energy, expected(most_energy), text))
-    }
-
-    pub fn control(&self) -> Option<Note> {
-        let changes = self.setup.scenario.control.len() as u64;
-        let text = "it takes all shots of a frame to be alike";
-        (changes > 0).then(|| self.note("control", changes, "no changes", text))
-    }
-
-    /// The dead times for which it is worked out how often the diode is armed.
+    /// Checks that the dead time is one for which the model knows how often the SPAD is armed.
     pub fn dead_time(&self) -> Option<Note> {
         let dead_ns = self.setup.scenario.spad.dead_time_ns;
         // A shorter pulse can pass between two edges.
         let shortest_ns = self.setup.cycle().seconds() * 1e9;
-        let is_worked_out = (shortest_ns..=LONGEST_DEAD_NS).contains(&dead_ns);
-        let text = "in MODE 1 it takes the diode to rest for longer than a clock period";
+        let is_modelled = (shortest_ns..=LONGEST_DEAD_NS).contains(&dead_ns);
+        let text = "in MODE 1 its model has dead times longer than a clock period";
         let expected = format!("{shortest_ns} to {LONGEST_DEAD_NS}");
-        let is_outside = self.is_free_running() && !is_worked_out;
+        let is_outside = self.is_free_running() && !is_modelled;
         is_outside.then(|| self.note("spad.dead_time_ns", dead_ns, expected, text))
-    }
-
-    /// That shots are independent, or nearly.
-    pub fn afterpulses(&self, most: f64) -> Option<Note> {
-        let afterpulses = self.setup.scenario.spad.afterpulse_probability;
-        let text =
-            "it takes shots to be independent, and an afterpulse of one may be a hit of the next";
-        let expected = format!("{most} at most");
-        let are_many = afterpulses > most;
-        are_many.then(|| self.note("spad.afterpulse_probability", afterpulses, expected, text))
-    }
-
-    /// That only light and the dark fire the SPADs on the TDC.
-    pub fn neighbours(&self) -> Option<Note> {
-        let spad = &self.setup.scenario.spad;
-        let crosstalk = spad.crosstalk_probability;
-        let text = "it takes hits to be of light and of the dark, and SPADs that are not on the TDC set off those that are";
-        let are_there = crosstalk > 0.0 && Wiring::of(spad).has_unwired();
-        are_there.then(|| self.note("spad.crosstalk_probability", crosstalk, "0", text))
-    }
-
-    /// That the TDC sees every avalanche of a SPAD that is armed.
-    pub fn shaping(&self) -> Option<Note> {
-        let (key, ns) = self.setup.scenario.spad.shaping().next()?;
-        let text = "it takes the TDC to see an avalanche as long as the output of the SPAD is high";
-        Some(self.note(key, ns, "0", text))
-    }
-
-    /// That the dead time is fixed.
-    pub fn recharge(&self) -> Option<Note> {
-        let kind = self.setup.scenario.spad.dead_time_kind;
-        let text = "in MODE 1 it takes the dead time to be the same after every avalanche";
-        let is_other = self.is_free_running() && kind == DeadTimeKind::Paralysable;
-        is_other.then(|| self.note("spad.dead_time_kind", "paralysable", "fixed", text))
-    }
-
-    pub fn row(&self) -> Option<Note> {
-        let on_tdc = u64::from(self.setup.scenario.spad.on_tdc);
-        let text = "in MODE 1 it takes one diode to be on the TDC";
-        (self.is_free_running() && on_tdc > 1).then(|| self.note("spad.on_tdc", on_tdc, "1", text))
     }
 
     /// Distance of a target whose echo arrives then [m].
@@ -159,14 +82,7 @@ impl Teller<'_> {
         (arrival_ps - self.setup.scenario.laser.delay_ps) / ARRIVAL_PS_PER_M
     }
 
-    /// That the light leaves with the laser edge.
-    pub fn delay(&self) -> Option<Note> {
-        let delay_ps = self.setup.scenario.laser.delay_ps;
-        let text = "its times count from the laser edge, so that the delay is distance to it";
-        (delay_ps > 0.0).then(|| self.note("laser.delay_ps", delay_ps, "0", text))
-    }
-
-    /// That the first bin comes before the pulse.
+    /// Checks that the first bin begins before the pulse.
     pub fn first_bin(&self) -> Option<Note> {
         let begin_ps = self.setup.bins().spans().first()?.from.fs() as f64 * 1e-3;
         let first_ps = begin_ps + TAIL_SIGMA * self.setup.budget.pulse.sigma_ps();
@@ -177,7 +93,7 @@ impl Teller<'_> {
         (arrival_ps < first_ps).then(|| self.note("target.distance_m", distance_m, expected, text))
     }
 
-    /// That the first edge sees the echo, where that matters: in MODE 1, and with jitter.
+    /// Checks that the first edge sees the echo, where that matters: in MODE 1, and with jitter.
     pub fn first_edge(&self) -> Option<Note> {
         let scenario = &self.setup.scenario;
         let bins = self.setup.bins();
@@ -201,7 +117,7 @@ impl Teller<'_> {
         (arrival_ps > last_ps).then(|| self.note("target.distance_m", distance_m, expected, text))
     }
 
-    /// That the centroid's window holds the pulse.
+    /// Checks that the centroid's window holds the pulse.
     pub fn window(&self) -> Option<Note> {
         let half = self.setup.scenario.estimator.centroid_half_width;
         let needed =
@@ -212,7 +128,7 @@ impl Teller<'_> {
         is_narrow.then(|| self.note("estimator.centroid_half_width", half, expected, text))
     }
 
-    /// That the centroid's straight line is that of the bins: c/2 times their width, and times the begin of the
+    /// Checks that the centroid's straight line is that of the bins: c/2 times their width, and times the begin of the
     /// first, less the laser's delay. What it differs by to make up for pile-up is less.
     pub fn scale(&self) -> Option<Note> {
         let scenario = &self.setup.scenario;
@@ -234,7 +150,7 @@ impl Teller<'_> {
         is_other.then(|| self.note("estimator.centroid_offset_m", offset_m, about(first_m), text))
     }
 
-    /// That the bins are those for which the peak detection has its constants.
+    /// Checks that the bins are those for which the peak detection has its constants.
     pub fn thesis_bins(&self) -> Option<Note> {
         let bins = self.setup.bins();
         let text = "its constants are those of bins of 25 ps from the laser edge";
@@ -245,23 +161,18 @@ impl Teller<'_> {
         }
     }
 
-    /// That the pulse is the one to which the straight line was fitted.
-    pub fn pulse(&self) -> Option<Note> {
-        let laser = &self.setup.scenario.laser;
-        let text = "K_d and B_d of eq. 5.2 are those of the thesis's pulse";
-        if let Some(file) = &laser.pulse_file {
-            return Some(self.note("laser.pulse_file", file.as_str(), "none", text));
-        }
-        if laser.pulse_tail_ps > OTHER_PULSE * THESIS_SIGMA_PS {
-            return Some(self.note("laser.pulse_tail_ps", laser.pulse_tail_ps, "0", text));
-        }
-        let sigma_ps = laser.pulse_sigma_ps;
+    /// Checks that the pulse is as wide as the one to which the straight line was fitted.
+    pub fn pulse_width(&self) -> Option<Note> {
+        let sigma_ps = self.setup.scenario.laser.pulse_sigma_ps;
+        let is_measured = Effect::MeasuredPulse.occurrence(&self.setup.scenario).is_some();
         let is_other = (sigma_ps / THESIS_SIGMA_PS - 1.0).abs() > OTHER_PULSE;
+        let text = Effect::MeasuredPulse.why();
         let expected = format!("{THESIS_SIGMA_PS}");
-        is_other.then(|| self.note("laser.pulse_sigma_ps", sigma_ps, expected, text))
+        (is_other && !is_measured)
+            .then(|| self.note("laser.pulse_sigma_ps", sigma_ps, expected, text))
     }
 
-    /// That the distance is one of those to which the straight line was fitted.
+    /// Checks that the distance is one of those to which the straight line was fitted.
     pub fn range(&self) -> Option<Note> {
         let distance_m = self.setup.scenario.target.distance_m;
         let [first, last] = THESIS_RANGE_M;
@@ -275,7 +186,7 @@ impl Teller<'_> {
         self.setup.params.frame_ctrl.shots_per_frame.into()
     }
 
-    /// That the estimator finds the distance in the histogram that is to be expected, where that has
+    /// Checks that the estimator finds the distance in the histogram that is to be expected, where that has
     /// a closed form.
     pub fn expected(&self, estimator: &dyn estimator::Estimator, why: &str) -> Option<Note> {
         let setup = self.setup;
@@ -286,10 +197,10 @@ impl Teller<'_> {
         let histogram = most_probable(codes.of_code(), self.shots());
         let what = match estimator.estimate(&histogram) {
             Ok(found_m) if (found_m - truth_m).abs() <= WORTH_M => return None,
-            Ok(found_m) => format!("is {:+.1} mm off", 1e3 * (found_m - truth_m)),
+            Ok(found_m) => format!("is off by {:+.1} mm", 1e3 * (found_m - truth_m)),
             Err(failure) => format!("finds {failure}"),
         };
-        let text = format!("in the histogram that is to be expected here it {what}: {why}");
+        let text = format!("in the expected histogram of this scene it {what}: {why}");
         Some(self.note(OPTION, self.name, "likelihood or matched, which know pile-up", &text))
     }
 }

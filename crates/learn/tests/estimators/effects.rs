@@ -1,0 +1,115 @@
+//! Whatever effect a scenario has: an estimator is right or has a note, however it is chosen.
+
+use tofsim::scenario::effects::Effect;
+use tofsim::{Frame, Observers, Run, Setup, Stepping};
+use tofsim_learn::estimation::notes::notes_of_firmware;
+use tofsim_learn::estimation::{EstimatorKind, Panel};
+
+/// A scene in which the models are right to a tenth of a millimetre.
+const SCENE: [&str; 2] = ["target.distance_m=0.3", "target.reflectance=0.4"];
+/// What a mean error is at most without a note [mm].
+const MOST_MM: f64 = 0.4;
+/// The estimators that model a frame's light.
+const MODELS: [EstimatorKind; 4] = [
+    EstimatorKind::Likelihood,
+    EstimatorKind::TwoEchoes,
+    EstimatorKind::LikelihoodEstimator,
+    EstimatorKind::Matched,
+];
+
+/// Keys that switch an effect on so far that it moves a depth; `None` for those of files.
+fn switched_on(effect: Effect) -> Option<&'static [&'static str]> {
+    Some(match effect {
+        Effect::FreeRunning => &["firmware.mode=1"],
+        Effect::SharedTdc => &["firmware.mode=1", "spad.on_tdc=4"],
+        Effect::PassiveRecharge => &["firmware.mode=1", "spad.dead_time_kind=paralysable"],
+        Effect::ControlChanges => &["control=[{at_us=500,laser_en=false}]"],
+        Effect::ClockJitter => &["pll.jitter_rms_ps=80"],
+        Effect::Metastability => &["tdc.setup_window_ps=40"],
+        Effect::LaserTiming => &["laser.timing_jitter_ps=200"],
+        Effect::LaserEnergy => &["laser.energy_jitter=0.8"],
+        Effect::Target => &["target.shape=step", "target.second_distance_m=0.33"],
+        Effect::Air => &["atmosphere.visibility_m=2"],
+        Effect::PulseTail => &["laser.pulse_tail_ps=150"],
+        Effect::LaserDelay => &["laser.delay_ps=600"],
+        Effect::Afterpulses => &["spad.afterpulse_probability=0.6"],
+        Effect::Crosstalk => &["spad.crosstalk_probability=0.4", "spad.row_outputs=30"],
+        Effect::PulseShaping => &["spad.pulse_gap_ns=40"],
+        Effect::Recalibration => &["tdc.recalibrate_frames=9", "tdc.calibration_hits_log2=19"],
+        Effect::HeldFrame
+        | Effect::ChangingConditions
+        | Effect::MeasuredPulse
+        | Effect::ListedShots
+        | Effect::ListedHistogram => return None,
+    })
+}
+
+/// Each effect that keys switch on, and these keys with those of the scene.
+fn effects() -> impl Iterator<Item = (Effect, Vec<&'static str>)> {
+    Effect::ALL.into_iter().filter_map(|effect| {
+        let keys = switched_on(effect)?;
+        Some((effect, SCENE.iter().chain(keys).copied().collect()))
+    })
+}
+
+#[test]
+fn a_model_is_right_or_has_a_note() {
+    let (mut right, mut wrong) = (0, Vec::new());
+    for (effect, keys) in effects() {
+        let setup = Setup::load("kc705", &keys).unwrap();
+        let without = MODELS.into_iter().filter(|kind| kind.notes_of_scene(&setup).is_empty());
+        let without: Vec<_> = without.collect();
+        if without.is_empty() {
+            continue;
+        }
+        let panel = Panel::new(&without, &setup).unwrap();
+        let (truth_m, mut errors_m) =
+            (setup.true_depth_m().unwrap(), vec![Vec::new(); without.len()]);
+        let mut take = |frame: &Frame| {
+            for (errors_m, reading) in errors_m.iter_mut().zip(panel.read(&frame.histogram)) {
+                errors_m.push(reading.depth_m.unwrap() - truth_m);
+            }
+            Ok(())
+        };
+        let observers = Observers { frames: Some(&mut take), ..Observers::default() };
+        Run::new(&setup).stepping(Stepping::LeapShots).many(6, observers).unwrap();
+        for (kind, errors_m) in without.iter().zip(errors_m) {
+            let mean_mm = 1e3 * errors_m.iter().sum::<f64>() / errors_m.len() as f64;
+            if mean_mm.abs() > MOST_MM {
+                wrong.push(format!("{effect:?}, {}: {mean_mm:.2} mm", kind.name()));
+            }
+            right += 1;
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(right >= 12, "{right}");
+}
+
+#[test]
+fn the_estimator_in_the_firmware_has_the_notes_of_the_one_that_an_option_chooses() {
+    let of_firmware = |kind: &str, keys: &[&str]| {
+        let kind = format!("estimator.kind={kind}");
+        let setup = Setup::load("kc705", &[keys, &[kind.as_str()]].concat()).ok()?;
+        Some(notes_of_firmware(&setup).into_iter().map(|note| note.key).collect::<Vec<_>>())
+    };
+    let mut noted = 0;
+    for (effect, keys) in effects() {
+        for (word, kind) in [
+            ("network", EstimatorKind::Network),
+            ("centroid", EstimatorKind::Centroid),
+            ("likelihood", EstimatorKind::LikelihoodEstimator),
+        ] {
+            let chosen = kind.notes_of_scene(&Setup::load("kc705", &keys).unwrap());
+            let key =
+                |key: String| if key == "--estimator" { "estimator.kind".into() } else { key };
+            let expected: Vec<_> = chosen.into_iter().map(|note| key(note.key)).collect();
+            // One that the firmware cannot be built with has no notes.
+            let Some(found) = of_firmware(word, &keys) else { continue };
+            assert_eq!(found, expected, "{effect:?}, {word}");
+            noted += found.len();
+        }
+    }
+    assert!(noted > 20, "{noted}");
+    let found = of_firmware("likelihood", &["spad.pulse_gap_ns=10"]);
+    assert_eq!(found, Some(vec!["spad.pulse_gap_ns".to_owned()]));
+}
