@@ -74,7 +74,10 @@ pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Resu
     let ranges = domain.ranges.iter().map(|(key, range)| (key, Found::Range(*range)));
     let words = domain.words.iter().map(|(key, word)| (key, Found::Word(word.clone())));
     trained.extend(ranges.chain(words).map(|(key, found)| (key.as_str(), Some(found))));
-    Ok(trained.iter().filter_map(|(key, found)| values.outside(key, found.as_ref())).collect())
+    let (numbers, words): (Vec<_>, Vec<_>) =
+        trained.iter().partition(|(_, found)| matches!(found, Some(Found::Range(_))));
+    let outside = |(key, found): (&&str, &Option<Found>)| values.outside(key, found.as_ref());
+    Ok(numbers.into_iter().chain(words).filter_map(outside).collect())
 }
 
 /// Whether a key's files may move and mean the same.

@@ -60,11 +60,21 @@ fn budgets_datasets_and_evaluations_are_made_again_too() {
 }
 
 #[test]
-fn networks_vectors_captures_and_estimates_are_made_again_too() {
+#[ignore = "long: ./check --full"]
+fn a_training_is_made_again_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    stdout(path, &["train", "--quick", "--seed", "3", "--with", "limits.penalty=5", "-o", "net"]);
+    for name in ["net/network.toml", "net/accuracy.csv", "net/curve.svg"] {
+        assert!(stdout(path, &["rerun", name]).contains("the same"), "{name}");
+    }
+}
+
+#[test]
+fn vectors_captures_and_estimates_are_made_again_too() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     let short = ["--set", "firmware.shots_per_frame=300"];
-    stdout(path, &["train", "--quick", "--seed", "3", "--with", "limits.penalty=5", "-o", "net"]);
     stdout(path, &["vectors", "tdc", "--cycles", "500", "-o", "golden"]);
     let captured = [&["ila", "capture", "--probes", "fig_6_21", "--json", "-o", "ila"], &short[..]];
     fs::write(path.join("captured.json"), stdout(path, &captured.concat())).unwrap();
@@ -75,9 +85,6 @@ fn networks_vectors_captures_and_estimates_are_made_again_too() {
     fs::write(path.join("explored.json"), stdout(path, &explored)).unwrap();
     for name in [
         "explored.json",
-        "net/network.toml",
-        "net/accuracy.csv",
-        "net/curve.svg",
         "golden/tdc/ports.json",
         "golden/tdc/expected.mem",
         "golden/tdc/tb_tdc.v",

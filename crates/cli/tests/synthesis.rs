@@ -56,6 +56,7 @@ const ECP5_TOP: &str = "ecp5_top";
 const WITH_CHAIN: [&str; 3] = ["tdc", "tof_top", "kc705_top"];
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn every_block_synthesises_to_the_primitives_it_should() {
     let sources = yosys::rtl_ref();
     let modules: BTreeMap<_, _> = yosys::modules(&sources)

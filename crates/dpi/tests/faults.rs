@@ -36,6 +36,7 @@ impl Fault {
         let (place, edit) = line.split_once(": ")?;
         let (old, new) = edit.split_once(" ->")?;
         let (file, anchor) = place.split_once(" after ").unwrap_or((place, ""));
+        let file = file.split_once(" in ").map_or(file, |(file, _configuration)| file);
         let [file, anchor, old, new] = [file, anchor, old, new.trim_start()].map(str::to_owned);
         Some(Fault { file, anchor, old, new })
     }

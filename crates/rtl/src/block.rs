@@ -20,7 +20,7 @@ use crate::golden::{BLOCKS, Spec, blocks, top};
 mod layout;
 
 use layout::Outputs;
-pub use layout::{Layout, Place};
+pub use layout::{Layout, PortBits};
 
 /// A block under way.
 pub struct Block {
@@ -161,8 +161,8 @@ impl Block {
         if unknown.is_empty() && words.iter().zip(got).all(|(want, got)| want == got) {
             return Vec::new();
         }
-        let differs = |place: &&Place| !place.agrees(words, got) || place.has_any(unknown);
-        let mismatch = |place: &Place| Mismatch {
+        let differs = |place: &&PortBits| !place.agrees(words, got) || place.has_any(unknown);
+        let mismatch = |place: &PortBits| Mismatch {
             port: place.name.clone(),
             expected: place.hex(words),
             got: place.hex_or_x(got, unknown),

@@ -10,6 +10,7 @@ pub mod configuration;
 pub mod cover;
 pub mod draw;
 mod estimations;
+pub mod glue;
 pub(crate) mod inputs;
 mod likelihood;
 mod lines;

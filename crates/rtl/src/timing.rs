@@ -17,4 +17,4 @@ pub use block::{BLOCKS, TimedBlock};
 pub use estimate::{Estimate, estimate};
 pub use nextpnr::{Measurement, measure};
 pub use paths::{Hop, TimedPath};
-pub use synthesis::{Design, Part, own};
+pub use synthesis::{Part, TimedDesign, own};

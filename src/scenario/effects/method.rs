@@ -49,7 +49,7 @@ methods! {
     /// The model of `centroid_estimator`.
     Centroid: "`centroid`",
     /// The model of `--estimator peak` and `--estimator subtraction`.
-    Peak: "`peak`, `subtraction`",
+    Peak: "`peak` and `subtraction`",
 }
 
 impl Method {

@@ -3,11 +3,11 @@
 use crate::scenario::wiring::Wiring;
 use crate::scenario::{QuenchMode, Scenario};
 
-use super::Method::{
+use super::key::{Key, key};
+use super::method::Method::{
     self, Centroid, CramerRaoBound, FastForward, HistogramDraw, IndependentShots, Likelihood,
     LikelihoodEstimator, Matched, Peak, SecondOpinion, SeparateFrames, TwoEchoes, VerilogBench,
 };
-use super::key::{Key, key};
 
 /// Estimators that model how the light of a frame becomes a histogram.
 const MODELS: &[Method] = &[Likelihood, TwoEchoes, LikelihoodEstimator, Matched];

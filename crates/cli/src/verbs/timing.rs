@@ -68,7 +68,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let stop = stop_signal();
     let limits =
         Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };
-    let design = timing::Design { rtl: &rtl, folder: &folder, work: work.path(), limits };
+    let design = timing::TimedDesign { rtl: &rtl, folder: &folder, work: work.path(), limits };
     let place = placer(args, talk)?;
     let known = args.record.as_deref().map(Record::read).transpose()?.flatten().unwrap_or_default();
     let mut tools = BTreeMap::from([("yosys".to_owned(), version(YOSYS, "-V", work.path())?)]);
@@ -143,7 +143,7 @@ fn placer(args: &Args, talk: &Talk) -> Result<Option<Tool>> {
 
 /// Returns the place-and-route result of a block: from a record if that has the same netlist.
 fn measured(
-    design: &timing::Design,
+    design: &timing::TimedDesign,
     block: &TimedBlock,
     tool: Tool,
     seeds: u32,

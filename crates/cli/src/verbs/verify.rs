@@ -13,7 +13,7 @@ use tofsim::files::staged::ScratchFolder;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
-use tofsim_rtl::verify::task::run_all;
+use tofsim_rtl::verify::task::{DEFAULT, run_all};
 use tofsim_rtl::verify::{
     BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, strays, yosys,
 };
@@ -38,7 +38,8 @@ use super::vectors::{From, find};
 pub struct Args {
     #[command(flatten)]
     design: Design,
-    /// Block to check; may be repeated [default: all that the design has]
+    /// Block to check, with all its configurations, or one of these, e.g. tdc.leading or tdc.default; may be
+    /// repeated [default: all that the design has]
     #[arg(long, value_name = "BLOCK")]
     block: Vec<String>,
     /// Check the whole firmware with a full frame of the scenario too (alone, unless --block is given)
@@ -166,7 +167,7 @@ pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
         let path = path.display().to_string();
         return Err(Input::new("--cycle-counts", expected).value(path).into());
     }
-    let design = count::Design::of(&args.from.setting()?.setup);
+    let design = count::CountedDesign::of(&args.from.setting()?.setup);
     let counts = count::cycle_counts(&rtl, &design, &limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };
         let word = coloured(word, count.holds(), &std::io::stderr());
@@ -190,17 +191,21 @@ impl Args {
 /// The blocks that are asked for and all that they can be, then the whole.
 fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<Task>> {
     let setting = args.from.setting()?;
-    let specs: Vec<_> = match (args.block.as_slice(), args.top) {
+    let all = |spec| (spec, None);
+    let chosen: Vec<_> = match (args.block.as_slice(), args.top) {
         ([], true) => Vec::new(),
-        ([], false) => every(map, rtl, talk)?,
-        (names, _) => names.iter().map(|name| find(name, "--block")).collect::<Result<_>>()?,
+        ([], false) => every(map, rtl, talk)?.into_iter().map(all).collect(),
+        (names, _) => names.iter().map(|name| named(name)).collect::<Result<_>>()?,
     };
     let mut tasks = Vec::new();
-    for spec in specs {
-        let task = Task::new(spec, &setting, map);
-        let others = task.others()?;
-        tasks.push(task);
-        tasks.extend(others);
+    for (spec, configuration) in chosen {
+        if let Some(name) = configuration.filter(|&name| setting.as_told && name != DEFAULT) {
+            let expected = "expected no configuration: a scenario or a key says what the block is";
+            return Err(Input::new("--block", expected)
+                .value(format!("{}.{name}", spec.name))
+                .into());
+        }
+        tasks.extend(Task::every(spec, configuration, &setting, map)?);
     }
     if args.top {
         let setting = Setting { as_told: true, ..setting };
@@ -208,6 +213,21 @@ fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Ve
         tasks.push(Task { name: format!("tof_top.{}", setting.setup.name), ..task });
     }
     Ok(tasks)
+}
+
+/// The block of a name, and one of its configurations where the name goes on: `tdc.leading`.
+fn named(name: &str) -> Result<(&'static Spec, Option<&str>)> {
+    let (block, configuration) =
+        name.split_once('.').map_or((name, None), |(block, rest)| (block, Some(rest)));
+    let spec = find(block, "--block")?;
+    let others = spec.configurations.iter().map(|other| other.name);
+    let known: Vec<_> = [DEFAULT].into_iter().chain(others).collect();
+    if configuration.is_some_and(|name| !known.contains(&name)) {
+        let expected =
+            format!("no such configuration of {block}; expected one of {}", known.join(", "));
+        return Err(Input::new("--block", expected).value(name).into());
+    }
+    Ok((spec, configuration))
 }
 
 /// All blocks that the design has, or the map names.

@@ -11,6 +11,7 @@ use crate::common;
 const MAKER: &str = "Yosys 0.23";
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn the_costs_of_the_decoders_are_those_of_their_netlists() {
     let sources = yosys::rtl_ref();
     let chain = common::setup("kc705", &["tdc.profile=kintex7"]).params.tdc.delays;

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use tofsim_rtl::timing::record::Record;
 use tofsim_rtl::timing::versions::version;
-use tofsim_rtl::timing::{self, BLOCKS, Design, Measurement, nextpnr};
+use tofsim_rtl::timing::{self, BLOCKS, Measurement, TimedDesign, nextpnr};
 use tofsim_rtl::verify::process::{Limits, YOSYS};
 
 use crate::common;
@@ -101,7 +101,7 @@ fn the_record_is_of_this_verilog() {
         return eprintln!("docs/timing.json is of {}, this is {maker}", record.tools["yosys"]);
     }
     let rtl = timing::own(folder.path(), &common::setup("kc705", &[])).unwrap();
-    let design = Design { rtl: &rtl, folder: folder.path(), work: folder.path(), limits };
+    let design = TimedDesign { rtl: &rtl, folder: folder.path(), work: folder.path(), limits };
     for block in BLOCKS {
         let netlist = nextpnr::digest(&design, block).unwrap();
         let recorded = &measurement(&record, block.name).netlist;

@@ -23,9 +23,10 @@ fn changed(names: &[&str], change: impl Fn(&str, String) -> String) -> tempfile:
     folder
 }
 
-/// One block's report, with what was said on standard error.
+/// The report on a block in its default configuration.
 fn check(folder: &Path, block: &str, args: &[&str]) -> Value {
-    let all = ["verify", "--rtl", ".", "--block", block, "--json"];
+    let block = format!("{block}.default");
+    let all = ["verify", "--rtl", ".", "--block", &block, "--json"];
     let output = common::output(folder, &[&all[..], args].concat());
     let error = String::from_utf8(output.stderr).unwrap();
     let report: Value =

@@ -75,7 +75,8 @@ fn a_fault_in_each_of_its_modules_is_found() {
         ("rtl/counting/histogram.vhd", "+ 1;", "+ 2;", "histogram_builder"),
     ] {
         let tree = tree(file, old, new);
-        let (status, report) = verify(tree.path(), &["--block", block, "--cycles", "3000"]);
+        let block = format!("{block}.default");
+        let (status, report) = verify(tree.path(), &["--block", &block, "--cycles", "3000"]);
         assert_eq!(status, Some(1), "{report}");
         assert_eq!(report["blocks"][0]["verdict"], "differs");
     }

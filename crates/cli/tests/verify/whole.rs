@@ -84,7 +84,7 @@ fn what_a_design_cannot_be_is_not_run_and_no_fault() {
 #[test]
 fn goals_that_were_missed_are_said_beside_pass() {
     let folder = common::empty();
-    let args = ["verify", "--block", "tdc", "--cycles", "300"];
+    let args = ["verify", "--block", "tdc.default", "--cycles", "300"];
     let text = common::stdout(folder.path(), &args);
     assert!(text.contains("pass, goals missed"), "{text}");
     assert!(text.contains("tdc: goals of the stimulus missed: taps of a hit ("), "{text}");

@@ -35,7 +35,11 @@ pub fn present(effect: Effect, setup: &Setup, kind: EstimatorKind) -> EffectStat
     if let Some([key]) = effect.of_scenario().map(ScenarioEffect::keys)
         && key.is_usual(scenario)
     {
-        return EffectState::Off(format!("{} = {}", key.name, key.usual()));
+        let why = match effect {
+            Effect::DeadTime => ": a reset arms the diode for each shot",
+            _ => "",
+        };
+        return EffectState::Off(format!("{} = {}{why}", key.name, key.usual()));
     }
     match effect {
         Effect::PileUp if kind.is_network() => left_out(

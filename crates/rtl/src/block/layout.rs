@@ -8,9 +8,9 @@ use tofsim::waves::{Bits, TapDigits};
 use crate::golden::inputs::bits;
 use crate::golden::ports::Port;
 
-/// Place of a port in its line.
+/// Bits of a port in its line.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct PortBits {
     /// The port.
     pub name: String,
     /// Its lowest bit.
@@ -19,7 +19,7 @@ pub struct Place {
     pub width: usize,
 }
 
-impl Place {
+impl PortBits {
     /// Its bits from the lowest on, up to 32 at a time.
     fn words<'a>(&self, line: &'a [u32]) -> impl DoubleEndedIterator<Item = u64> + 'a {
         let (low, end) = (self.low, self.low + self.width);
@@ -56,14 +56,14 @@ impl Place {
 /// The places of ports, as a concatenation in Verilog has them: the first in the highest bits.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    places: Vec<Place>,
+    places: Vec<PortBits>,
     width: usize,
 }
 
 impl Layout {
     pub(super) fn new<'a>(ports: impl Iterator<Item = &'a Port>) -> Self {
         let place =
-            |port: &Port| Place { name: port.name.clone(), low: 0, width: port.width as usize };
+            |port: &Port| PortBits { name: port.name.clone(), low: 0, width: port.width as usize };
         let mut places: Vec<_> = ports.map(place).collect();
         let mut width = 0;
         for place in places.iter_mut().rev() {
@@ -74,12 +74,12 @@ impl Layout {
     }
 
     /// The ports, in order.
-    pub fn places(&self) -> &[Place] {
+    pub fn places(&self) -> &[PortBits] {
         &self.places
     }
 
     /// The port of that name.
-    pub fn find(&self, name: &str) -> Option<&Place> {
+    pub fn find(&self, name: &str) -> Option<&PortBits> {
         self.places.iter().find(|place| place.name == name)
     }
 

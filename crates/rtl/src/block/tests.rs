@@ -31,7 +31,7 @@ fn edges(timing: &Timing) -> Vec<Option<Edge>> {
 }
 
 /// Puts a column of a row of vectors into the place of its port.
-fn copy(words: &mut [u32], place: &Place, row: &BitSlice<u64, Lsb0>, column: &Column) {
+fn copy(words: &mut [u32], place: &PortBits, row: &BitSlice<u64, Lsb0>, column: &Column) {
     for (step, bits) in row[column.low..column.low + column.width].chunks(64).enumerate() {
         layout::put(words, place.low + 64 * step, bits.len(), bits.load_le());
     }

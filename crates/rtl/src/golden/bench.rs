@@ -236,7 +236,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
             text += &format!("  reg {}{name} = {width}'d0;\n", range(*width as u32));
         }
     }
-    text += &spec.glue.map_or(String::new(), |glue| (glue.verilog)(&vectors.sizes));
+    text += &spec.glue.map_or(String::new(), |glue| glue.verilog(&vectors.sizes));
     if spec.timing.oscillator {
         text += &format!("  always {} clk_in = !clk_in;\n", wait(vectors.half_of_oscillator()));
     }

@@ -70,7 +70,7 @@ mod tests {
     use crate::golden::draw::MEMORIES;
     use crate::golden::setting::Setting;
     use crate::golden::spec::{FIRST_RESET, Vectors};
-    use crate::golden::timing::Step;
+    use crate::golden::timing::BenchStep;
     use tofsim::kernel::sizes::Sizes;
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
@@ -150,15 +150,15 @@ mod tests {
             for name in &columns {
                 let is_read = spec
                     .glue
-                    .is_some_and(|glue| (glue.verilog)(&Sizes::default()).contains(name.as_str()));
+                    .is_some_and(|glue| glue.verilog(&Sizes::default()).contains(name.as_str()));
                 let is_late =
-                    |step: &Step| step.late.is_some_and(|(_, column)| column == name.as_str());
+                    |step: &BenchStep| step.late.is_some_and(|(_, column)| column == name.as_str());
                 let is_read = is_read || spec.timing.steps.iter().any(is_late);
                 let is_input = inputs.iter().any(|port| port.name == **name);
                 assert!(is_input || is_read, "{}: {name}", spec.name);
             }
             for port in inputs.iter().filter(|port| !port.name.starts_with("clk")) {
-                let is_glued = spec.glue.is_some_and(|glue| glue.drives == port.name);
+                let is_glued = spec.is_glued(&port.name);
                 let is_driven = columns.contains(&&port.name) || port.name == "tdc_stop";
                 assert!(is_driven || is_glued, "{}: {}", spec.name, port.name);
             }

@@ -4,9 +4,9 @@ use tofsim::kernel::Thermometer;
 use tofsim::kernel::signals::{Signal, SignalFormat, Source};
 use tofsim::waves::TapDigits;
 
-/// Place of the bits of a port in its line.
+/// Bits of a port in its line.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct InputBits {
     low: usize,
     width: usize,
     signed: bool,
@@ -16,7 +16,7 @@ struct Place {
 #[derive(Clone, Debug)]
 pub(crate) struct Inputs {
     /// None of a port that such a design does not have: it stays 0.
-    places: Vec<Option<Place>>,
+    places: Vec<Option<InputBits>>,
     taps: TapDigits,
     /// The line, the lowest bit first.
     pub(crate) words: Vec<u32>,
@@ -34,7 +34,7 @@ impl Inputs {
         let place = |signal: &Signal| {
             let (low, width) = low(&signal.name)?;
             let signed = matches!(signal.format, SignalFormat::Signed { .. });
-            Some(Place { low, width, signed })
+            Some(InputBits { low, width, signed })
         };
         let places = signals.iter().map(place).collect();
         Inputs { places, taps, words: Vec::new(), strange: None }
@@ -51,13 +51,15 @@ pub(crate) fn bits(words: &[u32], low: usize, width: usize) -> u64 {
 
 impl Source for Inputs {
     fn word(&mut self, id: usize) -> u64 {
-        let Some(Place { low, width, signed }) = self.places[id] else { return 0 };
+        let Some(InputBits { low, width, signed }) = self.places[id] else { return 0 };
         let word = bits(&self.words, low, width);
         if signed { ((word << (64 - width)) as i64 >> (64 - width)) as u64 } else { word }
     }
 
     fn taps(&mut self, id: usize) -> Thermometer {
-        let Some(Place { low, width, .. }) = self.places[id] else { return Thermometer::default() };
+        let Some(InputBits { low, width, .. }) = self.places[id] else {
+            return Thermometer::default();
+        };
         let word = |from: usize| bits(&self.words, low + from, (width - from).min(64));
         self.taps.taps((0..width).step_by(64).map(word)).unwrap_or_else(|| {
             self.strange = Some(id);

@@ -13,10 +13,11 @@ pub use super::configuration::{
 };
 pub use super::cover::{Cover, bits, ends};
 pub use super::draw::{Draw, MEMORIES};
+pub use super::glue::Glue;
 pub use super::model::{Edge, Model};
 pub use super::parameters::{self, Parameter, files};
 pub use super::record::Recorder;
 pub use super::setting::Setting;
-pub use super::spec::{FIRST_RESET, Glue, Latency, Spec, Vectors};
+pub use super::spec::{FIRST_RESET, Latency, Spec, Vectors};
 pub use super::stops::{self, Stops};
 pub use super::timing;

@@ -9,6 +9,7 @@ use tofsim::network::mem::Mem;
 
 use super::configuration::Configuration;
 use super::cover::Cover;
+use super::glue::Glue;
 use super::model::Model;
 use super::parameters::{self, Parameters, memories};
 use super::setting::Setting;
@@ -25,17 +26,6 @@ pub struct Latency {
     pub to: &'static str,
     /// Clock cycles in the design of these vectors.
     pub cycles: fn(&Vectors) -> u64,
-}
-
-/// An input that answers an output within the cycle, and so is no part of a line.
-#[derive(Clone, Copy, Debug)]
-pub struct Glue {
-    /// The input port.
-    pub drives: &'static str,
-    /// Its declaration and driver in the bench.
-    pub verilog: fn(&Sizes) -> String,
-    /// In a bench in VHDL, the declaration of the memory that it is read from, and its driver.
-    pub vhdl: fn(&Sizes) -> [String; 2],
 }
 
 /// The line that resets a block: those before it show how its registers begin.
@@ -113,6 +103,11 @@ impl Spec {
     /// Parameters of its Verilog that say how large things are, where they are not the default.
     pub fn sized(&self, setting: &Setting) -> Parameters {
         parameters::sized(&setting.setup.params, self.verilog)
+    }
+
+    /// Returns whether the bench drives a port from a memory, and not from a line.
+    pub fn is_glued(&self, port: &str) -> bool {
+        self.glue.is_some() && port == Glue::DRIVES
     }
 
     /// Dotted path of the block in the hierarchy.

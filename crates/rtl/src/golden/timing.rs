@@ -8,7 +8,7 @@ pub const ASIDE: Time = Time::from_fs(1000);
 
 /// One part of a clock cycle: a wait, a look just before its end, and what changes then.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Step {
+pub struct BenchStep {
     /// Its length [quarters of a period of clk_sys].
     pub quarters: u64,
     /// True if the outputs are sampled, [`ASIDE`] before its end.
@@ -26,7 +26,7 @@ pub struct Timing {
     /// The clock that is counted, or what stands for one.
     pub clock: &'static str,
     /// Parts of the cycle.
-    pub steps: &'static [Step],
+    pub steps: &'static [BenchStep],
     /// True if the bench makes the board's oscillator beside it, for a block with a PLL.
     pub oscillator: bool,
 }
@@ -57,12 +57,12 @@ pub fn of_quarters(quarters: u64, cycle: Time) -> Time {
     Time::from_fs(quarters * cycle.fs() / 4)
 }
 
-const fn step(quarters: u64, sample: bool, edges: &'static [(&'static str, bool)]) -> Step {
-    Step { quarters, sample, edges, late: None }
+const fn step(quarters: u64, sample: bool, edges: &'static [(&'static str, bool)]) -> BenchStep {
+    BenchStep { quarters, sample, edges, late: None }
 }
 
 /// A cycle of a clock that the bench makes.
-const fn cycle(clock: &'static str, steps: &'static [Step]) -> Timing {
+const fn cycle(clock: &'static str, steps: &'static [BenchStep]) -> Timing {
     Timing { clock, steps, oscillator: false }
 }
 
@@ -99,7 +99,7 @@ pub const OWN_WITH_RESET: Timing = Timing {
     steps: &[
         step(1, true, &[]),
         step(1, true, &[]),
-        Step { late: Some(("rst", "rst_late")), ..step(1, true, &[]) },
+        BenchStep { late: Some(("rst", "rst_late")), ..step(1, true, &[]) },
         step(1, true, &[]),
     ],
     ..OWN

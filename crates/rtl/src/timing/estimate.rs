@@ -9,7 +9,7 @@ use tofsim::error::{Input, Result};
 use super::block::TimedBlock;
 use super::netlist::Netlist;
 use super::paths::{TimedPath, TimingGraph};
-use super::synthesis::{Design, Part};
+use super::synthesis::{Part, TimedDesign};
 
 /// Assumed delays of a routed net [ps]: little, usual and much.
 pub const NET_PS: [u32; 3] = [300, 600, 900];
@@ -43,7 +43,7 @@ impl Estimate {
 ///
 /// # Errors
 /// When Yosys is missing or refuses the sources, or no register follows another.
-pub fn estimate(design: &Design, block: &TimedBlock) -> Result<Estimate> {
+pub fn estimate(design: &TimedDesign, block: &TimedBlock) -> Result<Estimate> {
     let (file, top) = design.synthesise(block, Part::Kintex7)?;
     let netlist = Netlist::read(&file, top)?;
     let graph = TimingGraph::new(&netlist);

@@ -13,7 +13,7 @@ use crate::verify::process::{End, Tool};
 
 use super::block::{TimedBlock, required_mhz};
 use super::paths::{Hop, TimedPath};
-use super::synthesis::{Design, Part};
+use super::synthesis::{Part, TimedDesign};
 
 /// nextpnr, as PyPI has it and as a system may have it.
 pub const NEXTPNR: [Tool; 2] = [
@@ -92,21 +92,21 @@ struct Used {
 struct Critical {
     from: String,
     to: String,
-    path: Vec<Step>,
+    path: Vec<PathSegment>,
 }
 
 #[derive(Deserialize)]
-struct Step {
+struct PathSegment {
     #[serde(rename = "type")]
     kind: String,
     delay: f64,
     #[serde(default)]
     net: String,
-    to: Place,
+    to: PathEnd,
 }
 
 #[derive(Deserialize)]
-struct Place {
+struct PathEnd {
     cell: String,
     port: String,
 }
@@ -120,7 +120,7 @@ pub fn installed() -> Option<Tool> {
 ///
 /// # Errors
 /// When Yosys is missing or refuses the sources.
-pub fn digest(design: &Design, block: &TimedBlock) -> Result<String> {
+pub fn digest(design: &TimedDesign, block: &TimedBlock) -> Result<String> {
     let (netlist, _) = design.synthesise(block, Part::Ecp5)?;
     digest_file(&netlist)
 }
@@ -136,7 +136,7 @@ fn digest_file(netlist: &Path) -> Result<String> {
 /// # Errors
 /// If a tool is missing, refuses its input, or does not end.
 pub fn measure(
-    design: &Design,
+    design: &TimedDesign,
     block: &TimedBlock,
     tool: Tool,
     seeds: u32,
@@ -162,7 +162,7 @@ pub fn measure(
 }
 
 fn place(
-    design: &Design,
+    design: &TimedDesign,
     block: &TimedBlock,
     tool: Tool,
     netlist: &Path,

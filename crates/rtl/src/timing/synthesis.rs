@@ -30,7 +30,7 @@ pub enum Part {
 
 /// A design that is timed.
 #[derive(Clone, Copy, Debug)]
-pub struct Design<'a> {
+pub struct TimedDesign<'a> {
     /// Its sources.
     pub rtl: &'a Rtl,
     /// Folder in which the tools run: paths in the sources, such as those of ROMs, are relative to it.
@@ -54,7 +54,7 @@ pub fn own(folder: &Path, setup: &Setup) -> Result<Rtl> {
     Rtl::own(&sources)
 }
 
-impl Design<'_> {
+impl TimedDesign<'_> {
     /// The netlist of a block in a file, and the name of its top.
     ///
     /// # Errors

@@ -16,15 +16,13 @@ mod simulate;
 #[cfg(test)]
 mod tests;
 
-pub use design::Design;
+pub use design::CountedDesign;
 use promises::Promise;
 
 use serde::Serialize;
 
 use tofsim::error::Result;
 use tofsim::files::staged::ScratchFolder;
-
-use crate::golden::blocks::{CENTROID, LIKELIHOOD};
 
 use super::process::Limits;
 use super::rtl::Rtl;
@@ -65,29 +63,22 @@ impl Count {
 /// is missing), the simulation does not end, or the user stops.
 pub fn cycle_counts(
     rtl: &Rtl,
-    design: &Design,
+    design: &CountedDesign,
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
-    let mut promises = promises::promises(design);
-    if rtl.has(CENTROID) {
-        promises.push(promises::centroid(design));
-    }
-    if rtl.has(LIKELIHOOD) {
-        promises.extend(promises::likelihood(design));
-    }
-    count(&promises, design, rtl, limits, done)
+    count(&promises::of(rtl, design), design, rtl, limits, done)
 }
 
 fn count(
     promises: &[Promise],
-    design: &Design,
+    design: &CountedDesign,
     rtl: &Rtl,
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let folder = ScratchFolder::new()?;
-    let simulated = simulate::measure(rtl, design, folder.path(), limits)?;
+    let simulated = simulate::measure(promises, rtl, design, folder.path(), limits)?;
     let modelled = model::measure(design);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);

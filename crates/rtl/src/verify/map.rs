@@ -198,7 +198,7 @@ impl BlockMap {
         // A level that a line of the vectors has.
         let is_level = |port: &&Port| {
             let is_driven = port.name.starts_with("clk") || port.name == "tdc_stop";
-            let is_glued = spec.glue.is_some_and(|glue| glue.drives == port.name);
+            let is_glued = spec.is_glued(&port.name);
             port.width == 1 && (port.output || !is_driven && !is_glued)
         };
         let mut valid = BTreeMap::new();

@@ -23,20 +23,39 @@ pub struct Task {
     pub configuration: Option<&'static Configuration>,
 }
 
+/// Name of the configuration that is a block as the scenario has it.
+pub const DEFAULT: &str = "default";
+
 impl Task {
+    /// Returns a block's configurations: the one of that name, or all.
+    ///
+    /// # Errors
+    /// When a scenario cannot be loaded.
+    pub fn every(
+        spec: &'static Spec,
+        configuration: Option<&str>,
+        setting: &Setting,
+        map: Option<&RtlMap>,
+    ) -> Result<Vec<Self>> {
+        let own = Task::new(spec, setting, map);
+        let mut tasks = own.others(configuration)?;
+        if configuration.is_none_or(|name| name == DEFAULT) {
+            tasks.insert(0, own);
+        }
+        Ok(tasks)
+    }
+
     /// A block as the scenario has it, fitted to the design that a map describes.
     pub fn new(spec: &'static Spec, setting: &Setting, map: Option<&RtlMap>) -> Self {
         let setting = map.map_or(setting.clone(), |map| map.fit(spec, setting));
         Task { name: spec.name.to_owned(), spec, setting, configuration: None }
     }
 
-    /// All that the block can be besides: nothing if the scenario is one of the user's, who then
-    /// says what the block is.
-    ///
-    /// # Errors
-    /// When a scenario cannot be loaded.
-    pub fn others(&self) -> Result<Vec<Self>> {
+    /// Returns what the block can be besides, or only what has that name: nothing if the scenario is one of the
+    /// user's, who then says what the block is.
+    fn others(&self, only: Option<&str>) -> Result<Vec<Self>> {
         let configurations = if self.setting.as_told { &[] } else { self.spec.configurations };
+        let chosen = configurations.iter().filter(|it| only.is_none_or(|name| name == it.name));
         let other = |configuration: &'static Configuration| {
             Ok(Task {
                 name: format!("{}.{}", self.spec.name, configuration.name),
@@ -45,7 +64,7 @@ impl Task {
                 spec: self.spec,
             })
         };
-        configurations.iter().map(other).collect()
+        chosen.map(other).collect()
     }
 
     /// Returns how far its block is below the top.

@@ -3,7 +3,7 @@
 use tofsim::kernel::Time;
 
 use crate::golden::spec::Vectors;
-use crate::golden::timing::{ASIDE, Step, of_quarters};
+use crate::golden::timing::{ASIDE, BenchStep, of_quarters};
 
 /// A delay.
 ///
@@ -47,7 +47,7 @@ pub(super) fn steps(vectors: &Vectors, inputs: &str) -> String {
 }
 
 /// The clocks that change together, in one assignment.
-fn edges(step: &Step, last: bool) -> String {
+fn edges(step: &BenchStep, last: bool) -> String {
     let names: Vec<_> = step.edges.iter().map(|(name, _)| *name).collect();
     let levels: String =
         step.edges.iter().map(|(_, level)| if *level { '1' } else { '0' }).collect();

@@ -9,7 +9,7 @@ use crate::golden::parameters::Parameter;
 use crate::golden::ports::Port;
 use crate::golden::spec::Vectors;
 use crate::golden::table::Column;
-use crate::golden::timing::{ASIDE, Step, of_quarters};
+use crate::golden::timing::{ASIDE, BenchStep, of_quarters};
 
 /// The bench of an entity that has the block's name.
 ///
@@ -111,7 +111,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
     }
     if let Some(glue) = vectors.spec.glue {
         text += include_str!("words.vhd");
-        text += &format!("  {}\n", (glue.vhdl)(&vectors.sizes)[0]);
+        text += &format!("  {}\n", glue.vhdl(&vectors.sizes)[0]);
     }
     text
 }
@@ -120,7 +120,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
 fn statements(vectors: &Vectors) -> String {
     let mut text = String::new();
     if let Some(glue) = vectors.spec.glue {
-        text += &format!("\n  {}\n", (glue.vhdl)(&vectors.sizes)[1]);
+        text += &format!("\n  {}\n", glue.vhdl(&vectors.sizes)[1]);
     }
     if vectors.spec.timing.oscillator {
         let half = physical(vectors.half_of_oscillator());
@@ -207,7 +207,7 @@ fn resets(inputs: &[Column]) -> String {
 }
 
 /// The clocks that change together: their signals do in one delta cycle.
-fn edges(step: &Step, last: bool) -> String {
+fn edges(step: &BenchStep, last: bool) -> String {
     let set: String = (step.edges.iter())
         .map(|(name, level)| format!("{name} <= '{}';\n", u8::from(*level)))
         .collect();

@@ -21,7 +21,7 @@ pub type Define = (&'static str, String);
 
 /// A design, as far as cycle counts depend on it.
 #[derive(Clone, Debug)]
-pub struct Design {
+pub struct CountedDesign {
     /// Bins and neurons.
     pub estimator: estimator_ctrl::Params,
     /// Bins, box and fit of the likelihood estimator, where its model holds.
@@ -37,13 +37,13 @@ pub struct Design {
     period_bits: u32,
 }
 
-impl Design {
+impl CountedDesign {
     /// Returns the design of a scenario.
     pub fn of(setup: &Setup) -> Self {
         let (sizes, laser) = (setup.params.sizes(), setup.params.vcsel_driver.clone());
         let own = sized(&setup.params, VCSEL_DRIVER);
         let own = own.iter().map(|(name, value)| format!(".{name}({})", value.literal()));
-        Design {
+        CountedDesign {
             estimator: setup.params.depth_estimator.ctrl(),
             likelihood: setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).ok(),
             half_ps: setup.pll().cycle.fs() / 4000,

@@ -11,14 +11,14 @@ use tofsim::firmware::vcsel_driver::{self, VcselDriver};
 use tofsim::kernel::{Clocked, U};
 use tofsim::network;
 
-use super::design::Design;
+use super::design::CountedDesign;
 use super::measured::Measured;
 
 /// Cycles after which an estimation must be over.
 const PATIENCE: u64 = 2000;
 
 /// Everything that the benches print of such a design.
-pub fn measure(design: &Design) -> Measured {
+pub fn measure(design: &CountedDesign) -> Measured {
     let mut measured = Measured::default();
     estimator(&design.estimator, &mut measured);
     let size = histogram(&design.estimator);
@@ -107,7 +107,7 @@ fn histogram(p: &Params) -> histogram_builder::Params {
 }
 
 /// Counts five shots from the rise of `acquire` on.
-fn shots(design: &Design, mode: bool, code: u64, measured: &mut Measured) {
+fn shots(design: &CountedDesign, mode: bool, code: u64, measured: &mut Measured) {
     let laser_freq = U::new(code);
     let mut i = vcsel_driver::In {
         rst: false,

@@ -3,7 +3,10 @@
 use tofsim::firmware::centroid_estimator;
 use tofsim::firmware::histogram_builder;
 
-use super::design::{Define, Design};
+use crate::golden::blocks::{CENTROID as CENTROID_MODULE, LIKELIHOOD as LIKELIHOOD_MODULE};
+use crate::verify::rtl::Rtl;
+
+use super::design::{CountedDesign, Define};
 
 /// A Verilog module with properties of some modules of the design.
 #[derive(Debug)]
@@ -12,6 +15,8 @@ pub struct Properties {
     pub module: &'static str,
     /// The file.
     pub text: &'static str,
+    /// The bench that counts the same in a simulation.
+    pub bench: &'static str,
     /// Unit of the numbers.
     pub unit: &'static str,
     /// Modules that are left open: nothing proven depends on what they do.
@@ -27,9 +32,19 @@ pub struct Properties {
 }
 
 impl Properties {
-    const fn new(module: &'static str, text: &'static str) -> Self {
+    const fn new(module: &'static str, bench: &'static str, text: &'static str) -> Self {
         let (unit, step, steps) = ("cycles of clk_sys", "async2sync", 4);
-        Properties { module, text, unit, open: &[], registers: &[], logic: "proc", step, steps }
+        Properties {
+            module,
+            text,
+            bench,
+            unit,
+            open: &[],
+            registers: &[],
+            logic: "proc",
+            step,
+            steps,
+        }
     }
 }
 
@@ -43,12 +58,12 @@ macro_rules! of_estimator {
 static ESTIMATOR: Properties = Properties {
     open: &["forward1", "forward2", "tansig"],
     registers: &["estimator_ctrl.busy", "estimator_ctrl.step"],
-    ..Properties::new("check_estimator", of_estimator!("check_estimator.sv"))
+    ..Properties::new("check_estimator", "bench_estimator", of_estimator!("check_estimator.sv"))
 };
 
 static CENTROID: Properties = Properties {
     registers: &["busy", "step"],
-    ..Properties::new("check_centroid", of_estimator!("check_centroid.sv"))
+    ..Properties::new("check_centroid", "bench_centroid", of_estimator!("check_centroid.sv"))
 };
 
 /// The solver's program is a large `case`, which `proc` would make a memory, and no proof reads memories. What only
@@ -69,7 +84,7 @@ static LIKELIHOOD: Properties = Properties {
     logic: "proc -norom; delete */t:likelihood_memory */t:likelihood_terms */t:likelihood_sums */t:likelihood_scan \
             */t:$memwr*",
     steps: 2,
-    ..Properties::new("check_likelihood", of_estimator!("check_likelihood.sv"))
+    ..Properties::new("check_likelihood", "bench_likelihood", of_estimator!("check_likelihood.sv"))
 };
 
 static SHOT: Properties = Properties {
@@ -77,6 +92,7 @@ static SHOT: Properties = Properties {
     steps: 40,
     ..Properties::new(
         "check_shot",
+        "bench_shot",
         concat!(include_str!("check_shot.sv"), include_str!("check_tail.sv")),
     )
 };
@@ -85,7 +101,7 @@ static PULSE: Properties = Properties {
     unit: "ps",
     step: "clk2fflogic",
     steps: 40,
-    ..Properties::new("check_pulse", include_str!("check_pulse.sv"))
+    ..Properties::new("check_pulse", "bench_shot", include_str!("check_pulse.sv"))
 };
 
 /// A promise.
@@ -140,7 +156,7 @@ fn with_latency(mut defines: Vec<Define>, latency: u64) -> Vec<Define> {
 }
 
 /// Returns the promise of an estimator that a design may leave out.
-pub fn centroid(design: &Design) -> Promise {
+pub fn centroid(design: &CountedDesign) -> Promise {
     let bins = design.estimator.bins;
     let histogram = histogram_builder::Params { bins, ..histogram_builder::Params::default() };
     let done = centroid_estimator::Params { histogram, ..Default::default() }.done();
@@ -153,7 +169,7 @@ pub fn centroid(design: &Design) -> Promise {
 }
 
 /// As [`centroid`], where the estimator's model holds.
-pub fn likelihood(design: &Design) -> Option<Promise> {
+pub fn likelihood(design: &CountedDesign) -> Option<Promise> {
     let done = design.likelihood.as_ref()?.done();
     let what = "likelihood estimator: algo_start taken to algo_done";
     Some(Promise {
@@ -163,8 +179,15 @@ pub fn likelihood(design: &Design) -> Option<Promise> {
     })
 }
 
+/// Returns what is promised of a design with those modules.
+pub fn of(rtl: &Rtl, design: &CountedDesign) -> Vec<Promise> {
+    let centroid = rtl.has(CENTROID_MODULE).then(|| centroid(design));
+    let likelihood = rtl.has(LIKELIHOOD_MODULE).then(|| likelihood(design)).flatten();
+    promises(design).into_iter().chain(centroid).chain(likelihood).collect()
+}
+
 /// Everything else that is promised of a design.
-pub fn promises(design: &Design) -> Vec<Promise> {
+pub fn promises(design: &CountedDesign) -> Vec<Promise> {
     let (bins, neurons) = (design.estimator.bins as u64, design.estimator.neurons as u64);
     let pairs = neurons.div_ceil(2);
     let latency = bins + (3 + neurons).max(7 + pairs);

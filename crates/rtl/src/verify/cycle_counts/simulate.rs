@@ -5,13 +5,13 @@ use std::path::Path;
 use tofsim::error::{Input, Result};
 use tofsim::files::output::write_bytes;
 
-use crate::golden::blocks::{CENTROID, LIKELIHOOD};
 use crate::verify::process::{End, Limits};
 use crate::verify::rtl::Rtl;
 use crate::verify::simulator::Simulator;
 
-use super::design::{Design, with_defines};
+use super::design::{CountedDesign, with_defines};
 use super::measured::Measured;
+use super::promises::Promise;
 
 /// The bench of an estimator: the part of its own between the head and the tail that all have.
 macro_rules! of_estimator {
@@ -28,19 +28,22 @@ const BENCHES: [(&str, &str); 4] = [
     ("bench_likelihood", of_estimator!("bench_likelihood.v")),
 ];
 
-/// Runs the benches on `rtl`, which is to be such a design.
+/// Counts what is promised of `rtl`, which is to be such a design, in the benches that show it.
 ///
 /// # Errors
 /// When a tool is missing, the Verilog cannot be compiled with a bench, the simulation does not
 /// end, `folder` cannot be written, or the user stops.
-pub fn measure(rtl: &Rtl, design: &Design, folder: &Path, limits: &Limits) -> Result<Measured> {
+pub fn measure(
+    promises: &[Promise],
+    rtl: &Rtl,
+    design: &CountedDesign,
+    folder: &Path,
+    limits: &Limits,
+) -> Result<Measured> {
     let mut measured = Measured::default();
-    let is_there = |(name, _): &(&str, &str)| match *name {
-        "bench_centroid" => rtl.has(CENTROID),
-        "bench_likelihood" => rtl.has(LIKELIHOOD) && design.likelihood.is_some(),
-        _ => true,
-    };
-    for (name, text) in BENCHES.into_iter().filter(is_there) {
+    let is_needed =
+        |(name, _): &(&str, &str)| promises.iter().any(|it| it.properties.bench == *name);
+    for (name, text) in BENCHES.into_iter().filter(is_needed) {
         let bench = format!("{name}.v");
         write_bytes(&folder.join(&bench), with_defines(name, &design.defines(), text))?;
         let bench = [folder.join(bench)];

@@ -93,30 +93,38 @@ impl Listed {
                     let unknown = format!("{}: {word} {}", place(line), value()?);
                     self.unknown.push(unknown);
                 }
-                word => {
-                    if let Some(folders) = word.strip_prefix("+incdir+") {
-                        for name in folders.split('+').filter(|name| !name.is_empty()) {
-                            self.includes.push(folder(name)?);
-                        }
-                    } else if let Some(defines) = word.strip_prefix("+define+") {
-                        let defines = defines.split('+').filter(|define| !define.is_empty());
-                        self.defines.extend(defines.map(str::to_owned));
-                    } else if let Some(ends) = word.strip_prefix("+libext+") {
-                        let ends = ends.split('+').filter(|end| !end.is_empty());
-                        self.suffixes.extend(ends.map(str::to_owned));
-                    } else if let Some(name) = word.strip_prefix("-I") {
-                        self.includes.push(folder(name)?);
-                    } else if let Some(define) = word.strip_prefix("-D") {
-                        self.defines.push(define.to_owned());
-                    } else if word.starts_with(['-', '+']) {
+                word if word.starts_with(['-', '+']) => {
+                    if !self.joined(word, folder)? {
                         self.unknown.push(format!("{}: {word}", place(line)));
-                    } else {
-                        self.files.push(file(word)?);
                     }
                 }
+                word => self.files.push(file(word)?),
             }
         }
         Ok(())
+    }
+
+    /// Takes an option that has its values in the same word; returns whether it is one.
+    fn joined(&mut self, word: &str, folder: impl Fn(&str) -> Result<PathBuf>) -> Result<bool> {
+        let values = |list: &str| -> Vec<String> {
+            list.split('+').filter(|value| !value.is_empty()).map(str::to_owned).collect()
+        };
+        if let Some(folders) = word.strip_prefix("+incdir+") {
+            for name in values(folders) {
+                self.includes.push(folder(&name)?);
+            }
+        } else if let Some(defines) = word.strip_prefix("+define+") {
+            self.defines.extend(values(defines));
+        } else if let Some(ends) = word.strip_prefix("+libext+") {
+            self.suffixes.extend(values(ends));
+        } else if let Some(name) = word.strip_prefix("-I") {
+            self.includes.push(folder(name)?);
+        } else if let Some(define) = word.strip_prefix("-D") {
+            self.defines.push(define.to_owned());
+        } else {
+            return Ok(false);
+        }
+        Ok(true)
     }
 }
 

@@ -117,14 +117,14 @@ fn packages_first<'a>(tree: &Tree, files: &[&'a Source]) -> Result<Vec<&'a Sourc
         tree,
         files,
         named: &named,
-        state: vec![State::Open; files.len()],
+        state: vec![Visit::Open; files.len()],
         done: Vec::new(),
     };
     let is_common =
         |file: &Source| file.found && file.scan.modules.is_empty() && file.scan.packages.is_empty();
     let (common, others): (Vec<_>, Vec<_>) = (0..files.len()).partition(|k| is_common(files[*k]));
     for k in common.into_iter().chain(others) {
-        if order.state[k] == State::Open {
+        if order.state[k] == Visit::Open {
             order.visit(k)?;
         }
     }
@@ -132,7 +132,7 @@ fn packages_first<'a>(tree: &Tree, files: &[&'a Source]) -> Result<Vec<&'a Sourc
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum State {
+enum Visit {
     Open,
     Begun,
     Done,
@@ -142,13 +142,13 @@ struct Order<'a, 'b> {
     tree: &'b Tree<'b>,
     files: &'b [&'a Source],
     named: &'b [BTreeSet<String>],
-    state: Vec<State>,
+    state: Vec<Visit>,
     done: Vec<&'a Source>,
 }
 
 impl Order<'_, '_> {
     fn visit(&mut self, k: usize) -> Result<()> {
-        self.state[k] = State::Begun;
+        self.state[k] = Visit::Begun;
         let files = self.files;
         for other in (0..files.len()).filter(|other| *other != k) {
             let mut packages = files[other].scan.packages.iter();
@@ -156,9 +156,9 @@ impl Order<'_, '_> {
                 continue;
             };
             match self.state[other] {
-                State::Done => {}
-                State::Open => self.visit(other)?,
-                State::Begun => {
+                Visit::Done => {}
+                Visit::Open => self.visit(other)?,
+                Visit::Begun => {
                     let [one, two] = [k, other].map(|k| files[k].path.display().to_string());
                     let expected = format!(
                         "expected packages that do not need each other; {one} needs it, and {two}, which \
@@ -169,7 +169,7 @@ impl Order<'_, '_> {
                 }
             }
         }
-        self.state[k] = State::Done;
+        self.state[k] = Visit::Done;
         self.done.push(files[k]);
         Ok(())
     }

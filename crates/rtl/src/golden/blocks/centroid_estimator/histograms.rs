@@ -12,32 +12,7 @@ const COUNT: usize = 32;
 
 /// Connection of `count` in the bench: as from `histogram_preload`, there is a word while `read_en` is low
 /// too.
-pub(super) const GLUE: Glue = Glue {
-    drives: "count",
-    verilog: |sizes| {
-        let (bits, words) = (sizes.count_bits, COUNT * sizes.bins as usize);
-        format!(
-            "  reg [{0}:0] histograms [0:{1}];\n  \
-               initial $readmemh(\"histograms.mem\", histograms);\n  \
-               wire [{0}:0] count = histograms[{{histogram, read_addr}}];\n",
-            bits - 1,
-            words - 1
-        )
-    },
-    vhdl: |sizes| {
-        let (bits, words) = (sizes.count_bits, COUNT * sizes.bins as usize);
-        [
-            format!(
-                "constant histograms : words(0 to {}) := read_words(\"histograms.mem\", {words});",
-                words - 1
-            ),
-            format!(
-                "count <= std_logic_vector(to_unsigned(histograms(\n    \
-                 to_integer(unsigned(histogram) & unsigned(read_addr))), {bits}));"
-            ),
-        ]
-    },
-};
+pub(super) const GLUE: Glue = Glue { histograms: COUNT, gated: false };
 
 /// Description of [`cases`].
 pub(super) const CASES: &str =

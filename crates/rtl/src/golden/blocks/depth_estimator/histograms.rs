@@ -13,33 +13,7 @@ const COUNT: usize = 64;
 const MEASURED: usize = 5;
 
 /// Connection of `count` in the bench.
-pub(super) const GLUE: Glue = Glue {
-    drives: "count",
-    verilog: |sizes| {
-        let (bits, words) = (sizes.count_bits, COUNT * sizes.bins as usize);
-        format!(
-            "  reg [{0}:0] histograms [0:{1}];\n  \
-               initial $readmemh(\"histograms.mem\", histograms);\n  \
-               wire [{0}:0] count = read_en ? histograms[{{histogram, read_addr}}] : {bits}'d0;\n",
-            bits - 1,
-            words - 1
-        )
-    },
-    vhdl: |sizes| {
-        let (bits, words) = (sizes.count_bits, COUNT * sizes.bins as usize);
-        [
-            format!(
-                "constant histograms : words(0 to {}) := read_words(\"histograms.mem\", {words});",
-                words - 1
-            ),
-            format!(
-                "count <= std_logic_vector(to_unsigned(histograms(\n    \
-                 to_integer(unsigned(histogram) & unsigned(read_addr))), {bits})) when read_en = '1'\n    \
-                 else (others => '0');"
-            ),
-        ]
-    },
-};
+pub(super) const GLUE: Glue = Glue { histograms: COUNT, gated: true };
 
 /// Empty, level, random, all hits in the bin that drives each neuron to either end, more than there
 /// can be for sums of the whole width of eight neurons, and measured ones; how many of them are not
