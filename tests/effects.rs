@@ -170,8 +170,9 @@ fn a_second_opinion_is_right_or_there_is_none() {
         if !opinion.status.is_empty() {
             continue;
         }
-        let error_m = opinion.depth_m - setup.true_depth_m().unwrap();
-        if error_m.abs() > 5.0 * opinion.sigma_m {
+        let (depth_m, sigma_m) = (opinion.depth_m.unwrap(), opinion.sigma_m.unwrap());
+        let error_m = depth_m - setup.true_depth_m().unwrap();
+        if error_m.abs() > 5.0 * sigma_m {
             wrong.push(format!("{effect:?}: {error_m} m, {opinion:?}"));
         }
     }
