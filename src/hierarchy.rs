@@ -5,7 +5,7 @@
 //! id, found through the connections that the simulation uses.
 
 use crate::firmware::histogram_builder;
-use crate::firmware::tof_top::{Estimator, Params};
+use crate::firmware::tof_top::{FirmwareEstimator, Params};
 use crate::kernel::signals::{Signal, SignalFormat};
 use crate::kernel::sizes::Sizes;
 
@@ -55,7 +55,7 @@ fn fitted(entries: Vec<Entry>, sizes: &Sizes) -> Vec<Entry> {
 
 /// Lists every name in every scope of the largest possible design, in hierarchical order, without the RAM's words.
 pub fn every_entry() -> Vec<Entry> {
-    Build::entries(Estimator::default())
+    Build::entries(FirmwareEstimator::default())
 }
 
 /// Lists the words of the histogram RAM, from `histogram_builder.ram_0` to that of the last bin.

@@ -12,7 +12,7 @@
 //! | step cycle by cycle and read signals by name | [`Run::step_cycles`] |
 //! | go faster where nobody looks at signals | [`Run::stepping`], [`Stepping`], [`Run::many`], [`HistogramRun`] |
 //! | know how much light comes back | [`Budget`], `setup.budget` |
-//! | estimate a depth without a run | [`Setup::depth`], [`Network`] |
+//! | estimate a depth without a run | [`Setup::estimate`], [`Network`] |
 //! | know whether a frame's depth is to be believed | [`SecondOpinion`] |
 //!
 //! # A frame
@@ -116,6 +116,7 @@ pub mod sim;
 pub mod waves;
 
 pub use error::{Error, Input, Result};
+pub use firmware::tof_top::slot::DepthM;
 pub use kernel::time::Time;
 pub use network::file::Network;
 pub use network::histogram::Histogram;
@@ -125,10 +126,11 @@ pub use scenario::Scenario;
 pub use scenario::window::Window;
 pub use sim::callback::Callback;
 pub use sim::cycles::Cycle;
+pub use sim::estimates::Estimate;
 pub use sim::fast::histogram::Histograms as HistogramRun;
 pub use sim::frames::Frame;
 pub use sim::run::{Observers, Outcome, Run};
-pub use sim::second_opinion::{Opinion, SecondOpinion};
+pub use sim::second_opinion::SecondOpinion;
 pub use sim::setup::Setup;
 pub use sim::shot_recorder::Shot;
 pub use sim::stepping::Stepping;

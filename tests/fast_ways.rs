@@ -57,7 +57,7 @@ fn assert_same(found: &Device, expected: &Device, what: &str) {
     assert_eq!(found.top.histogram_builder, expected.top.histogram_builder, "{what}");
     assert_eq!(found.top.centroid_estimator, expected.top.centroid_estimator, "{what}");
     assert!(found.top.likelihood_estimator == expected.top.likelihood_estimator, "{what}");
-    assert_eq!(found.top.socket, expected.top.socket, "{what}");
+    assert_eq!(found.top.slot, expected.top.slot, "{what}");
 }
 
 /// Whether a path is that of a module that only watches, or of a signal of one.

@@ -16,4 +16,5 @@ mod scene;
 mod spad;
 mod spad_row;
 mod stepping;
+mod typed_datapath;
 mod whole_chain;

@@ -35,7 +35,7 @@ fn what_is_read_cycle_by_cycle_is_what_the_frame_has() {
     assert_eq!(outcome.cycles, cycles);
     assert_eq!(frame.histogram, histogram);
     assert!(frame.hits() > 50);
-    assert_eq!(depth, Some(frame.depth.get()));
+    assert_eq!(depth, Some(frame.depth().to_bits()));
 }
 
 #[test]

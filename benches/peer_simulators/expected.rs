@@ -49,7 +49,7 @@ impl Expected {
             return Err("tofsim gave another number of shots than the frame has".into());
         }
         fs::write(photons, &list)?;
-        let (depth, shots) = (frame.depth.bits(), frame.shots);
+        let (depth, shots) = (frame.words.depth.bits(), frame.shots);
         Ok(Expected { depth, shots, period: frame.frame_cycles + 1 })
     }
 

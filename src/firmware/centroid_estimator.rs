@@ -1,6 +1,6 @@
 //! Argmax with centroid correction: the depth estimator that a network is measured against.
 //!
-//! Mirrors `rtl_ref/centroid_estimator.v`; its ports are those of [`super::depth_estimator`]. A window
+//! Mirrors `rtl_ref/centroid_estimator.v`; its ports are those of the estimator slot. A window
 //! of 2 W + 1 words slides over the histogram. Where its centre stands highest above the background
 //! (the first such place), the centroid of the window is taken, in 1/4096 of a bin, and
 //! depth = slope (centroid + 1/2) + offset: bin i is centred at i + 1/2. Edge e0 takes `algo_start`:
@@ -28,11 +28,13 @@ use crate::signals;
 
 use super::forward2::Depth;
 use super::histogram_builder::{Bin, Count};
+use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
 
 mod params;
 
 pub use params::{
-    MOST_HALF_WIDTH, Offset, POSITION_FRACTION, Params, SLOPE_FRACTION, Slope, position_bits,
+    MOST_HALF_WIDTH, Offset, POSITION_FRACTION, Params, Position, SLOPE_FRACTION, Slope,
+    position_bits,
 };
 use params::{QUOTIENT_BITS, SUMS};
 
@@ -162,9 +164,17 @@ impl Module for CentroidEstimator {
     }
 }
 
-impl CentroidEstimator {
-    /// The rising edge of `clk_sys`.
-    pub fn rise(&mut self, i: &In, p: &Params) {
+impl From<SlotIn> for In {
+    fn from(SlotIn { rst, algo_start, count, .. }: SlotIn) -> Self {
+        In { rst, algo_start, count }
+    }
+}
+
+impl SlotEstimator for CentroidEstimator {
+    type In = In;
+    type Params = Params;
+
+    fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;
         self.registers = if i.rst { Registers::default() } else { self.next(i, p) };
         if q.busy && q.step.get() < p.divide() {
@@ -172,6 +182,28 @@ impl CentroidEstimator {
         }
     }
 
+    #[inline(always)]
+    fn outputs(&self) -> SlotOut {
+        let Registers { read_en, read_addr, depth, algo_done, .. } = self.registers;
+        SlotOut { read_en, read_addr, words: EstimateWords::of_depth(depth), algo_done }
+    }
+
+    fn cycles(p: &Params) -> u64 {
+        p.done()
+    }
+
+    fn phase(&self, p: &Params) -> Option<u64> {
+        self.registers.phase(p)
+    }
+
+    fn rests(&self, i: &In, p: &Params) -> bool {
+        let mut next = *self;
+        next.rise(i, p);
+        next == *self
+    }
+}
+
+impl CentroidEstimator {
     fn next(&self, i: &In, p: &Params) -> Registers {
         let (q, mut d) = (&self.registers, self.registers);
         d.algo_done = false;

@@ -1,7 +1,7 @@
 //! The neural depth estimator: wires its four blocks (thesis Fig. 6.18).
 //!
-//! Mirrors `rtl_ref/depth_estimator.v`. Its ports are a socket (`algo_start count`, `read_en
-//! read_addr depth algo_done`) into which any other estimator fits. How many bins and hidden neurons it has are
+//! Mirrors `rtl_ref/depth_estimator.v`. Its ports are those of the estimator slot (`algo_start count`, `read_en
+//! read_addr depth algo_done`). How many bins and hidden neurons it has are
 //! parameters: from eight neurons on, three cycles and one for each bin and each neuron, so 267 for the
 //! thesis's 256 and eight, 2.136 us (see [`estimator_ctrl`]).
 
@@ -17,6 +17,7 @@ use super::forward1::{self, Forward1};
 use super::forward2::{self, Forward2};
 use super::histogram_builder::Count;
 use super::tansig::{self, Tansig};
+use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
 
 signals! {
     /// Input ports.
@@ -99,16 +100,19 @@ impl Params {
     pub fn ctrl(&self) -> estimator_ctrl::Params {
         estimator_ctrl::Params { bins: self.forward1.w1.len(), neurons: self.neurons() }
     }
+}
 
-    /// From the edge that takes a start to the depth [cycles of clk_sys].
-    pub fn cycles(&self) -> u64 {
-        self.ctrl().done()
+impl From<SlotIn> for In {
+    fn from(SlotIn { rst, algo_start, count, .. }: SlotIn) -> Self {
+        In { rst, algo_start, count }
     }
 }
 
-impl DepthEstimator {
-    /// The rising edge of `clk_sys`.
-    pub fn rise(&mut self, i: &In, p: &Params) {
+impl SlotEstimator for DepthEstimator {
+    type In = In;
+    type Params = Params;
+
+    fn rise(&mut self, i: &In, p: &Params) {
         let (estimator_ctrl, forward1) = (Wires::estimator_ctrl(self, i), Wires::forward1(self, i));
         let (tansig, forward2) = (Wires::tansig(self, i), Wires::forward2(self, i));
 
@@ -118,8 +122,22 @@ impl DepthEstimator {
         self.forward2.tick(&forward2, &p.forward2);
     }
 
-    /// Returns whether no edge changes anything until an input does.
-    pub fn rests(&self, i: &In, p: &Params) -> bool {
+    #[inline(always)]
+    fn outputs(&self) -> SlotOut {
+        let EstimatorCtrl { read_en, read_addr, algo_done, .. } = self.estimator_ctrl;
+        let words = EstimateWords::of_depth(self.forward2.depth);
+        SlotOut { read_en, read_addr, words, algo_done }
+    }
+
+    fn cycles(p: &Params) -> u64 {
+        p.ctrl().done()
+    }
+
+    fn phase(&self, p: &Params) -> Option<u64> {
+        self.estimator_ctrl.phase(&p.ctrl())
+    }
+
+    fn rests(&self, i: &In, p: &Params) -> bool {
         fn rests<C: Clocked>(block: &C, i: &C::In, p: &C::Params) -> bool {
             block.next(i, p) == *block
         }

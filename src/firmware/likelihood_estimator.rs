@@ -34,9 +34,11 @@ use super::likelihood_solver::program::{
 use super::likelihood_solver::{self, LikelihoodSolver};
 use super::likelihood_sums::{self, LikelihoodSums};
 use super::likelihood_terms::{self, LikelihoodTerms};
+use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
+use super::tof_top::status::{Status, StatusSet};
 
 use params::Params;
-use words::{ANOTHER_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE, status};
+use words::{ANOTHER_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE};
 
 states! {
     /// States of the estimator.
@@ -87,7 +89,7 @@ signals! {
         /// Its standard deviation, with as many fraction bits.
         #[view(heading = "Estimator", probe = true)]
         pub sigma: U<36>,
-        /// Why not to believe it; see [`status`].
+        /// Why not to believe it; see [`Status`].
         #[view(heading = "Estimator", probe = true)]
         pub status: U<7>,
         /// Chi-square of the fit, 8 fraction bits.
@@ -274,9 +276,18 @@ impl Params {
     }
 }
 
-impl LikelihoodEstimator {
-    /// The rising edge of `clk_sys`.
-    pub fn rise(&mut self, i: &In, p: &Params) {
+impl From<SlotIn> for In {
+    fn from(SlotIn { rst, algo_start, mode, count }: SlotIn) -> Self {
+        In { rst, algo_start, mode, count }
+    }
+}
+
+impl SlotEstimator for LikelihoodEstimator {
+    type In = In;
+    type Params = Params;
+    const STATES_SIGMA: bool = true;
+
+    fn rise(&mut self, i: &In, p: &Params) {
         let (memory, terms) = (Wires::likelihood_memory(self, i), Wires::likelihood_terms(self, i));
         let (sums, scan) = (Wires::likelihood_sums(self, i), Wires::likelihood_scan(self, i));
         let solver = Wires::likelihood_solver(self, i);
@@ -290,13 +301,25 @@ impl LikelihoodEstimator {
         self.registers = registers;
     }
 
-    /// What it does.
-    pub fn state(&self) -> State {
-        self.registers.state
+    #[inline(always)]
+    fn outputs(&self) -> SlotOut {
+        let memory = &self.likelihood_memory.registers;
+        let (read_en, read_addr) = (memory.read_en, memory.read_addr);
+        let Registers { depth, sigma, status, valid, algo_done, .. } = self.registers;
+        let words = EstimateWords { depth, sigma, status, valid };
+        SlotOut { read_en, read_addr, words, algo_done }
     }
 
-    /// Whether no edge changes anything until an input does.
-    pub fn rests(&self, i: &In, p: &Params) -> bool {
+    fn cycles(p: &Params) -> u64 {
+        p.done()
+    }
+
+    fn phase(&self, _: &Params) -> Option<u64> {
+        let working = self.registers.state != State::Idle || self.registers.algo_done;
+        working.then_some(if self.registers.load { 0 } else { 1 })
+    }
+
+    fn rests(&self, i: &In, p: &Params) -> bool {
         self.registers.state == State::Idle
             && self.next(i, p) == self.registers
             && self.likelihood_solver.rests(&Wires::likelihood_solver(self, i), p)
@@ -307,11 +330,12 @@ impl LikelihoodEstimator {
             && self.likelihood_sums.next(&Wires::likelihood_sums(self, i), p)
                 == self.likelihood_sums
     }
+}
 
-    /// Cycles since the edge that took `algo_start`, as far as there has been none to do anything.
-    pub fn begun(&self) -> Option<u64> {
-        let working = self.registers.state != State::Idle || self.registers.algo_done;
-        working.then_some(if self.registers.load { 0 } else { 1 })
+impl LikelihoodEstimator {
+    /// What it does.
+    pub fn state(&self) -> State {
+        self.registers.state
     }
 
     fn next(&self, i: &In, p: &Params) -> Registers {
@@ -382,16 +406,15 @@ impl LikelihoodEstimator {
         let unsure = flag(1) && d.start_score.get() < SURE_SCORE;
         let no_echo = unsure || flag(0) || flag(2) || d.start_score.get() < LEAST_SCORE;
         let reasons = [
-            (no_echo, status::NO_ECHO),
-            (flag(3) || flag(4), status::CUT_OFF),
-            (d.used_up, status::USED_UP),
-            (self.likelihood_scan.registers.best_score.get() > ANOTHER_SCORE, status::ANOTHER),
-            (solver.cut != 0 || flag(5) || flag(6), status::NOT_SETTLED),
-            (self.likelihood_sums.far, status::NO_FIT),
-            (d.unarmed, status::UNARMED),
+            (no_echo, Status::NoEcho),
+            (flag(3) || flag(4), Status::CutOff),
+            (d.used_up, Status::UsedUp),
+            (self.likelihood_scan.registers.best_score.get() > ANOTHER_SCORE, Status::Another),
+            (solver.cut != 0 || flag(5) || flag(6), Status::NotSettled),
+            (self.likelihood_sums.far, Status::NoFit),
+            (d.unarmed, Status::Unarmed),
         ];
-        let status = reasons.iter().filter(|(holds, _)| *holds);
-        d.status = U::new(status.map(|(_, bit)| u64::from(*bit)).sum());
+        d.status = U::new(StatusSet::of(&reasons).bits().into());
         d.valid = d.status == 0;
         // An arrival counts from the laser edge, a depth from where the light leaves.
         (d.depth, d.sigma) = (Depth::new(solver.depth.get() - p.delay), solver.sigma);

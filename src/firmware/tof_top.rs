@@ -23,11 +23,16 @@ use super::tdc_calibration::{self, TdcCalibration};
 use super::vcsel_driver::{self, VcselDriver};
 use super::{lvds_output, pll};
 
+mod estimators;
 mod ports;
 mod sizes;
-mod socket;
+pub mod slot;
+pub mod slotted;
+pub mod status;
 
-pub use ports::{Clocks, CodeSource, Estimator, HistogramSource, Nets, Params, Pins, Socket};
+pub use estimators::FirmwareEstimator;
+pub use ports::{Clocks, CodeSource, HistogramSource, Nets, Params, Pins};
+use slot::SlotOut;
 
 /// The state of the firmware.
 #[derive(Clone, Debug, Default)]
@@ -64,14 +69,14 @@ pub struct TofTop {
     pub histogram_builder: HistogramBuilder,
     /// Its stand-in.
     pub histogram_preload: HistogramPreload,
-    /// Estimator.
+    /// Neural estimator.
     pub depth_estimator: DepthEstimator,
-    /// Its stand-in.
+    /// Centroid estimator.
     pub centroid_estimator: CentroidEstimator,
-    /// Another.
+    /// Likelihood estimator.
     pub likelihood_estimator: LikelihoodEstimator,
-    /// What the one in use gives.
-    pub socket: Socket,
+    /// Outputs of the estimator in use.
+    pub slot: SlotOut,
 }
 
 connect! {
@@ -91,20 +96,20 @@ connect! {
         wire algo_start <- this.frame_ctrl.algo_start;
         wire pre_start <- this.vcsel_driver.registers.pre_start;
         wire start <- this.vcsel_driver.registers.start;
-        wire read_en <- this.socket.read_en;
-        wire read_addr <- this.socket.read_addr;
+        wire read_en <- this.slot.read_en;
+        wire read_addr <- this.slot.read_addr;
         output laser_on_lvds_p <- this.lvds_output.o;
         output laser_on_lvds_n <- this.lvds_output.ob;
         output ring_on <- this.tdc_calibration.registers.ring_on;
         output spad_rst <- this.spad_control.spad_rst;
         output spad_sel <- this.spad_control.spad_sel;
-        output depth <- this.socket.depth;
-        output sigma <- this.likelihood_estimator.registers.sigma;
-        output status <- this.likelihood_estimator.registers.status;
-        output valid <- this.likelihood_estimator.registers.valid;
-        output algo_done <- this.socket.algo_done;
-        output hist_valid <- this.socket.read_en;
-        output hist_bin <- this.socket.read_addr;
+        output depth <- this.slot.words.depth;
+        output sigma <- this.slot.words.sigma;
+        output status <- this.slot.words.status;
+        output valid <- this.slot.words.valid;
+        output algo_done <- this.slot.algo_done;
+        output hist_valid <- this.slot.read_en;
+        output hist_bin <- this.slot.read_addr;
         output hist_count <- this.nets.count;
         output frame_done <- this.frame_ctrl.frame_done;
         output locked <- this.pll.locked;
@@ -130,7 +135,7 @@ connect! {
         start <- this.vcsel_driver.registers.start;
         dsp_rst <- this.control_sync.dsp_rst_sync;
         dsp_en <- this.control_sync.dsp_en_sync;
-        algo_done <- this.socket.algo_done;
+        algo_done <- this.slot.algo_done;
         calibrating <- this.tdc_calibration.registers.calibrating;
     }
     vcsel_driver(clk_sys, clk_laser): vcsel_driver::In {
@@ -171,11 +176,11 @@ connect! {
         clear_addr <- this.frame_ctrl.clear_addr;
         tdc_valid <- this.nets.tdc_valid;
         tdc_code <- this.nets.tdc_code;
-        read_en <- this.socket.read_en;
-        read_addr <- this.socket.read_addr;
+        read_en <- this.slot.read_en;
+        read_addr <- this.slot.read_addr;
     } -> { count: this.nets.count, }
     histogram_preload(): histogram_preload::In {
-        read_addr <- this.socket.read_addr;
+        read_addr <- this.slot.read_addr;
     } -> { count: this.nets.count, }
     depth_estimator(clk_sys): depth_estimator::In {
         rst <- this.nets.rst_dsp;
@@ -220,8 +225,7 @@ impl TofTop {
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let tdc_calibration = Wires::tdc_calibration(self);
         let histogram_builder = Wires::histogram_builder(self);
-        let (network, centroid) = (Wires::depth_estimator(self), Wires::centroid_estimator(self));
-        let likelihood = Wires::likelihood_estimator(self);
+        let estimator = self.slot_inputs();
 
         (self.reset_sync_sys, self.reset_sync_laser) = (reset_sync_sys, reset_sync_laser);
         (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
@@ -232,7 +236,7 @@ impl TofTop {
             self.tdc_calibration.tick(&tdc_calibration, p);
         }
         self.histogram_builder.tick(&histogram_builder, &p.histogram);
-        self.estimate(p, &network, &centroid, &likelihood);
+        self.estimate(p, &estimator);
         self.settle(p);
     }
 

@@ -1,7 +1,7 @@
 //! Construction of the list of all names in all scopes, by traversing the firmware.
 
 use crate::firmware::TofTop;
-use crate::firmware::tof_top::Estimator;
+use crate::firmware::tof_top::FirmwareEstimator;
 use crate::kernel::module::{Alias, Instance, Module, Visitor};
 use crate::kernel::signals::{Signal, Signals, View};
 
@@ -37,7 +37,7 @@ struct Shown {
 
 impl Build {
     /// Lists every name in every scope, in the order of the modules, with the given estimator in the estimator slot.
-    pub(super) fn entries(estimator: Estimator) -> Vec<Entry> {
+    pub(super) fn entries(estimator: FirmwareEstimator) -> Vec<Entry> {
         let mut build = Build { scopes: vec![String::new()], ..Build::default() };
         TofTop::default().visit(None, &mut build);
         let aliases = build.aliases.iter().flat_map(|alias| build.shown(alias, estimator));
@@ -68,22 +68,31 @@ impl Build {
         }
     }
 
-    /// Returns the field that drives an output of the estimator slot; other signals are returned unchanged.
-    fn in_socket(&self, estimator: Estimator, holder: &str) -> String {
-        let Some(port) = holder.strip_prefix("socket.") else { return holder.to_owned() };
-        let scope = self.place(estimator.module());
+    /// Returns the field that drives an output of the estimator slot; other signals are returned unchanged. A port that
+    /// the estimator does not have is driven by an estimator that has it and never runs: zero, as in the Verilog.
+    fn in_slot(&self, estimator: FirmwareEstimator, holder: &str) -> String {
+        let Some(port) = holder.strip_prefix("slot.") else { return holder.to_owned() };
+        let port = port.rsplit('.').next().unwrap_or_default();
+        let others = FirmwareEstimator::ALL.iter().copied();
+        let mut all = [estimator].into_iter().chain(others);
+        all.find_map(|one| self.output(one.module(), port)).unwrap_or_default()
+    }
+
+    /// Returns the field that drives an output port of a module, if the module has that port.
+    fn output(&self, module: &str, port: &str) -> Option<String> {
+        let scope = self.place(module);
         let is_port =
             |alias: &&Shown| (alias.scope, alias.name, alias.kind) == (scope, port, Kind::Output);
         if let Some(alias) = self.aliases.iter().find(is_port) {
-            return alias.holder.clone();
+            return Some(alias.holder.clone());
         }
         let own = self.held.iter().find(|(at, entry)| (*at, &*entry.signal.name) == (scope, port));
-        own.map(|(_, entry)| self.fields[entry.id].clone()).unwrap_or_default()
+        own.map(|(_, entry)| self.fields[entry.id].clone())
     }
 
     /// Lists the entries of an alias: one, or one per element of an array (`name_0`, `name_1`, ...).
-    fn shown(&self, alias: &Shown, estimator: Estimator) -> Vec<(usize, Entry)> {
-        let holder = self.in_socket(estimator, &alias.holder);
+    fn shown(&self, alias: &Shown, estimator: FirmwareEstimator) -> Vec<(usize, Entry)> {
+        let holder = self.in_slot(estimator, &alias.holder);
         let element = format!("{holder}_");
         let name = |field: &String| match field.strip_prefix(&element) {
             _ if *field == holder => Some(alias.name.to_owned()),
@@ -204,5 +213,20 @@ mod tests {
             assert!(paths.binary_search(path).is_ok(), "{path}");
         }
         assert!(ports.1.len() > 150 && paths.is_sorted_by(|a, b| a < b));
+    }
+
+    #[test]
+    fn the_top_shows_the_outputs_of_the_estimator_in_the_slot() {
+        for &estimator in FirmwareEstimator::ALL {
+            let entries = Build::entries(estimator);
+            let id = |path: &str| entries.iter().find(|e| e.path() == path).map(|e| e.id);
+            for port in ["read_en", "read_addr", "depth", "sigma", "status", "valid", "algo_done"] {
+                let own = id(&format!("tof_top.{}.{port}", estimator.module()));
+                let unused = id(&format!("tof_top.likelihood_estimator.{port}"));
+                let own = if estimator.states_sigma() { own } else { own.or(unused) };
+                assert_eq!(id(&format!("tof_top.{port}")), own, "{estimator:?} {port}");
+                assert!(own.is_some(), "{estimator:?} {port}");
+            }
+        }
     }
 }

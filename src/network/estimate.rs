@@ -46,6 +46,7 @@ mod tests {
     use crate::firmware::depth_estimator::datapath::Datapath;
     use crate::firmware::depth_estimator::{DepthEstimator, In};
     use crate::firmware::histogram_builder;
+    use crate::firmware::tof_top::slot::SlotEstimator;
     use crate::kernel::{S, U, WordFormat};
     use crate::network::{Network, Weights, roms};
     use proptest::prelude::*;

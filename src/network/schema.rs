@@ -182,7 +182,7 @@ impl Arrays<i32> {
 
 /// Returns the index of the first integer that does not fit the format.
 fn outside(format: WordFormat, words: &[i32]) -> Option<usize> {
-    words.iter().position(|&word| !(format.min()..=format.max()).contains(&word.into()))
+    words.iter().position(|&word| !(format.min()..=format.max()).contains(&i64::from(word)))
 }
 
 impl Formats {

@@ -48,7 +48,7 @@ mod tdc;
 mod training;
 
 pub use crate::firmware::tdc_decoder::Decoder;
-pub use board::{Control, Estimator, EstimatorKind, Firmware, Part, Pll, QuenchMode};
+pub use board::{Control, Estimator, Firmware, Part, Pll, QuenchMode};
 pub use optics::{Ambient, AmbientModel, DeadTimeKind, Filter, Laser, Lens, Spad};
 pub use scene::{Atmosphere, Shape, Target, VisibilityModel};
 pub use tdc::{Tdc, TdcCalibration};

@@ -141,7 +141,7 @@ impl Device {
         let lit = self.top.nets.laser_on;
         let taps = self.sample_taps(p, now);
         self.top.rise(p, taps);
-        if self.top.socket.algo_done {
+        if self.top.slot.algo_done {
             self.timeline.take_depth(self.pll.clk_sys.rise(self.cycle));
         }
         self.react(now, self.top.nets.laser_on && !lit);

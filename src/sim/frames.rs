@@ -1,8 +1,10 @@
 //! Follows the firmware's frames: when they begin and end, and what they gave.
 
-use crate::firmware::forward2::Depth;
-use crate::firmware::tof_top::{HistogramSource, Params, TofTop};
+use crate::firmware::tof_top::slot::{DepthM, EstimateWords};
+use crate::firmware::tof_top::{FirmwareEstimator, HistogramSource, Params, TofTop};
 use crate::network::Histogram;
+
+use super::estimates::Estimate;
 
 /// One finished frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,8 +13,10 @@ pub struct Frame {
     pub index: u64,
     /// Whether the laser could fire, as the frame ended.
     pub laser_en: bool,
-    /// The estimator's word.
-    pub depth: Depth,
+    /// The estimator of the firmware.
+    pub estimator: FirmwareEstimator,
+    /// The estimator's words.
+    pub words: EstimateWords,
     /// Shots counted.
     pub shots: u64,
     /// Hits that the TDC kept, with a code or without.
@@ -26,9 +30,19 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Depth word [m].
+    pub fn depth(&self) -> DepthM {
+        self.words.depth_m()
+    }
+
     /// Estimated distance [m].
     pub fn depth_m(&self) -> f64 {
-        self.depth.to_f64()
+        self.depth().to_num()
+    }
+
+    /// Returns the estimate: depth, sigma, status.
+    pub fn estimate(&self) -> Estimate {
+        Estimate::of_words(self.estimator, &self.words)
     }
 
     /// Hits in the histogram.
@@ -65,7 +79,7 @@ impl Frames {
         let ctrl = &top.frame_ctrl;
         self.count_shot(top);
         self.count_hit(top);
-        if ctrl.clear || ctrl.algo_start || top.socket.algo_done {
+        if ctrl.clear || ctrl.algo_start || top.slot.algo_done {
             return self.turn(cycle, top, p);
         }
         None
@@ -92,7 +106,7 @@ impl Frames {
         if ctrl.algo_start {
             self.start_at = cycle + 1;
         }
-        if !top.socket.algo_done {
+        if !top.slot.algo_done {
             return None;
         }
         let histogram = match &p.histogram_source {
@@ -103,7 +117,8 @@ impl Frames {
         Some(Frame {
             index: self.done - 1,
             laser_en: top.control_sync.laser_en_sync,
-            depth: top.socket.depth,
+            estimator: p.estimator,
+            words: top.slot.words,
             shots: ctrl.shots(),
             tdc_hits: self.tdc_hits,
             histogram: histogram.iter().map(|word| word.get() as u32).collect(),

@@ -2,8 +2,9 @@
 
 use crate::note::{Note, NoteCode};
 
+use super::estimates::Estimate;
 use super::frames::Frame;
-use super::second_opinion::{ESTIMATOR, Opinion, SecondOpinion};
+use super::second_opinion::{ESTIMATOR, SecondOpinion};
 
 /// What has been seen of some frames.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,17 +36,17 @@ impl Parting {
 
 impl Partings {
     /// Takes the next frame, and what `second` said of it.
-    pub fn add(&mut self, second: &SecondOpinion, frame: &Frame, opinion: &Opinion) {
+    pub fn add(&mut self, second: &SecondOpinion, frame: &Frame, opinion: &Estimate) {
         self.frames += 1;
-        if !opinion.status.is_empty() {
+        let Some(other_m) = opinion.depth_m.filter(|_| opinion.valid) else {
             self.unbelieved += 1;
-            self.first_unbelieved.get_or_insert_with(|| (frame.index, opinion.status.join(", ")));
+            self.first_unbelieved.get_or_insert_with(|| (frame.index, opinion.status.to_string()));
             return;
-        }
+        };
         let parting = Parting {
             frame: frame.index,
             own_m: frame.depth_m(),
-            other_m: opinion.depth_m,
+            other_m,
             allowed_m: second.allowed_m(opinion),
         };
         if parting.apart_m() <= parting.allowed_m {
@@ -93,11 +94,12 @@ impl Partings {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::firmware::tof_top::status::Status;
     use crate::sim::setup::Setup;
     use crate::sim::{Run, Stepping};
 
     /// Opinions on so many frames, and the notes on all of them.
-    fn seen(count: u64, set: &[&str]) -> (Vec<Option<Opinion>>, Vec<Note>) {
+    fn seen(count: u64, set: &[&str]) -> (Vec<Option<Estimate>>, Vec<Note>) {
         let setup = Setup::load("kc705", set).unwrap();
         let second = SecondOpinion::new(&setup).unwrap();
         let frames = Run::new(&setup).stepping(Stepping::LeapShots).frames(count).unwrap();
@@ -119,15 +121,16 @@ mod tests {
         assert!(notes.is_empty(), "{}", text(&notes));
         for opinion in opinions {
             let opinion = opinion.unwrap();
-            assert!((opinion.depth_m - 0.5).abs() < 6.0 * opinion.sigma_m, "{opinion:?}");
-            assert!((1e-4..1e-3).contains(&opinion.sigma_m) && opinion.status.is_empty());
+            let (depth_m, sigma_m) = (opinion.depth_m.unwrap(), opinion.sigma_m.unwrap());
+            assert!((depth_m - 0.5).abs() < 6.0 * sigma_m, "{opinion:?}");
+            assert!((1e-4..1e-3).contains(&sigma_m) && opinion.valid && opinion.status.is_empty());
         }
     }
 
     #[test]
     fn a_network_out_of_its_depth_is_seen_to_be() {
         let (opinions, notes) = seen(1, &["target.distance_m=0.8"]);
-        assert!((opinions[0].as_ref().unwrap().depth_m - 0.8).abs() < 0.01);
+        assert!((opinions[0].as_ref().unwrap().depth_m.unwrap() - 0.8).abs() < 0.01);
         let said = text(&notes);
         assert!(said.starts_with("note: estimator.kind = network: it says "), "{said}");
         assert!(said.contains(" m of frame 0 and likelihood_estimator 0."), "{said}");
@@ -143,7 +146,8 @@ mod tests {
     #[test]
     fn what_the_estimator_does_not_believe_parts_from_nothing() {
         let (opinions, notes) = seen(2, &["firmware.laser_en=false"]);
-        assert!(opinions[1].as_ref().unwrap().status.contains(&"no echo"));
+        let opinion = opinions[1].as_ref().unwrap();
+        assert!(opinion.status.contains(Status::NoEcho) && !opinion.valid);
         let said = text(&notes);
         let expected =
             "likelihood_estimator believes no depth of 2 of 2 frames (first frame 0): no echo";

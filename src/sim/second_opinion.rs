@@ -1,18 +1,16 @@
 //! Second opinion: another estimator's depth from the same histogram, by which a wrong depth is detected without
 //! knowing the truth.
 
-use serde::Serialize;
-
 use crate::error::Input;
 use crate::firmware::likelihood_estimator::params::Params;
-use crate::firmware::likelihood_estimator::words::status;
-use crate::firmware::tof_top::Estimator;
+use crate::firmware::tof_top::FirmwareEstimator;
 use crate::network::file::Accuracy;
 use crate::note::{Note, NoteCode, NoteValue};
 use crate::optics::budget::LIGHT_M_S;
 use crate::scenario::effects::Method;
 use crate::sensor::light::Light;
 
+use super::estimates::Estimate;
 use super::estimates::likelihood::estimate;
 use super::frames::Frame;
 use super::setup::Setup;
@@ -43,23 +41,6 @@ struct Socket {
     bin_m: f64,
 }
 
-/// What it says of a frame.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Opinion {
-    /// Its name on the command line.
-    pub estimator: &'static str,
-    /// Distance of the target [m].
-    pub depth_m: f64,
-    /// The depth word's 36 bits in hexadecimal.
-    pub depth_raw: String,
-    /// Standard deviation of the depth [m].
-    pub sigma_m: f64,
-    /// Why the depth is not to be believed; nothing if it is.
-    pub status: Vec<&'static str>,
-    /// Sum of squared residuals over their variances, about one a bin of the fit [1].
-    pub chi_square: f64,
-}
-
 impl SecondOpinion {
     /// For the frames of `setup`.
     ///
@@ -74,30 +55,22 @@ impl SecondOpinion {
             return Err(none(found.key, found.value, &expected));
         }
         let params = setup.likelihood(setup.shots(1)).map_err(|fault| refused(&fault))?;
-        let (name, accuracy) = match setup.params.estimator {
-            Estimator::Network => ("network", setup.network.accuracy.clone()),
-            Estimator::Centroid => ("centroid", None),
-            Estimator::Likelihood => ("likelihood", None),
-        };
+        let estimator = setup.params.estimator;
+        let is_network = estimator == FirmwareEstimator::Network;
+        let accuracy = setup.network.accuracy.clone().filter(|_| is_network);
         let bin_m = setup.scenario.tdc.bin_ps * 1e-12 * LIGHT_M_S / 2.0;
-        let socket = Socket { name, accuracy, bin_m };
+        let socket = Socket { name: estimator.name(), accuracy, bin_m };
         Ok(SecondOpinion { params, has_pairs: setup.has_pairs(), socket })
     }
 
-    /// What it says of a frame; nothing of the dark one of a pair.
-    pub fn of(&self, frame: &Frame) -> Option<Opinion> {
+    /// The estimate for a frame; none for the dark one of a pair.
+    pub fn of(&self, frame: &Frame) -> Option<Estimate> {
         if self.has_pairs && !frame.laser_en {
             return None;
         }
         let found = estimate(&self.params, &frame.histogram);
-        Some(Opinion {
-            estimator: ESTIMATOR,
-            depth_m: found.depth.to_f64(),
-            depth_raw: format!("{:09x}", found.depth.bits()),
-            sigma_m: found.sigma_m(),
-            status: status::words(found.status),
-            chi_square: found.chi_square(),
-        })
+        let words = Estimate::of_words(FirmwareEstimator::Likelihood, &found.words());
+        Some(Estimate { chi_square: Some(found.chi_square()), ..words })
     }
 
     /// Name of the estimator in the firmware's socket.
@@ -105,10 +78,12 @@ impl SecondOpinion {
         self.socket.name
     }
 
-    /// How far the depth of the socket may be from that of an opinion: six standard deviations of their
+    /// How far the depth of the socket may be from that of a second opinion: six standard deviations of their
     /// difference [m].
-    pub fn allowed_m(&self, opinion: &Opinion) -> f64 {
-        MOST_DEVIATIONS * opinion.sigma_m.hypot(self.socket.deviation_m(opinion.depth_m))
+    pub fn allowed_m(&self, opinion: &Estimate) -> f64 {
+        let (depth_m, sigma_m) =
+            (opinion.depth_m.unwrap_or(f64::NAN), opinion.sigma_m.unwrap_or(0.0));
+        MOST_DEVIATIONS * sigma_m.hypot(self.socket.deviation_m(depth_m))
     }
 }
 

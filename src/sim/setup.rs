@@ -17,13 +17,14 @@ use std::sync::Arc;
 
 use crate::error::{Input, Result};
 use crate::firmware::carry_chain::Delays;
-use crate::firmware::forward2::Depth;
 use crate::firmware::pll::Pll;
 use crate::firmware::tdc;
-use crate::firmware::tof_top::{Estimator, Params, Pins};
+use crate::firmware::tof_top::slot::EstimateWords;
+use crate::firmware::tof_top::slotted::Slotted;
+use crate::firmware::tof_top::{Params, Pins};
+use crate::in_slot;
 use crate::kernel::Time;
 use crate::network::Network;
-use crate::network::estimate::estimate;
 use crate::note::Note;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Bins, Budget};
@@ -34,8 +35,7 @@ use crate::sensor::light::Light;
 
 use super::device::Device;
 use super::disturbance::Disturbance;
-use super::estimates::centroid::locate;
-use super::estimates::likelihood;
+use super::estimates::{Clockless, Estimate};
 use super::jitter::Jitter;
 use super::timeline::Timeline;
 
@@ -101,13 +101,7 @@ impl Setup {
     /// When one of the files cannot be read or used, or the estimator is a network for another histogram.
     pub fn new(loaded: Loaded) -> Result<Self> {
         let setup = Setup::of_counts(loaded)?;
-        match setup.params.estimator {
-            Estimator::Network => setup.check_network()?,
-            Estimator::Centroid => {}
-            Estimator::Likelihood => {
-                setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into())?;
-            }
-        }
+        setup.check_estimator()?;
         Ok(setup)
     }
 
@@ -190,13 +184,14 @@ impl Setup {
         self.calibrated.as_ref().unwrap_or(&self.params.tdc.delays)
     }
 
-    /// The depth that the estimator in the socket finds in a histogram, without its clock.
-    pub fn depth(&self, histogram: &[u32]) -> Depth {
+    /// Returns the estimate of the firmware's estimator for a histogram, without its clock.
+    pub fn estimate(&self, histogram: &[u32]) -> Estimate {
+        Estimate::of_words(self.params.estimator, &self.estimate_words(histogram))
+    }
+
+    /// Returns the words of that estimate.
+    pub fn estimate_words(&self, histogram: &[u32]) -> EstimateWords {
         let p = &self.params;
-        match p.estimator {
-            Estimator::Network => estimate(&p.depth_estimator, histogram).depth,
-            Estimator::Centroid => locate(&p.centroid_estimator, histogram).depth,
-            Estimator::Likelihood => likelihood::estimate(&p.likelihood_estimator, histogram).depth,
-        }
+        in_slot!(p.estimator, E => E::estimate(E::params(p), histogram))
     }
 }

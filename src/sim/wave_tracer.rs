@@ -94,7 +94,7 @@ impl WaveTracer {
         if marks.spad_edge.is_none() && marks.laser_edge.is_some() && top.pins.tdc_stop {
             marks.spad_edge = Some(now);
         }
-        if marks.algo_done.is_none() && top.socket.algo_done {
+        if marks.algo_done.is_none() && top.slot.algo_done {
             marks.algo_done = Some(now);
         }
     }

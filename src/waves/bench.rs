@@ -5,7 +5,9 @@ use std::sync::Arc;
 use crate::firmware::carry_chain::{Delays, TAPS, Transitions};
 use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
-use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
+use crate::firmware::tof_top::{
+    CodeSource, FirmwareEstimator, HistogramSource, Params, Pins, TofTop,
+};
 use crate::firmware::{
     centroid_estimator, depth_estimator, forward1, forward2, frame_ctrl, histogram_builder,
     likelihood_estimator, tansig, tdc, vcsel_driver,
@@ -62,7 +64,7 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
         },
         centroid_estimator: centroid_estimator::Params::default(),
         likelihood_estimator: Arc::new(likelihood_estimator::params::Params::stand_in(histogram)),
-        estimator: Estimator::Network,
+        estimator: FirmwareEstimator::Network,
         code_source: CodeSource::Tdc,
         histogram_source: HistogramSource::Builder,
     }

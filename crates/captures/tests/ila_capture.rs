@@ -95,7 +95,7 @@ fn fig_6_21_shows_the_three_steps_and_the_depth() {
     let at = done.iter().position(|&level| level == 1).unwrap();
     assert_eq!(at, 16 + 265, "the first sum begins two cycles after e0");
     let frame = &common::frames(&setup("estimator_validation", &[]), 1)[0];
-    assert_eq!(depth[at], frame.depth.bits());
+    assert_eq!(depth[at], frame.words.depth.bits());
     let start = values(&capture, "FORWARD2_EN").iter().position(|&level| level == 1).unwrap();
     assert_eq!(start, 16 + 260);
     assert_eq!(capture.probes.iter().filter(|p| p.head().starts_with("L1_IN[")).count(), 8);
@@ -120,7 +120,7 @@ fn likelihood_estimator_shows_where_each_step_leads_and_what_comes_out() {
         assert_eq!(found, wanted, "step {taken}");
     }
     let found = expected.found;
-    let wanted = [found.depth.bits(), found.sigma, found.status.into(), found.chi_square, 1];
+    let wanted = [found.depth.bits(), found.sigma, found.status.bits().into(), found.chi_square, 1];
     let ends = ["Depth", "SIGMA", "STATUS", "CHI_SQUARE", "VALID"].map(|name| of(name)[at]);
     assert_eq!(ends, wanted);
 }

@@ -39,7 +39,7 @@ fn a_reset_of_the_frame_begins_it_again_and_its_depth_never_appears() {
 fn the_estimator_waits_for_dsp_en_with_the_histogram_kept() {
     let free = &with_control("[]", &[], 1)[0];
     let held = &with_control("[{at_us=20,dsp_en=true}]", &["firmware.dsp_en=false"], 1)[0];
-    assert_eq!((&held.histogram, held.depth), (&free.histogram, free.depth));
+    assert_eq!((&held.histogram, held.depth()), (&free.histogram, free.depth()));
     let frame_end_us = edge_us(1 + held.frame_cycles);
     let expected = 20.0 + 0.008 * (1.0 + 2.0 + 1.0 + 267.0);
     assert!((frame_end_us - expected).abs() < 0.012, "{frame_end_us} us");

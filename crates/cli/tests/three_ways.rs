@@ -11,6 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
 
 use tofsim::firmware::depth_estimator::{DepthEstimator, In, Params};
+use tofsim::firmware::tof_top::slot::SlotEstimator;
 use tofsim::kernel::U;
 use tofsim::network::mem::{self, Mem, lines};
 use tofsim::network::{Histogram, Network};

@@ -14,7 +14,7 @@ fn frames(count: u64) -> String {
     let frames = tofsim::Run::new(&setup).frames(count).unwrap();
     frames
         .iter()
-        .map(|frame| format!("frame {}: depth {}\n", frame.index, frame.depth.get()))
+        .map(|frame| format!("frame {}: depth {}\n", frame.index, frame.depth().to_bits()))
         .collect()
 }
 

@@ -14,7 +14,7 @@ use tofsim::scenario::drift::{Moment, Profile};
 use tofsim::sim::setup::Setup;
 
 use crate::dataset::{HistogramSource, Scene};
-use crate::estimation::{EstimatorInputs, EstimatorKind};
+use crate::estimation::{EstimatorInputs, EstimatorKind, Needs};
 use crate::evaluation::Spread;
 
 /// Computation at each moment of a profile.
@@ -70,7 +70,7 @@ impl Drift {
         done: impl Fn(u64) + Sync,
     ) -> Result<Self> {
         let Plan { kind, every_s, repeats } = plan;
-        if kind == EstimatorKind::Subtraction {
+        if kind.needs() == Needs::Dark {
             let expected = "expected one that needs no dark histograms";
             return Err(Input::new("--estimator", expected).value(kind.name()).into());
         }
@@ -106,9 +106,7 @@ fn spread(
     (tdc.temperature_c, tdc.supply_mv) = (now.temperature_c, now.supply_mv);
     (tdc.calibrated_at_c, tdc.calibrated_at_mv) = (Some(then.temperature_c), Some(then.supply_mv));
     let setup = Setup::of_counts(loaded)?;
-    if matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat) {
-        setup.check_network()?;
-    }
+    kind.check(&setup)?;
     let source = HistogramSource::new(&setup)?;
     let acquisition = source.acquisition(0);
     let needs = EstimatorInputs { acquisition, network: &setup.network, setup: &setup };

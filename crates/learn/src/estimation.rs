@@ -27,22 +27,22 @@
 //! three, and [`likelihood::Model::cramer_rao_m`], the pulse's shape as well.
 
 pub mod acquisition;
-pub mod by_name;
 pub mod centroid;
 pub mod coates;
 pub mod estimator;
 pub mod findpeaks;
+pub mod in_firmware;
 pub mod likelihood;
-pub mod likelihood_estimator;
 pub mod matched_filter;
 pub mod network;
 pub mod notes;
 pub mod panel;
 pub mod peak_detection;
+pub mod registry;
 pub mod spline;
 pub mod subtraction;
 
 pub use acquisition::Acquisition;
-pub use by_name::{EstimatorInputs, EstimatorKind};
-pub use estimator::{EchoDepth, Estimator, Failure, Found, HistogramPair};
-pub use panel::{Panel, Reading};
+pub use estimator::{EchoDepth, Estimate, Estimator, Failure, Found, HistogramPair};
+pub use panel::Panel;
+pub use registry::{EstimatorInputs, EstimatorKind, Needs};

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use tofsim::Setup;
 use tofsim::error::Input;
 use tofsim_cli::verbs::budget::findings::Findings;
-use tofsim_learn::estimation::{EstimatorKind, Panel};
+use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
 use tofsim_learn::quantize;
 
 use crate::arrays::Lent;
@@ -34,16 +34,16 @@ pub fn link_budget<'py>(
 /// The estimators of those names.
 fn kinds(names: &[String]) -> Result<Vec<EstimatorKind>> {
     let kind = |name: &String| {
-        let found = EstimatorKind::ALL.iter().find(|(word, ..)| word == name);
-        let known = || EstimatorKind::ALL.map(|(word, ..)| word).join(", ");
+        let known = || EstimatorKind::names().collect::<Vec<_>>().join(", ");
         let fault = || Input::new("estimators", format!("expected some of {}", known()));
-        Ok(found.ok_or_else(|| fault().value(name))?.1)
+        Ok(EstimatorKind::find(name).ok_or_else(|| fault().value(name))?)
     };
     names.iter().map(kind).collect()
 }
 
-/// Depths of histograms, one or n x bins, as a dictionary of arrays: `depth_m` and `depth_raw` of the firmware's own
-/// estimator, bit for bit, and for each of `estimators` its depth, which is NaN where it fails [m].
+/// Depths of histograms, one or n x bins, as a dictionary of arrays: `estimator`, `depth_m`, `depth_raw`, `sigma_m`,
+/// `valid` and `status` of the firmware's own estimator, bit for bit, and for each of `estimators` its depth, which is
+/// NaN where it fails [m]. `estimates` has the same of each of `estimators` by its name.
 #[pyfunction]
 #[pyo3(signature = (histograms, scenario = None, *, estimators = Vec::new(), threads = None))]
 pub fn estimate<'py>(
@@ -54,32 +54,56 @@ pub fn estimate<'py>(
     threads: Option<usize>,
 ) -> Result<Bound<'py, PyDict>> {
     let setup = Setup::new(Scenario::of(scenario)?.seeded(None))?;
+    let own = setup.params.estimator.estimator();
     let kinds = kinds(&estimators)?;
     let lent = Lent::new(histograms, &setup.params.histogram)?;
     // The task may be left to itself, and Python's memory not.
     let rows: Vec<Vec<u32>> = lent.rows()?.map(<[u32]>::to_vec).collect();
-    let (depths, readings) = running::run(py, Terms { threads, progress: None }, move |watch| {
+    let all = running::run(py, Terms { threads, progress: None }, move |watch| {
         let panel = Panel::new(&kinds, &setup)?;
-        let estimators = panel.into_estimators();
         let one = |row: &Vec<u32>| {
             if watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
                 return Err(tofsim::Error::Interrupted);
             }
-            let readings = estimators.iter().map(|one| one.estimate(row).unwrap_or(f64::NAN));
-            Ok((setup.depth(row), readings.collect::<Vec<_>>()))
+            let mut estimates = vec![setup.estimate(row)];
+            estimates.extend(panel.read(row));
+            Ok(estimates)
         };
-        let found: Vec<_> = rows.par_iter().map(one).collect::<tofsim::Result<_>>()?;
-        Ok(found.into_iter().unzip::<_, _, Vec<_>, Vec<_>>())
+        rows.par_iter().map(one).collect::<tofsim::Result<Vec<_>>>()
     })?;
-    let found = PyDict::new(py);
-    let metres = depths.iter().map(|depth| depth.to_f64()).collect();
-    found.set_item("depth_m", PyArray1::<f64>::from_vec(py, metres))?;
-    let words = depths.iter().map(|depth| depth.get()).collect();
+    let columns = |place: usize| columns(py, all.iter().map(|each| &each[place]));
+    let found = columns(0)?;
+    found.set_item("estimator", own)?;
+    let words =
+        all.iter().filter_map(|each| each[0].depth_raw).map(|word| word.to_bits()).collect();
     found.set_item("depth_raw", PyArray1::<i64>::from_vec(py, words))?;
+    let others = PyDict::new(py);
     for (place, name) in estimators.iter().enumerate() {
-        let metres = readings.iter().map(|each| each[place]).collect();
-        found.set_item(name, PyArray1::<f64>::from_vec(py, metres))?;
+        let estimates = columns(place + 1)?;
+        estimates.set_item("estimator", name)?;
+        found.set_item(name, estimates.get_item("depth_m")?)?;
+        others.set_item(name, estimates)?;
     }
+    found.set_item("estimates", others)?;
+    Ok(found)
+}
+
+/// The estimates of one estimator as arrays, and their statuses as lists of words.
+fn columns<'py, 'a>(
+    py: Python<'py>,
+    estimates: impl Iterator<Item = &'a Estimate> + Clone,
+) -> Result<Bound<'py, PyDict>> {
+    let metres = |of: fn(&Estimate) -> Option<f64>| {
+        let all = estimates.clone().map(|one| of(one).unwrap_or(f64::NAN)).collect();
+        PyArray1::<f64>::from_vec(py, all)
+    };
+    let found = PyDict::new(py);
+    found.set_item("depth_m", metres(|one| one.depth_m))?;
+    found.set_item("sigma_m", metres(|one| one.sigma_m))?;
+    let valid = estimates.clone().map(|one| one.valid).collect();
+    found.set_item("valid", PyArray1::<bool>::from_vec(py, valid))?;
+    let status: Vec<_> = estimates.map(|one| one.status.words()).collect();
+    found.set_item("status", status)?;
     Ok(found)
 }
 

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use tofsim::Setup;
 use tofsim::firmware::forward2::Depth;
+use tofsim::sim::estimates::Estimate;
 use tofsim_cli::report::causes::Causes;
 
 use crate::errors::Result;
@@ -17,6 +18,7 @@ use crate::pictures;
 pub struct Frame {
     pub(crate) setup: Arc<Setup>,
     pub(crate) depth: Depth,
+    pub(crate) estimate: Estimate,
     pub(crate) counts: Vec<u32>,
     pub(crate) causes: Option<Causes>,
     /// From 0.
@@ -44,7 +46,8 @@ impl Frame {
     pub fn new(setup: Arc<Setup>, frame: &tofsim::Frame) -> Self {
         Frame {
             setup,
-            depth: frame.depth,
+            depth: frame.words.depth,
+            estimate: frame.estimate(),
             counts: frame.histogram.to_vec(),
             causes: None,
             index: frame.index,
@@ -69,6 +72,30 @@ impl Frame {
     #[getter]
     fn depth_m(&self) -> f64 {
         self.depth.to_f64()
+    }
+
+    /// Name of the estimator.
+    #[getter]
+    fn estimator(&self) -> &'static str {
+        self.estimate.estimator
+    }
+
+    /// Standard deviation of the depth, from an estimator that states one [m].
+    #[getter]
+    fn sigma_m(&self) -> Option<f64> {
+        self.estimate.sigma_m
+    }
+
+    /// Whether the status has no reason to reject the depth.
+    #[getter]
+    fn valid(&self) -> bool {
+        self.estimate.valid
+    }
+
+    /// Reasons to reject the depth, in words; empty if there are none.
+    #[getter]
+    fn status(&self) -> Vec<&'static str> {
+        self.estimate.status.words()
     }
 
     /// The estimator's word.

@@ -8,7 +8,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::json;
 
-use tofsim::firmware::forward2::Depth;
+use tofsim::firmware::tof_top::slot::EstimateWords;
+use tofsim::sim::estimates::Estimate;
 use tofsim::{Note, Setup};
 use tofsim_cli::report::causes::{CAUSES, Causes};
 
@@ -20,7 +21,7 @@ use crate::objects::object;
 /// Frames as they come.
 pub struct Columns {
     histograms: Vec<u32>,
-    depths: Vec<Depth>,
+    words: Vec<EstimateWords>,
     /// Number, shots, hits, hits of the TDC, cycles of the estimator and of the frame.
     numbers: [Vec<u64>; 6],
     laser_en: Vec<bool>,
@@ -37,7 +38,7 @@ impl Columns {
         let none = || -> Causes { std::array::from_fn(|_| vec![0; bins]) };
         Columns {
             histograms: Vec::with_capacity(bins * count.min(1 << 16)),
-            depths: Vec::new(),
+            words: Vec::new(),
             numbers: Default::default(),
             laser_en: Vec::new(),
             causes: is_by_cause.then(|| (0..count).map(|_| none()).collect()),
@@ -48,7 +49,7 @@ impl Columns {
     /// Takes the next frame.
     pub fn push(&mut self, frame: &tofsim::Frame) {
         self.histograms.extend_from_slice(&frame.histogram);
-        self.depths.push(frame.depth);
+        self.words.push(frame.words);
         let hits = frame.hits();
         let tofsim::Frame { index, shots, tdc_hits, estimator_cycles, frame_cycles, .. } = *frame;
         let numbers = [index, shots, hits, tdc_hits, estimator_cycles, frame_cycles];
@@ -71,6 +72,18 @@ pub struct Frames {
     /// The estimator's word.
     #[pyo3(get)]
     depth_raw: Py<PyArray1<i64>>,
+    /// Name of the estimator.
+    #[pyo3(get)]
+    estimator: &'static str,
+    /// Standard deviation of the depth, NaN from an estimator that states none [m].
+    #[pyo3(get)]
+    sigma_m: Py<PyArray1<f64>>,
+    /// Whether the status has no reason to reject the depth.
+    #[pyo3(get)]
+    valid: Py<PyArray1<bool>>,
+    /// Reasons to reject the depth, a list of words for each frame.
+    #[pyo3(get)]
+    status: Vec<Vec<&'static str>>,
     /// Number of the frame, from 0.
     #[pyo3(get)]
     index: Numbers,
@@ -101,8 +114,14 @@ impl Frames {
     pub fn new(py: Python<'_>, setup: Arc<Setup>, mut columns: Columns) -> Result<Self> {
         let bins = setup.params.histogram.bins;
         let histograms = std::mem::take(&mut columns.histograms);
-        let metres = columns.depths.iter().map(|depth| depth.to_f64()).collect();
-        let words = columns.depths.iter().map(|depth| depth.get()).collect();
+        let estimator = setup.params.estimator;
+        let estimates = columns.words.iter().map(|words| Estimate::of_words(estimator, words));
+        let estimates: Vec<_> = estimates.collect();
+        let metres = columns.words.iter().map(|words| words.depth.to_f64()).collect();
+        let words = columns.words.iter().map(|words| words.depth.get()).collect();
+        let sigmas = estimates.iter().map(|one| one.sigma_m.unwrap_or(f64::NAN)).collect();
+        let valid = estimates.iter().map(|one| one.valid).collect();
+        let status = estimates.iter().map(|one| one.status.words()).collect();
         let numbers = std::mem::take(&mut columns.numbers);
         let [index, shots, hits, tdc_hits, estimator_cycles, frame_cycles] =
             numbers.map(|column| PyArray1::from_vec(py, column).unbind());
@@ -111,6 +130,10 @@ impl Frames {
             histograms: table(py, histograms, bins)?.unbind(),
             depth_m: PyArray1::from_vec(py, metres).unbind(),
             depth_raw: PyArray1::from_vec(py, words).unbind(),
+            estimator: estimator.estimator(),
+            sigma_m: PyArray1::from_vec(py, sigmas).unbind(),
+            valid: PyArray1::from_vec(py, valid).unbind(),
+            status,
             index,
             shots,
             hits,
@@ -159,7 +182,7 @@ impl Frames {
     }
 
     fn __len__(&self) -> usize {
-        self.columns.depths.len()
+        self.columns.words.len()
     }
 
     fn __getitem__(&self, py: Python<'_>, place: isize) -> Result<Frame> {
@@ -176,7 +199,8 @@ impl Frames {
         Ok(Frame {
             setup: Arc::clone(&self.setup),
             index: number(&self.index)?,
-            depth: self.columns.depths[place],
+            depth: self.columns.words[place].depth,
+            estimate: Estimate::of_words(self.setup.params.estimator, &self.columns.words[place]),
             hits: number(&self.hits)?,
             tdc_hits: number(&self.tdc_hits)?,
             shots: number(&self.shots)?,

@@ -200,7 +200,7 @@ fn the_run_so_far_is_a_scenario_that_gives_it_again() {
     std::fs::write(&path, server.get("run.toml").body).unwrap();
     let setup = tofsim::Setup::load(path.to_str().unwrap(), &[]).unwrap();
     let frames = tofsim::Run::new(&setup).frames(4).unwrap();
-    assert_eq!(format!("{:09x}", frames[3].depth.bits()), last["depth_raw"]);
+    assert_eq!(format!("{:09x}", frames[3].words.depth.bits()), last["depth_raw"]);
     assert_eq!(frames[3].hits(), last["hits"].as_u64().unwrap());
 }
 

@@ -230,11 +230,9 @@ fn from_folder(name: &str, folder: &Path) -> String {
 }
 
 fn estimators(checked: &Checked, file: &PlanFile, loaded: &Loaded) -> Result<Vec<EstimatorKind>> {
-    let names = EstimatorKind::ALL.iter().map(|(name, ..)| *name);
     let kind = |(place, given): (usize, &String)| {
-        let found = EstimatorKind::ALL.iter().find(|(name, ..)| name == given);
-        found.map(|(_, kind, _)| *kind).ok_or_else(|| {
-            let (hint, known) = hint(given, names.clone());
+        EstimatorKind::find(given).ok_or_else(|| {
+            let (hint, known) = hint(given, EstimatorKind::names());
             let expected = format!("no such estimator{hint}; expected one of {known}");
             checked.fault(&format!("estimators.{place}"), expected).into()
         })

@@ -1,6 +1,11 @@
 //! Verilog parameters of the centroid estimator, and the cycles and widths that follow from them.
 
+use fixed::FixedU32;
+use fixed::types::extra::{U12, U24};
+
+use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_builder;
+use crate::firmware::tof_top::slot::DepthM;
 use crate::kernel::{S, U};
 
 /// Largest W [bins].
@@ -10,12 +15,16 @@ pub(super) const SUMS: u64 = 2;
 /// Bits of the quotient: 6 before the point, 12 after it.
 pub(super) const QUOTIENT_BITS: u32 = 18;
 /// Fraction bits of quotient and position.
-pub const POSITION_FRACTION: u32 = 12;
+pub const POSITION_FRACTION: u32 = Position::FRAC_NBITS;
 
 /// Distance of a bin, 24 fraction bits [m].
 pub type Slope = U<17>;
 /// Fraction bits of [`Slope`].
-pub const SLOPE_FRACTION: u32 = 24;
+pub const SLOPE_FRACTION: u32 = SlopeM::FRAC_NBITS;
+/// [`Slope`] as a number [m].
+pub type SlopeM = FixedU32<U24>;
+/// Position in a histogram from the begin of bin 0 [bins].
+pub type Position = FixedU32<U12>;
 /// Distance that is added [m].
 pub type Offset = S<30, 29>;
 
@@ -54,6 +63,22 @@ pub fn position_bits(histogram: &histogram_builder::Params) -> u32 {
 }
 
 impl Params {
+    /// Distance of a bin [m].
+    pub fn slope_m(&self) -> SlopeM {
+        SlopeM::from_bits(self.slope.get() as u32)
+    }
+
+    /// Distance that is added [m].
+    pub fn offset_m(&self) -> DepthM {
+        DepthM::from_bits(self.offset.get())
+    }
+
+    /// Distance of a position, the bits past the last of a depth word dropped.
+    pub fn depth(&self, position: Position) -> Depth {
+        let metres = DepthM::from_num(position.wide_mul(self.slope_m()));
+        Depth::new((metres + self.offset_m()).to_bits())
+    }
+
     /// First cycle of the division, when the last centre has been looked at with any W.
     pub fn divide(&self) -> u64 {
         self.histogram.bins as u64 + MOST_HALF_WIDTH + 1 + SUMS

@@ -28,18 +28,18 @@ fn limits_are_64_logarithms_of_squared_deviations() {
 #[test]
 fn an_echo_has_at_least_the_least_score() {
     let no_echo = [296, 297, 298].map(|score| status_of(score, 0, false));
-    assert_eq!(no_echo, [status::NO_ECHO.into(), 0, 0]);
+    assert_eq!(no_echo, [Status::NoEcho.bit().into(), 0, 0]);
 }
 
 #[test]
 fn an_unsure_echo_has_at_least_the_sure_score() {
     let unsure = [424, 425, 426].map(|score| status_of(score, 0, true));
-    assert_eq!(unsure, [status::NO_ECHO.into(), 0, 0]);
+    assert_eq!(unsure, [Status::NoEcho.bit().into(), 0, 0]);
     assert_eq!(status_of(424, 0, false), 0);
 }
 
 #[test]
 fn another_echo_has_more_than_its_score() {
     let another = [330, 331, 332].map(|score| status_of(500, score, false));
-    assert_eq!(another, [0, 0, status::ANOTHER.into()]);
+    assert_eq!(another, [0, 0, Status::Another.bit().into()]);
 }

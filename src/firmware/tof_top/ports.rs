@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::firmware::vcsel_driver::{self, Rate};
 use crate::firmware::{
@@ -10,6 +9,8 @@ use crate::firmware::{
     tdc_calibration,
 };
 use crate::signals;
+
+use super::estimators::FirmwareEstimator;
 
 signals! {
     /// Input pins beside the clock.
@@ -80,45 +81,6 @@ pub enum HistogramSource {
     Preload(Box<histogram_preload::Rom>),
 }
 
-/// Estimator in the estimator slot.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Estimator {
-    /// [`depth_estimator`].
-    #[default]
-    Network,
-    /// [`centroid_estimator`].
-    Centroid,
-    /// [`likelihood_estimator`].
-    Likelihood,
-}
-
-impl Estimator {
-    /// All of them, in the order of the parameter's values.
-    pub const ALL: [Self; 3] = [Self::Network, Self::Centroid, Self::Likelihood];
-
-    /// Its module.
-    pub fn module(self) -> &'static str {
-        match self {
-            Estimator::Network => "depth_estimator",
-            Estimator::Centroid => "centroid_estimator",
-            Estimator::Likelihood => "likelihood_estimator",
-        }
-    }
-}
-
-/// Outputs of the estimator in use; waveforms show that estimator's own.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Socket {
-    /// The histogram's word at `read_addr` is being read.
-    pub read_en: bool,
-    /// Word of the histogram.
-    pub read_addr: Bin,
-    /// The depth, from `algo_done` until the next one.
-    pub depth: Depth,
-    /// The depth is ready; one cycle.
-    pub algo_done: bool,
-}
-
 /// Parameters that elaboration fixes.
 #[derive(Clone, Debug)]
 pub struct Params {
@@ -139,7 +101,7 @@ pub struct Params {
     /// Pulse, bins and ROMs of the likelihood.
     pub likelihood_estimator: Arc<likelihood_estimator::params::Params>,
     /// Estimator in the estimator slot.
-    pub estimator: Estimator,
+    pub estimator: FirmwareEstimator,
     /// Source of codes.
     pub code_source: CodeSource,
     /// Source of the estimator's histogram.
@@ -149,7 +111,8 @@ pub struct Params {
 impl Params {
     /// Modules of the top that are left out: stand-ins, or what they stand in for.
     pub fn left_out(&self) -> Vec<&'static str> {
-        let others = Estimator::ALL.into_iter().filter(|other| *other != self.estimator);
+        let others = FirmwareEstimator::ALL.iter().copied();
+        let others = others.filter(|other| *other != self.estimator);
         let sources = [
             match self.code_source {
                 CodeSource::Tdc => "code_preload",
@@ -161,16 +124,10 @@ impl Params {
             },
         ];
         let calibration = self.tdc_calibration.is_none().then_some("tdc_calibration");
-        sources.into_iter().chain(calibration).chain(others.map(Estimator::module)).collect()
-    }
-
-    /// From the edge that takes `algo_start` to the one that raises `algo_done`, for the estimator in
-    /// use [cycles of clk_sys].
-    pub fn estimator_cycles(&self) -> u64 {
-        match self.estimator {
-            Estimator::Network => self.depth_estimator.cycles(),
-            Estimator::Centroid => self.centroid_estimator.done(),
-            Estimator::Likelihood => self.likelihood_estimator.done(),
-        }
+        sources
+            .into_iter()
+            .chain(calibration)
+            .chain(others.map(FirmwareEstimator::module))
+            .collect()
     }
 }

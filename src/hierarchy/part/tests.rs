@@ -57,7 +57,7 @@ impl Both {
         assert!(self.followed == every, "at {now}");
         self.looks += 1;
         self.resets += usize::from(top.nets.rst_dsp);
-        self.estimations += usize::from(top.socket.algo_done);
+        self.estimations += usize::from(top.slot.algo_done);
     }
 }
 

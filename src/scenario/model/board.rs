@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::firmware::frame_ctrl::DRAIN_CYCLES;
 use crate::firmware::histogram_builder::COUNT_BITS;
 use crate::firmware::pll;
+use crate::firmware::tof_top::FirmwareEstimator;
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
 
@@ -158,25 +159,12 @@ impl Firmware {
     }
 }
 
-/// The estimator in the estimator slot.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum EstimatorKind {
-    /// The neural network (`depth_estimator`).
-    #[default]
-    Network,
-    /// Argmax with centroid correction (`centroid_estimator`).
-    Centroid,
-    /// Maximum likelihood in integers (`likelihood_estimator`).
-    Likelihood,
-}
-
 table! {
     /// The depth estimator.
     pub struct Estimator {
         /// Estimator in the estimator slot: `network`, `centroid` or `likelihood`.
         #[schemars(extend("source" = "thesis ch. 6; docs/model.md"))]
-        pub kind: EstimatorKind = EstimatorKind::Network,
+        pub kind: FirmwareEstimator = FirmwareEstimator::Network,
         /// Network: `uniform`, `uniform-16`, `ideal`, or the path of a network file.
         #[schemars(extend("source" = "docs/model.md"))]
         pub network: String = "uniform".into(),

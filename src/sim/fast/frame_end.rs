@@ -4,17 +4,13 @@
 //! its cycle of Clear, and an estimation is sums of integers. The TDC's window is closed, so that it sees
 //! avalanches on the way with the next edges.
 
-use crate::firmware::depth_estimator::{self, DepthEstimator};
-use crate::firmware::estimator_ctrl::EstimatorCtrl;
-use crate::firmware::forward1::Forward1;
 use crate::firmware::frame_ctrl::State;
-use crate::firmware::histogram_builder::Count;
-use crate::firmware::tof_top::{Estimator, HistogramSource, Params, TofTop};
-use crate::firmware::{centroid_estimator, likelihood_estimator};
+use crate::firmware::tof_top::slotted::Slotted;
+use crate::firmware::tof_top::{HistogramSource, Params, TofTop};
+use crate::in_slot;
 use crate::kernel::U;
-use crate::network::Histogram;
-use crate::network::estimate::estimate;
 use crate::sim::device::Device;
+use crate::sim::estimates::Clockless;
 
 use super::steady::{control_is_steady, estimation_phase, estimator_rests};
 
@@ -58,49 +54,15 @@ fn land_in_clear(top: &mut TofTop, last_bin: u64) {
 
 /// Lands in the cycle before the depth is ready, from the first cycle of an estimation.
 fn land_in_estimation(top: &mut TofTop, p: &Params) {
-    // The words, and the one at the port while none is read.
-    let (words, idle) = match &p.histogram_source {
-        HistogramSource::Builder => (&*top.histogram_builder.ram, U::new(0)),
-        HistogramSource::Preload(rom) => (&**rom, rom[0]),
-    };
-    match p.estimator {
-        Estimator::Network => {
-            let histogram: Histogram = words.iter().map(|word| word.get() as u32).collect();
-            land_in_network(&mut top.depth_estimator, &histogram, idle, &p.depth_estimator);
-        }
-        Estimator::Centroid => {
-            let centroid = &mut top.centroid_estimator;
-            for _ in 1..p.centroid_estimator.done() {
-                let count = words[centroid.registers.read_addr.index()];
-                let i = centroid_estimator::In { rst: false, algo_start: false, count };
-                centroid.rise(&i, &p.centroid_estimator);
-            }
-        }
-        Estimator::Likelihood => {
-            let params = &p.likelihood_estimator;
-            let likelihood = &mut top.likelihood_estimator;
-            let mode = top.control_sync.mode_sync;
-            for _ in 1..params.done() {
-                let count = words[likelihood.likelihood_memory.registers.read_addr.index()];
-                let i = likelihood_estimator::In { rst: false, algo_start: false, mode, count };
-                likelihood.rise(&i, params);
-            }
-        }
-    }
-}
-
-/// Lands in the cycle before the depth is ready: the hidden layer's sums at once, and then the plain step.
-fn land_in_network(
-    network: &mut DepthEstimator,
-    words: &[u32],
-    idle: Count,
-    p: &depth_estimator::Params,
-) {
-    let ctrl = p.ctrl();
-    network.estimator_ctrl = EstimatorCtrl::at(ctrl.tansig(), &ctrl);
-    network.forward1 = Forward1::at_rest(estimate(p, words).l1_in, idle, &p.forward1);
-    let idle = depth_estimator::In { rst: false, algo_start: false, count: idle };
-    for _ in ctrl.tansig() + 1..ctrl.done() {
-        network.rise(&idle, p);
-    }
+    let mode = top.control_sync.mode_sync;
+    in_slot!(p.estimator, E => {
+        let mut block = std::mem::take(E::block_mut(top));
+        // The words, and the one at the port while none is read.
+        let (words, idle) = match &p.histogram_source {
+            HistogramSource::Builder => (&*top.histogram_builder.ram, U::new(0)),
+            HistogramSource::Preload(rom) => (&**rom, rom[0]),
+        };
+        block.land(words, idle, mode, E::params(p));
+        *E::block_mut(top) = block;
+    });
 }

@@ -103,7 +103,8 @@ impl<'a> Histograms<'a> {
         Frame {
             index,
             laser_en: kind.lit,
-            depth: self.setup.depth(&histogram),
+            estimator: self.setup.params.estimator,
+            words: self.setup.estimate_words(&histogram),
             shots: self.shots,
             tdc_hits,
             histogram,

@@ -1,8 +1,10 @@
 //! Conditions under which fast ways are exact.
 
 use crate::firmware::reset_sync::{self, ResetSync};
-use crate::firmware::tof_top::{Estimator, Params, TofTop, Wires};
-use crate::firmware::{centroid_estimator, depth_estimator, likelihood_estimator};
+use crate::firmware::tof_top::slot::{SlotEstimator, SlotIn};
+use crate::firmware::tof_top::slotted::Slotted;
+use crate::firmware::tof_top::{Params, TofTop, Wires};
+use crate::in_slot;
 use crate::kernel::{ASLEEP, Clocked, Time};
 use crate::sim::device::Device;
 
@@ -18,36 +20,15 @@ pub(super) fn control_is_steady(top: &TofTop) -> bool {
 
 /// Returns whether no edge changes the estimator until it is started or reset.
 pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
-    if estimation_phase(top, p).is_some() {
-        return false;
-    }
-    let (rst, algo_start) = (false, false);
-    match p.estimator {
-        Estimator::Network => {
-            let i = depth_estimator::In { rst, algo_start, ..Wires::depth_estimator(top) };
-            top.depth_estimator.rests(&i, &p.depth_estimator)
-        }
-        Estimator::Centroid => {
-            let mut next = top.centroid_estimator;
-            let i = centroid_estimator::In { rst, algo_start, ..Wires::centroid_estimator(top) };
-            next.rise(&i, &p.centroid_estimator);
-            next == top.centroid_estimator
-        }
-        Estimator::Likelihood => {
-            let i =
-                likelihood_estimator::In { rst, algo_start, ..Wires::likelihood_estimator(top) };
-            top.likelihood_estimator.rests(&i, &p.likelihood_estimator)
-        }
-    }
+    let (mode, count) = (top.control_sync.mode_sync, top.nets.count);
+    let i = SlotIn { rst: false, algo_start: false, mode, count };
+    estimation_phase(top, p).is_none()
+        && in_slot!(p.estimator, E => E::block(top).rests(&i.into(), E::params(p)))
 }
 
 /// Returns the cycles since the edge that took `algo_start`, while the estimator in the slot works.
 pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
-    match p.estimator {
-        Estimator::Network => top.depth_estimator.estimator_ctrl.phase(&p.depth_estimator.ctrl()),
-        Estimator::Centroid => top.centroid_estimator.registers.phase(&p.centroid_estimator),
-        Estimator::Likelihood => top.likelihood_estimator.begun(),
-    }
+    in_slot!(p.estimator, E => E::block(top).phase(E::params(p)))
 }
 
 /// Returns the period of `clk_sys`, if no edge jitters.

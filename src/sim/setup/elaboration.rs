@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::error::Result;
 use crate::firmware::pll::Pll;
-use crate::firmware::tof_top::{Estimator, HistogramSource, Params};
+use crate::firmware::tof_top::{FirmwareEstimator, HistogramSource, Params};
 use crate::firmware::{
     centroid_estimator, frame_ctrl, histogram_builder, likelihood_estimator, vcsel_driver,
 };
@@ -14,7 +14,7 @@ use crate::optics::Budget;
 use crate::optics::dark::DarkRates;
 use crate::scenario::builtin::Source;
 use crate::scenario::wiring::Wiring;
-use crate::scenario::{self, EstimatorKind, Loaded, Scenario, dark, mesh, pulse};
+use crate::scenario::{self, Loaded, Scenario, dark, mesh, pulse};
 use crate::sim::timeline::pins_at_power_up;
 
 use super::converter::Converter;
@@ -67,11 +67,7 @@ impl Setup {
             likelihood_estimator: Arc::new(likelihood_estimator::params::Params::stand_in(
                 histogram,
             )),
-            estimator: match scenario.estimator.kind {
-                EstimatorKind::Network => Estimator::Network,
-                EstimatorKind::Centroid => Estimator::Centroid,
-                EstimatorKind::Likelihood => Estimator::Likelihood,
-            },
+            estimator: scenario.estimator.kind,
             code_source,
             histogram_source,
         };
@@ -109,6 +105,20 @@ impl Setup {
             setup.params.likelihood_estimator = Arc::new(own);
         }
         Ok(Setup { no_depth: setup.why_no_depth(), ..setup })
+    }
+}
+
+impl Setup {
+    /// Checks that the estimator fits the instrument.
+    pub(super) fn check_estimator(&self) -> Result<()> {
+        match self.params.estimator {
+            FirmwareEstimator::Network => self.check_network(),
+            FirmwareEstimator::Centroid => Ok(()),
+            FirmwareEstimator::Likelihood => {
+                self.likelihood(self.params.frame_ctrl.shots_per_frame.into())?;
+                Ok(())
+            }
+        }
     }
 }
 

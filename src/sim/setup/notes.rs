@@ -1,7 +1,7 @@
 //! Notes on a setup whose results are outside of the model's validity.
 
 use crate::error::Result;
-use crate::firmware::tof_top::{Estimator, HistogramSource};
+use crate::firmware::tof_top::{FirmwareEstimator, HistogramSource};
 use crate::kernel::Time;
 use crate::note::{Note, NoteCode, NoteValue};
 use crate::optics::budget::LIGHT_M_S;
@@ -33,10 +33,10 @@ impl Setup {
             return Ok([&self.renamed[..], std::slice::from_ref(note)].concat());
         }
         let mut notes = Vec::new();
-        if self.params.estimator == Estimator::Network {
+        let is_network = self.params.estimator == FirmwareEstimator::Network;
+        if is_network {
             notes = domain::notes(&self.network, &self.scenario, &[])?;
         }
-        let is_network = self.params.estimator == Estimator::Network;
         let drift = self.drift_for(is_network.then_some(&notes[..]));
         notes.extend(drift);
         notes.extend(self.ring_in_step());

@@ -1,5 +1,6 @@
 //! The stages of the likelihood estimator as a table: integers beside double precision.
 
+use tofsim::firmware::tof_top::status::StatusSet;
 use tofsim_learn::quantize::ExplainedLikelihood;
 use tofsim_learn::quantize::likelihood::StageValue;
 
@@ -20,17 +21,14 @@ pub fn text(explained: &ExplainedLikelihood) -> String {
     format!(
         "{}\n\nstatus, integers: {}\nstatus, double: {}\n",
         table(header, rows, 3..),
-        in_words(&explained.status),
-        in_words(&explained.status_float),
+        in_words(explained.status),
+        in_words(explained.status_float),
     )
 }
 
-/// What a status says of a depth.
-pub fn in_words(status: &[&str]) -> String {
-    match status {
-        [] => "to be believed".to_owned(),
-        words => format!("not to be believed: {}", words.join(", ")),
-    }
+/// A status as a sentence.
+pub fn in_words(status: StatusSet) -> String {
+    if status.is_empty() { "accepted".to_owned() } else { format!("rejected: {status}") }
 }
 
 fn row(stage: &str, value: &StageValue) -> [String; 7] {

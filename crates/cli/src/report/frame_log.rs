@@ -11,9 +11,9 @@ use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
 use tofsim::firmware::depth_estimator::datapath::DEPTH_FRACTION;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::second_opinion::{Opinion, SecondOpinion};
+use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::estimation::{Panel, Reading};
+use tofsim_learn::estimation::{Estimate, Panel};
 
 use super::opinions::{OpinionStatistics, Opinions};
 use super::pairs::{PairLog, PlaceInPair};
@@ -48,9 +48,9 @@ pub struct FrameLog {
     /// The first frames, [`ROWS`] at most.
     pub rows: Vec<Frame>,
     /// What other estimators say of those.
-    pub readings: Vec<Vec<Reading>>,
+    pub readings: Vec<Vec<Estimate>>,
     /// Second opinions on those.
-    pub opinions: Vec<Option<Opinion>>,
+    pub opinions: Vec<Option<Estimate>>,
     /// How many frames.
     pub count: u64,
     /// The pairs that the frames make, if they make pairs.
@@ -71,7 +71,7 @@ pub struct FrameLog {
 struct Waiting {
     frame: Frame,
     paired: Option<PlaceInPair>,
-    estimates: Vec<Reading>,
+    estimates: Vec<Estimate>,
 }
 
 impl FrameLog {
@@ -134,7 +134,7 @@ impl FrameLog {
         })
     }
 
-    fn take(&mut self, setup: &Setup, next: Waiting, opinion: Option<Opinion>) -> Result<()> {
+    fn take(&mut self, setup: &Setup, next: Waiting, opinion: Option<Estimate>) -> Result<()> {
         let Waiting { frame, paired, estimates } = next;
         self.outliers += u64::from(self.judge.is_outlier(frame.depth_m()));
         self.tally.add(&estimates, &self.judge);
@@ -143,14 +143,13 @@ impl FrameLog {
             self.readings.push(estimates.clone());
             self.opinions.push(opinion.clone());
         }
-        let depth = i128::from(frame.depth.get());
+        let depth = i128::from(frame.depth().to_bits());
         self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
         if let Some(json) = &mut self.json {
             let summary = FrameSummary {
                 index: frame.index,
                 true_depth_m: setup.true_depth_m(),
-                depth_m: frame.depth_m(),
-                depth_raw: format!("{:09x}", frame.depth.bits()),
+                estimate: frame.estimate(),
                 shots: frame.shots,
                 hits: frame.hits(),
                 tdc_hits: frame.tdc_hits,
@@ -230,9 +229,9 @@ struct FrameSummary<'a> {
     index: u64,
     /// Null where no light was simulated.
     true_depth_m: Option<f64>,
-    depth_m: f64,
-    /// The 36 bits of the depth word in hexadecimal.
-    depth_raw: String,
+    /// The estimate of the firmware.
+    #[serde(flatten)]
+    estimate: Estimate,
     shots: u64,
     hits: u64,
     /// Hits that the TDC kept, with a code or without.
@@ -243,11 +242,11 @@ struct FrameSummary<'a> {
     /// From the edge that begins Clear to the one that raises `algo_done` [cycles].
     frame_cycles: u64,
     /// Null where nobody gives one.
-    second_opinion: Option<Opinion>,
+    second_opinion: Option<Estimate>,
     /// The frame's place in a pair, where frames come in pairs.
     #[serde(flatten)]
     paired: Option<PlaceInPair>,
     /// Results of other estimators for the histogram.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    estimates: Vec<Reading>,
+    estimates: Vec<Estimate>,
 }

@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use tofsim::Note;
+use tofsim::sim::estimates::{Estimate, digits};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::partings::Partings;
-use tofsim::sim::second_opinion::{ESTIMATOR, Opinion, SecondOpinion};
+use tofsim::sim::second_opinion::{ESTIMATOR, SecondOpinion};
 
 use super::statistics::{Judge, Moments};
 
@@ -43,17 +44,15 @@ impl Opinions {
     }
 
     /// What it says of a frame.
-    pub fn of(&self, frame: &Frame) -> Option<Opinion> {
+    pub fn of(&self, frame: &Frame) -> Option<Estimate> {
         self.second.as_ref()?.of(frame)
     }
 
     /// Takes what it said of the next frame.
-    pub fn add(&mut self, frame: &Frame, opinion: Option<&Opinion>) {
+    pub fn add(&mut self, frame: &Frame, opinion: Option<&Estimate>) {
         let (Some(second), Some(opinion)) = (&self.second, opinion) else { return };
         self.partings.add(second, frame, opinion);
-        if opinion.status.is_empty() {
-            self.depths.add(opinion.depth_m);
-        }
+        opinion.depth_m.filter(|_| opinion.valid).into_iter().for_each(|m| self.depths.add(m));
     }
 
     /// Returns the notes on the second opinions.
@@ -77,15 +76,20 @@ impl Opinions {
     }
 }
 
-/// An opinion on the only frame, with its error and its standard deviation.
-pub fn in_words(opinion: &Opinion, truth_m: Option<f64>) -> String {
-    let Opinion { depth_m, depth_raw, sigma_m, estimator, .. } = opinion;
-    let error = truth_m.map_or(String::new(), |m| format!("  {:+.2} mm", 1e3 * (depth_m - m)));
-    let why = match &opinion.status[..] {
-        [] => String::new(),
-        words => format!(", not to be believed: {}", words.join(", ")),
-    };
-    format!("{depth_m:.6} m  {depth_raw}{error}  {estimator}, sd {sigma_m:.6} m{why}")
+/// An estimate of the only frame: depth, word, error, and what the estimator states beside them.
+pub fn in_words(estimate: &Estimate, truth_m: Option<f64>) -> String {
+    let mut text = estimate.depth_m.map_or("none".to_owned(), |m| format!("{m:.6} m"));
+    text += &estimate.depth_raw.map_or(String::new(), |word| format!("  {}", digits(word)));
+    if let (Some(depth_m), Some(truth_m)) = (estimate.depth_m, truth_m) {
+        text += &format!("  {:+.2} mm", 1e3 * (depth_m - truth_m));
+    }
+    if let Some(sigma_m) = estimate.sigma_m {
+        text += &format!("  {}, sd {sigma_m:.6} m", estimate.estimator);
+    }
+    if !estimate.valid {
+        text += &format!(", rejected: {}", estimate.status);
+    }
+    text
 }
 
 /// Formats the statistics on one line.

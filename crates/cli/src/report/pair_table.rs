@@ -1,10 +1,10 @@
 //! Pairs of a dark and a lit frame as a table and as CSV.
 
+use tofsim::sim::estimates::digits;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::second_opinion::Opinion;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::subtraction::NAME;
-use tofsim_learn::estimation::{HistogramPair, Reading};
+use tofsim_learn::estimation::{Estimate, HistogramPair};
 
 use crate::text::table::{facts, grouped};
 
@@ -28,8 +28,8 @@ pub fn table(setup: &Setup, log: &FrameLog) -> String {
 fn one_pair(
     setup: &Setup,
     [dark, lit]: [&Frame; 2],
-    readings: &[Reading],
-    opinion: Option<&Opinion>,
+    readings: &[Estimate],
+    opinion: Option<&Estimate>,
 ) -> String {
     let mut rows = Vec::new();
     if let Some(truth) = setup.true_depth_m() {
@@ -59,7 +59,7 @@ fn one_pair(
     let cycles = dark.frame_cycles + lit.frame_cycles + 1;
     let board_ms = cycles as f64 * setup.cycle().seconds() * 1e3;
     rows.extend([
-        ("depth words", format!("{:09x} dark, {:09x} lit", dark.depth.bits(), lit.depth.bits())),
+        ("depth words", format!("{} dark, {} lit", digits(dark.depth()), digits(lit.depth()))),
         ("estimator", format!("{} cycles", lit.estimator_cycles)),
         ("pair", format!("{} cycles, {board_ms:.6} ms on the board", grouped(cycles))),
     ]);

@@ -6,7 +6,7 @@ use tofsim::network::Histogram;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::subtraction::NAME;
-use tofsim_learn::estimation::{HistogramPair, Panel, Reading};
+use tofsim_learn::estimation::{Estimate, HistogramPair, Panel};
 
 use super::statistics::Moments;
 
@@ -70,7 +70,7 @@ impl PairLog {
 
     /// Takes the next frame; returns its place and, if it ends a pair, what the estimators say of
     /// that.
-    pub fn take(&mut self, frame: &Frame, panel: &Panel) -> (Option<PlaceInPair>, Vec<Reading>) {
+    pub fn take(&mut self, frame: &Frame, panel: &Panel) -> (Option<PlaceInPair>, Vec<Estimate>) {
         let mut paired =
             PlaceInPair { pair: self.count, laser_en: frame.laser_en, difference: None };
         if !frame.laser_en {

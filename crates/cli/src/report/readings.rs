@@ -1,7 +1,7 @@
 //! Tables of the estimators' results.
 
 use tofsim::sim::setup::Setup;
-use tofsim_learn::estimation::Reading;
+use tofsim_learn::estimation::Estimate;
 
 use crate::text::table::{number_or_dash, table};
 
@@ -9,7 +9,7 @@ use super::frame_log::FrameLog;
 use super::statistics::EstimatorStatistics;
 
 /// What each estimator says of the only frame or pair, with its error.
-pub fn rows(setup: &Setup, readings: &[Reading]) -> impl Iterator<Item = (&'static str, String)> {
+pub fn rows(setup: &Setup, readings: &[Estimate]) -> impl Iterator<Item = (&'static str, String)> {
     readings.iter().map(|reading| {
         let error = |depth_m: f64, truth| format!("  {:+.2} mm", 1e3 * (depth_m - truth));
         let depth = |depth_m| {
@@ -26,7 +26,7 @@ pub fn rows(setup: &Setup, readings: &[Reading]) -> impl Iterator<Item = (&'stat
 pub fn many<'a>(
     header: &[&str],
     log: &FrameLog,
-    rows: impl Iterator<Item = (Vec<String>, &'a Vec<Reading>)>,
+    rows: impl Iterator<Item = (Vec<String>, &'a Vec<Estimate>)>,
     left: u64,
     below: Vec<Vec<String>>,
 ) -> String {
@@ -74,7 +74,7 @@ pub fn below_pairs(log: &FrameLog, cells: usize) -> Vec<Vec<String>> {
 }
 
 /// A depth, and that of a second echo, or why there is none.
-pub fn said(reading: &Reading, depth: impl Fn(f64) -> String) -> String {
+pub fn said(reading: &Estimate, depth: impl Fn(f64) -> String) -> String {
     let Some(depth_m) = reading.depth_m else { return reading.failure.clone().unwrap_or_default() };
     let second = reading.second.map(|second| format!(" and {:.6}", second.depth_m));
     depth(depth_m) + &second.unwrap_or_default()
@@ -90,9 +90,7 @@ mod tests {
     fn a_second_surface_stands_beside_the_first_and_its_error() {
         let setup = Setup::load("kc705", &[]).unwrap();
         let second = Some(EchoDepth { depth_m: 0.75, sigma_m: 0.001 });
-        let depth_m = Some(0.501);
-        let reading =
-            Reading { estimator: "two-echoes", depth_m, sigma_m: None, second, failure: None };
+        let reading = Estimate { second, ..Estimate::of_depth("two-echoes", Some(0.501)) };
         let found: Vec<_> = rows(&setup, &[reading]).collect();
         let said = "0.501000 m  +1.00 mm and 0.750000 m".to_owned();
         assert_eq!(found, [("two-echoes", said)]);

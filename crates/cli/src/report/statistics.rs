@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use tofsim_learn::estimation::Reading;
+use tofsim_learn::estimation::Estimate;
 use tofsim_learn::evaluation::spread::is_outlier;
 
 /// Criteria for outliers.
@@ -58,10 +58,10 @@ pub struct Tally(Vec<Depths>);
 
 impl Tally {
     /// Takes what the estimators say of the next frame or pair.
-    pub fn add(&mut self, readings: &[Reading], judge: &Judge) {
+    pub fn add(&mut self, readings: &[Estimate], judge: &Judge) {
         if self.0.is_empty() {
             let empty =
-                |reading: &Reading| Depths { estimator: reading.estimator, ..Depths::default() };
+                |reading: &Estimate| Depths { estimator: reading.estimator, ..Depths::default() };
             self.0 = readings.iter().map(empty).collect();
         }
         for (depths, reading) in self.0.iter_mut().zip(readings) {
@@ -124,8 +124,8 @@ impl Moments {
 mod tests {
     use super::*;
 
-    fn reading(depth_m: Option<f64>) -> Vec<Reading> {
-        vec![Reading { estimator: "peak", depth_m, sigma_m: None, second: None, failure: None }]
+    fn reading(depth_m: Option<f64>) -> Vec<Estimate> {
+        vec![Estimate::of_depth("peak", depth_m)]
     }
 
     #[test]

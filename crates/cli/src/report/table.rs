@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use tofsim::sim::estimates::digits;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 
@@ -48,12 +49,10 @@ pub fn run(setup: &Setup, log: &FrameLog, cycles: Option<u64>, wall: Duration) -
 
 fn one_frame(setup: &Setup, frame: &Frame, log: &FrameLog) -> String {
     let mut rows = Vec::new();
-    let mut estimated = format!("{:.6} m  {:09x}", frame.depth_m(), frame.depth.bits());
     if let Some(truth) = setup.true_depth_m() {
         rows.push(("true depth", format!("{truth:.6} m")));
-        estimated += &format!("  {:+.2} mm", (frame.depth_m() - truth) * 1e3);
     }
-    rows.push(("estimated", estimated));
+    rows.push(("estimated", opinions::in_words(&frame.estimate(), setup.true_depth_m())));
     if let Some(opinion) = &log.opinions[0] {
         rows.push(("second opinion", opinions::in_words(opinion, setup.true_depth_m())));
     }
@@ -76,7 +75,7 @@ fn many_frames(log: &FrameLog) -> String {
         let cells = vec![
             frame.index.to_string(),
             format!("{:.6}", frame.depth_m()),
-            format!("{:09x}", frame.depth.bits()),
+            digits(frame.depth()),
             grouped(frame.tdc_hits),
             grouped(frame.hits()),
             frame.estimator_cycles.to_string(),

@@ -7,12 +7,15 @@ use serde::Serialize;
 use serde_json::json;
 
 use tofsim::error::Result;
-use tofsim::network::{Estimate, estimate};
+use tofsim::firmware::tof_top::FirmwareEstimator;
+use tofsim::firmware::tof_top::slot::EstimateWords;
+use tofsim::network::{self, estimate};
 use tofsim::scenario;
+use tofsim::sim::estimates::digits;
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
 use tofsim_learn::dataset::labelled::histograms;
-use tofsim_learn::estimation::{EstimatorKind, Panel, Reading};
+use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
 use tofsim_learn::quantize::{ExplainedLikelihood, Explanation, LikelihoodExplainer, explain};
 
 use crate::choice::words;
@@ -34,7 +37,7 @@ pub struct Args {
     #[arg(long, value_name = "NAME|FILE")]
     network: Option<String>,
     /// Estimators that see the same histograms too, separated by commas
-    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
+    #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
     /// Built-in scenario, or the path of a scenario file: what estimators know of shots, pulse and chain
     #[arg(long, default_value = scenario::DEFAULT)]
@@ -62,7 +65,7 @@ struct Row<'a> {
     numbers: Numbers,
     /// Results of the other estimators.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    estimates: Vec<Reading>,
+    estimates: Vec<Estimate>,
     #[serde(skip_serializing_if = "Option::is_none")]
     explanation: Option<Explanation>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,9 +74,9 @@ struct Row<'a> {
 
 #[derive(Serialize)]
 struct Numbers {
-    /// The 36-bit word in hexadecimal.
-    depth_raw: String,
-    depth_m: f64,
+    /// The estimate of the network.
+    #[serde(flatten)]
+    estimate: Estimate,
     /// Sums of the hidden neurons as integers, with the fraction bits of their weights.
     l1_in: Vec<i64>,
 }
@@ -115,9 +118,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         );
     }
     let mut report = json!({ "schema": "tofsim.estimate/1", "network": network.name });
-    // The same again for scripts, if there is just one histogram.
-    if let ([row], Some(report)) = (&rows[..], report.as_object_mut()) {
-        report.extend(json!(row.numbers).as_object().cloned().unwrap_or_default());
+    // Once more for scripts, if there is just one histogram.
+    if let [row] = &rows[..] {
+        let numbers = json!(row.numbers);
+        for key in ["depth_raw", "depth_m", "l1_in"] {
+            report[key] = numbers[key].clone();
+        }
     }
     report["histograms"] = json!(rows);
     Record::new(&setup, &talk.command).put_into(&mut report, &notes);
@@ -159,18 +165,27 @@ impl Args {
 }
 
 impl Numbers {
-    fn of(estimate: &Estimate, neurons: usize) -> Self {
+    fn of(pass: &network::Estimate, neurons: usize) -> Self {
+        let words = EstimateWords::of_depth(pass.depth);
         Numbers {
-            depth_raw: format!("{:09x}", estimate.depth.bits()),
-            depth_m: estimate.depth.to_f64(),
-            l1_in: estimate.l1_in[..neurons].iter().map(|sum| sum.get()).collect(),
+            estimate: Estimate::of_words(FirmwareEstimator::Network, &words),
+            l1_in: pass.l1_in[..neurons].iter().map(|sum| sum.get()).collect(),
         }
+    }
+
+    fn depth_m(&self) -> f64 {
+        self.estimate.depth_m.unwrap_or(f64::NAN)
+    }
+
+    fn depth_raw(&self) -> String {
+        self.estimate.depth_raw.map(digits).unwrap_or_default()
     }
 }
 
 /// The values of one estimation, layer by layer, or stage by stage.
 fn explained(row: &Row) -> String {
-    let Row { index, file, numbers: Numbers { depth_raw, depth_m, .. }, .. } = row;
+    let Row { index, file, numbers, .. } = row;
+    let (depth_m, depth_raw) = (numbers.depth_m(), numbers.depth_raw());
     let network = row.explanation.as_ref().map(|of| {
         format!("{file} #{index}: {depth_m:.6} m ({depth_raw})\n{}", explanation::text(of))
     });
@@ -194,8 +209,8 @@ fn table(rows: &[Row], fraction: u32, several: bool) -> String {
     header.extend(several.then_some("file"));
     let rows = rows.iter().map(|Row { index, file, numbers, estimates, .. }| {
         let sums = numbers.l1_in.iter().map(i64::to_string).collect::<Vec<_>>().join(" ");
-        let depth_m = format!("{:.6}", numbers.depth_m);
-        let mut cells = vec![index.to_string(), numbers.depth_raw.clone(), depth_m, sums];
+        let depth_m = format!("{:.6}", numbers.depth_m());
+        let mut cells = vec![index.to_string(), numbers.depth_raw(), depth_m, sums];
         let depth = |reading| readings::said(reading, |depth_m| format!("{depth_m:.6}"));
         cells.extend(estimates.iter().map(depth));
         cells.extend(several.then(|| file.to_string()));

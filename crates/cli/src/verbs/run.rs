@@ -18,7 +18,7 @@ use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
 use tofsim::waves::{Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::notes::notes_of_firmware;
-use tofsim_learn::estimation::{EstimatorKind, Panel};
+use tofsim_learn::estimation::{EstimatorKind, Needs, Panel};
 
 use crate::choice::{self, Fidelity, WaveformChoice, words};
 use crate::record::Record;
@@ -73,7 +73,7 @@ pub struct Args {
     signals: Vec<String>,
     /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
-    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
+    #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
     /// Leave out what the likelihood estimator says of each frame's histogram beside the firmware's own
     #[arg(long)]
@@ -222,7 +222,7 @@ impl Args {
     }
 
     fn wants_pairs(&self) -> bool {
-        self.estimator.contains(&EstimatorKind::Subtraction)
+        self.estimator.iter().any(|kind| kind.needs() == Needs::Dark)
     }
 
     /// Checks that there are pairs if an estimator needs them, and not too many.

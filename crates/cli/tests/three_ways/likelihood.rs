@@ -106,7 +106,7 @@ fn the_likelihood_estimator_s_verilog_finds_the_integers_in_10_000_histograms() 
     let mut statuses = [0; 64];
     for (k, (histogram, line)) in histograms.iter().zip(&lines).enumerate() {
         let found = estimate(&params, histogram);
-        let (depth, status) = (found.depth.bits(), found.status);
+        let (depth, status) = (found.depth.bits(), found.status.bits());
         let expected = format!(
             "{depth:09x} {} {:09x} {status:02x} {:09x} {:b}",
             params.done(),
@@ -117,7 +117,7 @@ fn the_likelihood_estimator_s_verilog_finds_the_integers_in_10_000_histograms() 
         assert_eq!(line, &expected, "histogram {k}: {histogram:?}");
         statuses[usize::from(status)] += 1;
     }
-    let with = |bit: u8| -> usize {
+    let with = |bit: u16| -> usize {
         let all = statuses.iter().enumerate();
         all.filter(|(status, _)| status & usize::from(bit) != 0).map(|(_, count)| count).sum()
     };

@@ -11,7 +11,7 @@ use tofsim::scenario::Loaded;
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::Setup;
 
-use crate::estimation::EstimatorKind;
+use crate::estimation::{EstimatorKind, Needs};
 
 use super::bound::Bound;
 use super::budget::{DepthBudget, EffectErrors};
@@ -50,7 +50,7 @@ impl Plan {
             let expected = format!("{}; expected {} for an error budget", why.text, why.expected);
             return Err(refused(&why.key, &expected).value(&why.value).into());
         }
-        if setup.has_pairs() || kind == EstimatorKind::Subtraction {
+        if setup.has_pairs() || kind.needs() == Needs::Dark {
             let expected = "expected single frames and an estimator of these: an error budget has no dark ones";
             let key = if setup.has_pairs() { "firmware.dark_frames" } else { "--estimator" };
             let value = if setup.has_pairs() { "true" } else { kind.name() };

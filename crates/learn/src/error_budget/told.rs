@@ -1,7 +1,7 @@
 //! The estimator of a variant: told what the variant's histograms are like, and with its own effects on or off.
 
 use tofsim::error::Result;
-use tofsim::firmware::centroid_estimator::{Params as CentroidParams, SLOPE_FRACTION};
+use tofsim::firmware::centroid_estimator::Params as CentroidParams;
 use tofsim::firmware::depth_estimator::Params as NetworkParams;
 use tofsim::firmware::forward1::L1In;
 use tofsim::firmware::likelihood_estimator::params::Params;
@@ -9,7 +9,7 @@ use tofsim::network::float::Float;
 use tofsim::sim::estimates::centroid::locate;
 
 use crate::estimation::estimator::Failure;
-use crate::estimation::likelihood_estimator::LikelihoodEstimator;
+use crate::estimation::in_firmware::likelihood_estimator;
 use crate::estimation::network::NetworkEstimator;
 use crate::estimation::{Acquisition, Estimator, EstimatorInputs, EstimatorKind};
 use crate::quantize::likelihood::LikelihoodExplainer;
@@ -24,16 +24,14 @@ use super::variant::Variant;
 pub fn estimator(kind: EstimatorKind, variant: &Variant) -> Result<Box<dyn Estimator>> {
     let Variant { effects, setup, told_bins: bins, told_shots, .. } = variant;
     let is_fixed = effects.has(Effect::FixedPoint);
-    if matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat) {
-        setup.check_network()?;
-    }
+    kind.check(setup)?;
     Ok(match kind {
         EstimatorKind::Network if !(is_fixed && effects.has(Effect::Table)) => {
             network(variant, is_fixed, effects.has(Effect::Table))
         }
         EstimatorKind::LikelihoodEstimator if is_fixed => {
             let params = setup.likelihood_of(*told_shots, bins, Params::new)?;
-            Box::new(LikelihoodEstimator::new(params))
+            Box::new(likelihood_estimator(params))
         }
         EstimatorKind::LikelihoodEstimator => {
             Box::new(LikelihoodTwin(LikelihoodExplainer::of_bins(setup, *told_shots, bins)?))
@@ -88,8 +86,8 @@ impl Estimator for LikelihoodTwin {
 
     fn estimate(&self, histogram: &[u32]) -> std::result::Result<f64, Failure> {
         match self.0.float(histogram) {
-            (depth_m, 0) => Ok(depth_m),
-            (_, status) => Err(Failure::NotBelieved(status)),
+            (depth_m, status) if status.is_empty() => Ok(depth_m),
+            (_, status) => Err(Failure::Rejected(status)),
         }
     }
 }
@@ -112,8 +110,8 @@ impl Estimator for CentroidTwin {
         let window = histogram.iter().enumerate().take(found.peak + half_width + 1);
         let window = window.skip(found.peak.saturating_sub(half_width));
         let sum: f64 = window.map(|(bin, &count)| f64::from(count) * (bin as f64 + 0.5)).sum();
-        let bin_m = p.slope.get() as f64 / (1u64 << SLOPE_FRACTION) as f64;
-        Ok(sum / found.best_sum as f64 * bin_m + p.offset.to_f64())
+        let (bin_m, offset_m): (f64, f64) = (p.slope_m().to_num(), p.offset_m().to_num());
+        Ok(sum / found.best_sum as f64 * bin_m + offset_m)
     }
 }
 

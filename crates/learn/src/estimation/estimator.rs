@@ -1,9 +1,9 @@
 //! Interface of estimators: the distance of a target from a histogram, or the reason for a failure.
 
-use serde::Serialize;
-
-use tofsim::firmware::likelihood_estimator::words::status;
+use tofsim::firmware::tof_top::status::{Status, StatusSet};
 use tofsim::network::Histogram;
+
+pub use tofsim::sim::estimates::{EchoDepth, Estimate};
 
 /// A dark and a lit histogram of equally many shots.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,15 +71,20 @@ impl Found {
     pub fn depth(depth_m: f64) -> Self {
         Found { depth_m, sigma_m: None, second: None }
     }
-}
 
-/// Where an echo comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct EchoDepth {
-    /// Distance of what it comes from [m].
-    pub depth_m: f64,
-    /// Its standard deviation [m].
-    pub sigma_m: f64,
+    /// The result of an estimator in the form of all estimates.
+    pub fn estimate(estimator: &'static str, found: Result<Self, Failure>) -> Estimate {
+        match found {
+            Ok(Found { depth_m, sigma_m, second }) => {
+                Estimate { sigma_m, second, ..Estimate::of_depth(estimator, Some(depth_m)) }
+            }
+            Err(failure) => Estimate {
+                status: failure.status(),
+                failure: Some(failure.to_string()),
+                ..Estimate::of_depth(estimator, None)
+            },
+        }
+    }
 }
 
 /// Why there is no distance.
@@ -108,9 +113,25 @@ pub enum Failure {
     /// The iterations did not settle.
     #[error("no convergence")]
     NoConvergence,
-    /// The estimator does not believe it, for those reasons: bits of a [`status`].
-    #[error("{}", status::words(*.0).join(", "))]
-    NotBelieved(u8),
+    /// The estimator rejects its depth.
+    #[error("{0}")]
+    Rejected(StatusSet),
+}
+
+impl Failure {
+    /// The failure as the status of an estimate.
+    pub fn status(self) -> StatusSet {
+        let status = match self {
+            Failure::NoHits => Status::NoHits,
+            Failure::TooManyHits { .. } => Status::TooManyHits,
+            Failure::NoPeak => Status::NoPeak,
+            Failure::SeveralPeaks(_) => Status::SeveralPeaks,
+            Failure::NoDarkFrame => Status::NoDarkFrame,
+            Failure::NoConvergence => Status::NoConvergence,
+            Failure::Rejected(status) => return status,
+        };
+        status.into()
+    }
 }
 
 /// Sum of a histogram, which has to be 1 to `most` [hits].

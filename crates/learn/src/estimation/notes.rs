@@ -9,9 +9,9 @@ use tofsim::Note;
 use tofsim::scenario::effects::Method;
 use tofsim::sim::setup::Setup;
 
-use super::by_name::EstimatorKind;
 use super::centroid::Centroid;
 use super::peak_detection::PeakDetection;
+use super::registry::EstimatorKind;
 
 use model_check::{ModelCheck, OPTION};
 

@@ -1,36 +1,16 @@
 //! Several estimators over the same histograms.
 
-use serde::Serialize;
-
 use tofsim::error::Result;
 use tofsim::sim::setup::Setup;
 
 use super::acquisition::Acquisition;
-use super::by_name::{EstimatorInputs, EstimatorKind};
-use super::estimator::{EchoDepth, Estimator, Failure, Found, HistogramPair};
+use super::estimator::{Estimate, Estimator, Failure, Found, HistogramPair};
+use super::registry::{EstimatorInputs, EstimatorKind, Needs};
 
 /// Estimators that look at each histogram of a run, beside the one in the firmware.
 #[derive(Default)]
 pub struct Panel {
     estimators: Vec<Box<dyn Estimator>>,
-}
-
-/// What one of them says of a histogram.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Reading {
-    /// Its name on the command line.
-    pub estimator: &'static str,
-    /// Distance of the target [m]; null where it failed.
-    pub depth_m: Option<f64>,
-    /// Standard deviation of the depth, where the estimator states one [m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sigma_m: Option<f64>,
-    /// A second echo, where the estimator looks for one and has found it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub second: Option<EchoDepth>,
-    /// Why it failed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub failure: Option<String>,
 }
 
 impl Panel {
@@ -41,12 +21,11 @@ impl Panel {
     pub fn new(kinds: &[EstimatorKind], setup: &Setup) -> Result<Self> {
         let bins = &setup.known_bins();
         let estimator = |kind: &EstimatorKind| {
-            if matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat) {
-                setup.check_network()?;
-            }
-            let shots = match kind {
-                EstimatorKind::Subtraction => setup.scenario.firmware.shots_per_frame,
-                _ => setup.params.frame_ctrl.shots_per_frame.into(),
+            kind.check(setup)?;
+            let shots = if kind.needs() == Needs::Dark {
+                setup.scenario.firmware.shots_per_frame
+            } else {
+                setup.params.frame_ctrl.shots_per_frame.into()
             };
             let acquisition = Acquisition::of(setup, bins, shots);
             let network = &setup.network;
@@ -66,36 +45,28 @@ impl Panel {
         self.estimators
     }
 
-    /// What each says of a frame, in the order in which they were named.
-    pub fn read(&self, histogram: &[u32]) -> Vec<Reading> {
+    /// Returns the estimates for a frame, in the order in which the estimators were named.
+    pub fn read(&self, histogram: &[u32]) -> Vec<Estimate> {
         self.each(|estimator| estimator.find(histogram))
     }
 
-    /// What each says of a dark and a lit frame; most look at the lit one only.
-    pub fn read_pair(&self, pair: &HistogramPair) -> Vec<Reading> {
-        self.each(|estimator| match estimator.needs_dark() {
-            true => estimator.estimate_pair(pair).map(Found::depth),
-            false => estimator.find(&pair.lit),
+    /// Returns the estimates for a dark and a lit frame; most estimators look at the lit one only.
+    pub fn read_pair(&self, pair: &HistogramPair) -> Vec<Estimate> {
+        self.each(|estimator| {
+            if estimator.needs_dark() {
+                estimator.estimate_pair(pair).map(Found::depth)
+            } else {
+                estimator.find(&pair.lit)
+            }
         })
     }
 
     fn each(
         &self,
         find: impl Fn(&dyn Estimator) -> std::result::Result<Found, Failure>,
-    ) -> Vec<Reading> {
-        let reading = |one: &dyn Estimator| {
-            let found = find(one);
-            let failure = found.as_ref().err().map(ToString::to_string);
-            let found = found.ok();
-            Reading {
-                estimator: one.name(),
-                depth_m: found.map(|found| found.depth_m),
-                sigma_m: found.and_then(|found| found.sigma_m),
-                second: found.and_then(|found| found.second),
-                failure,
-            }
-        };
-        self.estimators.iter().map(|one| reading(one.as_ref())).collect()
+    ) -> Vec<Estimate> {
+        let estimators = self.estimators.iter().map(AsRef::as_ref);
+        estimators.map(|one| Found::estimate(one.name(), find(one))).collect()
     }
 }
 
@@ -114,6 +85,10 @@ mod tests {
         let nothing = panel.read(&[0; 256]);
         let failures: Vec<_> = nothing.iter().map(|reading| reading.failure.as_deref()).collect();
         assert_eq!(failures, [Some("no hits"), None, Some("no hits")]);
+        for reading in &nothing {
+            let words: Vec<_> = reading.failure.iter().map(String::as_str).collect();
+            assert_eq!((reading.status.words(), reading.valid), (words.clone(), words.is_empty()));
+        }
         assert!(Panel::default().read(&[0; 256]).is_empty());
     }
 

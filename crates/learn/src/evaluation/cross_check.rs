@@ -61,8 +61,8 @@ impl CrossCheck {
         let setup = Setup::of_counts(loaded)?;
         let (mut sums, mut other_depths) = (vec![0u64; setup.params.histogram.bins], 0);
         let mut take = |frame: &Frame| {
-            let same = setup.depth(&frame.histogram);
-            other_depths += u64::from(same != frame.depth);
+            let same = setup.estimate_words(&frame.histogram).depth;
+            other_depths += u64::from(same != frame.words.depth);
             for (sum, &count) in sums.iter_mut().zip(&frame.histogram) {
                 *sum += u64::from(count);
             }

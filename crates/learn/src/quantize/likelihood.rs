@@ -13,9 +13,11 @@ use serde::Serialize;
 
 use tofsim::error::Input;
 use tofsim::firmware::likelihood_estimator::words::{
-    AMBIENT_FRACTION, CHI_FRACTION, DEPTH_FRACTION, SIGNAL_FRACTION, UNITS, status,
+    AMBIENT_FRACTION, CHI_FRACTION, DEPTH_FRACTION, SIGNAL_FRACTION, UNITS,
 };
+use tofsim::firmware::tof_top::status::StatusSet;
 use tofsim::optics::Bins;
+use tofsim::sim::estimates::digits;
 use tofsim::sim::estimates::likelihood::{Best, Point, Trace, trace};
 use tofsim::sim::setup::Setup;
 
@@ -50,10 +52,10 @@ pub struct ExplainedLikelihood {
     pub depth_m: f64,
     /// Its standard deviation [m].
     pub sigma_m: f64,
-    /// Why not to believe it; nothing if it is to be.
-    pub status: Vec<&'static str>,
+    /// Reasons to reject it.
+    pub status: StatusSet,
     /// The same in double precision.
-    pub status_float: Vec<&'static str>,
+    pub status_float: StatusSet,
     /// What the stages come to, in their order.
     pub values: Vec<StageValue>,
 }
@@ -80,8 +82,8 @@ impl LikelihoodExplainer {
         setup.likelihood_of(shots, bins, Model::new).map(LikelihoodExplainer)
     }
 
-    /// The depth in double precision [m], and why not to believe it, in the bits of a [`status`].
-    pub fn float(&self, histogram: &[u32]) -> (f64, u8) {
+    /// The depth in double precision [m], and its status.
+    pub fn float(&self, histogram: &[u32]) -> (f64, StatusSet) {
         let twin = Twin::new(&self.0, histogram);
         (twin.depth_m, twin.status)
     }
@@ -103,11 +105,11 @@ impl LikelihoodExplainer {
         values.best("rescan", &fixed.other, &float.other);
         values.end(&fixed, &float);
         ExplainedLikelihood {
-            depth_raw: format!("{:09x}", fixed.found.depth.bits()),
+            depth_raw: digits(fixed.found.words().depth_m()),
             depth_m: fixed.found.depth.to_f64(),
             sigma_m: fixed.found.sigma_m(),
-            status: status::words(fixed.found.status),
-            status_float: status::words(float.status),
+            status: fixed.found.status,
+            status_float: float.status,
             values: values.all,
         }
     }
@@ -167,8 +169,8 @@ impl Values<'_> {
         let one = (-f64::from(CHI_FRACTION)).exp2();
         let found = &fixed.found;
         self.add("chi-square", "1", found.chi_square as i64, one, float.chi_square);
-        let status = f64::from(float.status);
-        self.add("status", "bits", found.status.into(), 1.0, status);
+        let status = f64::from(float.status.bits());
+        self.add("status", "bits", found.status.bits().into(), 1.0, status);
         self.add("sigma", "mm", found.sigma as i64, 1e3 * metre, 1e3 * float.sigma_m);
         self.add("depth", "m", found.depth.get(), metre, float.depth_m);
     }

@@ -39,7 +39,7 @@ proptest! {
         let bins = bins(profile);
         let acquisition = Acquisition { shots, ..acquisition(&bins) };
         let needs = EstimatorInputs { acquisition, network: &setup.network, setup };
-        for (_, kind, _) in EstimatorKind::ALL {
+        for &(_, kind, _) in EstimatorKind::ALL {
             if kind == EstimatorKind::Subtraction {
                 continue;
             }

@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 
 use tofsim::Setup;
 use tofsim::firmware::likelihood_estimator::params::Params;
-use tofsim::firmware::likelihood_estimator::words::status;
+use tofsim::firmware::tof_top::status::Status;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::sim::estimates::likelihood::{Found, estimate};
@@ -100,10 +100,10 @@ struct Tally {
 impl Tally {
     fn add(&mut self, found: &Found, distance_m: f64, bound_m: f64) {
         self.drawn += 1.0;
-        for (count, (bit, _)) in self.reasons.iter_mut().zip(status::ALL) {
-            *count += u32::from(found.status & bit != 0);
+        for (count, &status) in self.reasons.iter_mut().zip(Status::ALL) {
+            *count += u32::from(found.status.contains(status));
         }
-        if found.status != 0 {
+        if !found.status.is_empty() {
             self.raised += 1.0;
             return;
         }
@@ -147,8 +147,9 @@ impl Tally {
     }
 
     fn row(&self, name: &str) -> String {
-        let reasons = self.reasons.iter().zip(status::ALL).filter(|(count, _)| **count > 0);
-        let reasons: String = reasons.map(|(count, (_, why))| format!(", {count} {why}")).collect();
+        let reasons = self.reasons.iter().zip(Status::ALL).filter(|(count, _)| **count > 0);
+        let reasons: String =
+            reasons.map(|(count, status)| format!(", {count} {}", status.word())).collect();
         format!(
             "{name:24} {:7} drawn, status {:5.2} %, ratio {:.3}, own {:.3}, mean {:+.3} mm, bound {:.2} mm, far {}{reasons}",
             self.drawn,

@@ -6,8 +6,9 @@
 //! cuts it short, in each state in turn.
 
 use tofsim::firmware::likelihood_estimator::params::Params;
-use tofsim::firmware::likelihood_estimator::words::status;
 use tofsim::firmware::likelihood_estimator::{In, LikelihoodEstimator, State};
+use tofsim::firmware::tof_top::slot::SlotEstimator;
+use tofsim::firmware::tof_top::status::Status;
 use tofsim::kernel::U;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
 use tofsim::sim::setup::Setup;
@@ -64,7 +65,7 @@ impl Outcome {
             TWO => (332..=425).contains(&self.rescan),
             USED_UP => self.waiting.is_some_and(|waiting| (1..32).contains(&waiting)),
             RISING => flags(6) && !flags(5) && !self.cut,
-            ODD => self.status == u64::from(status::NO_FIT),
+            ODD => self.status == u64::from(Status::NoFit.bit()),
             UNARMED => self.status == 0,
             FALLING => flags(5) && !flags(6) && !self.cut,
             _ => true,

@@ -3,7 +3,7 @@
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tdc_decoder::Decoder;
-use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params};
+use tofsim::firmware::tof_top::{CodeSource, FirmwareEstimator, HistogramSource, Params};
 use tofsim::firmware::{
     centroid_estimator, depth_estimator, likelihood_estimator, pll, tdc_calibration, vcsel_driver,
 };
@@ -232,14 +232,15 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         ("HistogramSource", Number(preloads_histogram.into())),
         ("HistogramFile", Memory(histogram(words, &params.histogram))),
     ]);
+    if params.estimator != FirmwareEstimator::default() {
+        list.push(("Estimator", Number(params.estimator.number())));
+    }
     match params.estimator {
-        Estimator::Network => {}
-        Estimator::Centroid => {
-            list.push(("Estimator", Number(1)));
+        FirmwareEstimator::Network => {}
+        FirmwareEstimator::Centroid => {
             list.extend(centroid_estimator(&params.centroid_estimator));
         }
-        Estimator::Likelihood => {
-            list.push(("Estimator", Number(2)));
+        FirmwareEstimator::Likelihood => {
             list.extend(likelihood_estimator(&params.likelihood_estimator));
         }
     }
@@ -255,7 +256,7 @@ pub fn tof_top_in_full(setup: &Setup) -> Parameters {
         all(params, OPTIONS.into_iter()),
         tdc_calibration(&tdc_calibration::Params::stand_in(&params.tdc)),
         all(params, sizes_of(TOF_TOP)),
-        vec![("Estimator", Parameter::Number(params.estimator as u64))],
+        vec![("Estimator", Parameter::Number(params.estimator.number()))],
         centroid_estimator(&params.centroid_estimator),
         likelihood_estimator(&params.likelihood_estimator),
     ];

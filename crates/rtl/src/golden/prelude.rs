@@ -1,6 +1,7 @@
 //! Imports for the file of a block's stimulus.
 
 pub use tofsim::error::Result;
+pub use tofsim::firmware::tof_top::slot::SlotEstimator;
 pub use tofsim::kernel::signals::Signals;
 pub use tofsim::kernel::sizes::Size;
 pub use tofsim::kernel::{Clocked, S, Time, U};

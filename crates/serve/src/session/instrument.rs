@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use tofsim::Note;
 use tofsim::error::Result;
+use tofsim::firmware::tof_top::status::Status;
 use tofsim::optics::Hazard;
 use tofsim::optics::cause_parts::cause_parts;
 use tofsim::sim::frames::Frame;
@@ -13,7 +14,7 @@ use tofsim::sim::partings::Partings;
 use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::error_budget::Bound;
-use tofsim_learn::estimation::{EstimatorKind, Panel};
+use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
 
 /// Estimators shown in addition to the one in the estimator slot.
 const PANEL: [EstimatorKind; 3] =
@@ -36,14 +37,11 @@ pub struct Instrument {
 /// Estimate of a frame's depth.
 #[derive(Clone, Debug, Serialize)]
 pub struct Depth {
-    /// Name of the estimator.
-    pub estimator: &'static str,
+    /// The estimate.
+    #[serde(flatten)]
+    pub estimate: Estimate,
     /// Whether this is the firmware's estimator.
     pub in_socket: bool,
-    /// Distance of the target [m].
-    pub depth_m: Option<f64>,
-    /// Reason why there is no depth.
-    pub failure: Option<String>,
 }
 
 impl Instrument {
@@ -78,31 +76,24 @@ impl Instrument {
         Ok(Instrument { panel: panel.into(), second, bound_two_sd_mm, notes, parts, setup })
     }
 
-    /// Returns each estimator's depth of a frame; that of the estimator slot is the firmware's.
+    /// Returns each estimator's estimate of a frame; that of the estimator slot is the firmware's.
     pub fn depths(&self, frame: &Frame) -> Vec<Depth> {
-        let socket = EstimatorKind::in_socket(&self.setup.scenario).name();
-        let own = Depth {
-            estimator: socket,
-            in_socket: true,
-            depth_m: Some(frame.depth_m()),
-            failure: None,
-        };
-        let others = self.panel.iter().filter(|(name, _)| *name != socket);
+        let own = Depth { estimate: frame.estimate(), in_socket: true };
+        let others = self.panel.iter().filter(|(name, _)| *name != own.estimate.estimator);
         let others = others.map(|(name, panel)| {
-            let reading = panel.as_ref().map_err(String::clone).and_then(|panel| {
-                let reading = panel.read(&frame.histogram).pop();
-                let reading = reading.ok_or_else(|| "no reading".to_owned())?;
-                reading.depth_m.ok_or_else(|| reading.failure.unwrap_or_default())
-            });
-            Depth {
-                estimator: name,
-                in_socket: false,
-                depth_m: reading.as_ref().ok().copied(),
-                failure: reading.err(),
-            }
+            let read = |panel: &Panel| panel.read(&frame.histogram).pop();
+            let refused = |why: &String| Estimate {
+                status: Status::OutsideModel.into(),
+                failure: Some(why.clone()),
+                ..Estimate::of_depth(name, None)
+            };
+            let estimate = panel.as_ref().map_or_else(|why| Some(refused(why)), read);
+            let estimate = estimate.unwrap_or_else(|| Estimate::of_depth(name, None));
+            Depth { estimate, in_socket: false }
         });
-        let mut depths: Vec<_> = std::iter::once(own).chain(others).collect();
-        let place = |depth: &Depth| PANEL.iter().position(|kind| kind.name() == depth.estimator);
+        let mut depths: Vec<_> = others.chain([own.clone()]).collect();
+        let place =
+            |depth: &Depth| PANEL.iter().position(|kind| kind.name() == depth.estimate.estimator);
         depths.sort_by_key(|depth| place(depth).unwrap_or(PANEL.len()));
         depths
     }

@@ -6,6 +6,7 @@ use tofsim::error::{Input, Result};
 use tofsim::firmware::frame_ctrl::State;
 use tofsim::firmware::tof_top::Pins;
 use tofsim::optics::budget::LIGHT_M_S;
+use tofsim::sim::estimates::digits;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 
@@ -164,7 +165,7 @@ impl FrameView {
             layers: Vec::new(),
             causes_seen: false,
             depths: Vec::new(),
-            depth_raw: format!("{:09x}", frame.depth.bits()),
+            depth_raw: digits(frame.depth()),
             true_m: None,
             bound_two_sd_mm: None,
             phases: [

@@ -38,7 +38,7 @@ impl Strip {
         if self.0.len() == KEPT {
             self.0.pop_front();
         }
-        let depths_m = depths.iter().map(|depth| depth.depth_m.map(rounded)).collect();
+        let depths_m = depths.iter().map(|depth| depth.estimate.depth_m.map(rounded)).collect();
         let bound_two_sd_mm = bound_two_sd_mm.map(rounded);
         self.0.push_back(StripPoint { frame, true_m, depths_m, bound_two_sd_mm });
     }

@@ -5,6 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::firmware::likelihood_estimator::{In, LikelihoodEstimator};
+use crate::firmware::tof_top::slot::SlotEstimator;
 use crate::kernel::U;
 use crate::optics::{BinProbabilities, Hazard};
 use crate::sim::setup::Setup;
@@ -25,7 +26,7 @@ fn step(block: &mut LikelihoodEstimator, p: &Params, histogram: &[u32]) -> (Foun
     let found = Found {
         depth: now.depth,
         sigma: now.sigma.get(),
-        status: now.status.get() as u8,
+        status: now.status.into(),
         chi_square: now.chi_square.get(),
     };
     (found, edges)

@@ -4,9 +4,11 @@ use crate::firmware::forward2::Depth;
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::tables::{Tables, length, reciprocal};
 use crate::firmware::likelihood_estimator::words::{
-    ANOTHER_SCORE, CHI_FRACTION, DEPTH_FRACTION, LEAST_SCORE, LEAST_WAITING, SURE_SCORE,
-    WEIGHT_FRACTION, status,
+    ANOTHER_SCORE, ChiSquare, LEAST_SCORE, LEAST_WAITING, SURE_SCORE, WEIGHT_FRACTION,
 };
+use crate::firmware::tof_top::slot::{EstimateWords, SigmaM};
+use crate::firmware::tof_top::status::{Status, StatusSet};
+use crate::kernel::U;
 
 use super::arithmetic::{product, root};
 use super::histogram::Shots;
@@ -33,21 +35,31 @@ pub struct Found {
     pub depth: Depth,
     /// Its standard deviation, with as many fraction bits [m].
     pub sigma: u64,
-    /// Reasons to reject it: bits of [`status`](crate::firmware::likelihood_estimator::words::status).
-    pub status: u8,
+    /// Reasons to reject it: the firmware's status word.
+    pub status: StatusSet,
     /// Sum of squared residuals over their variances, 8 fraction bits [1].
     pub chi_square: u64,
 }
 
 impl Found {
+    /// The words as the ports have them.
+    pub fn words(&self) -> EstimateWords {
+        EstimateWords {
+            depth: self.depth,
+            sigma: U::new(self.sigma),
+            status: U::new(self.status.bits().into()),
+            valid: self.status.is_empty(),
+        }
+    }
+
     /// Standard deviation of the depth [m].
     pub fn sigma_m(&self) -> f64 {
-        self.sigma as f64 / (1u64 << DEPTH_FRACTION) as f64
+        SigmaM::from_bits(self.sigma).to_num()
     }
 
     /// Chi-square of the fit [1].
     pub fn chi_square(&self) -> f64 {
-        self.chi_square as f64 / f64::from(1 << CHI_FRACTION)
+        ChiSquare::from_bits(self.chi_square).to_num()
     }
 }
 
@@ -86,17 +98,17 @@ pub fn verdict(
         unsure || variance > MOST_VARIANCE || start.score < LEAST_SCORE || sigma > p.sigma << 4;
     let cut_off = last.arrival < margin || p.end() - last.arrival < margin;
     let reasons = [
-        (no_echo, status::NO_ECHO),
-        (cut_off, status::CUT_OFF),
-        (used_up, status::USED_UP),
-        (other.score > ANOTHER_SCORE, status::ANOTHER),
-        (cut > 0 || move_by.abs() > 2 * sigma, status::NOT_SETTLED),
-        (far, status::NO_FIT),
+        (no_echo, Status::NoEcho),
+        (cut_off, Status::CutOff),
+        (used_up, Status::UsedUp),
+        (other.score > ANOTHER_SCORE, Status::Another),
+        (cut > 0 || move_by.abs() > 2 * sigma, Status::NotSettled),
+        (far, Status::NoFit),
     ];
     Found {
         depth: Depth::new(to_depth(last.arrival) - p.delay),
         sigma: to_depth(sigma) as u64,
-        status: reasons.iter().filter(|(holds, _)| *holds).map(|(_, bit)| bit).sum(),
+        status: StatusSet::of(&reasons),
         chi_square: chi_square as u64,
     }
 }

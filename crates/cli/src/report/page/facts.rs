@@ -2,9 +2,10 @@
 
 use serde_json::Value;
 
+use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::scenario::show::schema;
-use tofsim::scenario::{EstimatorKind, Part, Scenario};
+use tofsim::scenario::{Part, Scenario};
 use tofsim::sim::setup::Setup;
 
 use crate::page::html::table;
@@ -106,14 +107,10 @@ fn light(setup: &Setup) -> Facts {
 /// Frame, estimator and scene.
 fn frame(setup: &Setup) -> Facts {
     let Scenario { firmware, estimator, target, ambient, .. } = &setup.scenario;
-    let name = match estimator.kind {
-        EstimatorKind::Network => {
-            format!("network of {} neurons", setup.params.depth_estimator.neurons())
-        }
-        EstimatorKind::Centroid => {
-            format!("centroid, {} bins to either side", estimator.centroid_half_width)
-        }
-        EstimatorKind::Likelihood => "maximum likelihood".to_owned(),
+    let name = if estimator.kind == FirmwareEstimator::Network {
+        format!("network of {} neurons", setup.params.depth_estimator.neurons())
+    } else {
+        estimator.kind.module().replace('_', " ")
     };
     let cycles = setup.params.estimator_cycles();
     let us = short(cycles as f64 * cycle_ns(setup) / 1e3);

@@ -24,7 +24,7 @@ pub struct ErrorArgs {
     #[arg(long)]
     pub errors: bool,
     /// With --errors: estimator to analyse [default: the one in the firmware's estimator slot]
-    #[arg(long, requires = "errors", value_parser = words(&EstimatorKind::ALL))]
+    #[arg(long, requires = "errors", value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
     /// With --errors: frames to draw of each variant
     #[arg(

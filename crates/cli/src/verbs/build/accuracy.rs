@@ -8,8 +8,8 @@ use serde_json::Value;
 use tofsim::error::{Input, Result, read_text};
 use tofsim::files::folder;
 use tofsim::network::Network;
-use tofsim::scenario::EstimatorKind;
 use tofsim_learn::dataset::{GridOption, GridPurpose};
+use tofsim_learn::estimation::EstimatorKind;
 
 use super::files::NETWORK;
 use super::site::Site;
@@ -29,13 +29,16 @@ pub fn run(site: &Site) -> Result<Outcome> {
     let grid = GridOption::parse(&options)?.grid(scenario, GridPurpose::Test)?;
     let most = if site.quick { QUICK_ROWS } else { ROWS };
     let rows = (grid.scenes().saturating_mul(REPEATS) > most).then(|| most.to_string());
-    let (network, estimator) = match scenario.estimator.kind {
-        EstimatorKind::Network => (NETWORK, "network,network-float"),
-        EstimatorKind::Centroid => (Network::DEFAULT, "centroid"),
-        EstimatorKind::Likelihood => (Network::DEFAULT, "likelihood_estimator"),
+    let own = EstimatorKind::in_socket(scenario);
+    let (network, estimators) = if own.is_network() {
+        let is_network = |(_, kind, _): &&(_, EstimatorKind, _)| kind.is_network();
+        (NETWORK, EstimatorKind::ALL.iter().filter(is_network).map(|(name, ..)| *name).collect())
+    } else {
+        (Network::DEFAULT, vec![own.name()])
     };
+    let estimators = estimators.join(",");
     let mut words = vec!["evaluate", network, "--scenario", site.scenario(), "-o", FOLDER];
-    words.extend(["--estimator", estimator, "--check", "2"]);
+    words.extend(["--estimator", &estimators, "--check", "2"]);
     options.iter().for_each(|option| words.extend(["--grid", option]));
     rows.iter().for_each(|rows| words.extend(["--rows", rows]));
     let agrees = site.run(&words)? == ExitCode::SUCCESS;

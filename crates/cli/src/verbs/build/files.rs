@@ -6,8 +6,9 @@ use toml_edit::{DocumentMut, Item, Table, value};
 
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::output::write_bytes;
+use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::scenario::builtin::{self, Source};
-use tofsim::scenario::{self, EstimatorKind, Loaded, Scenario};
+use tofsim::scenario::{self, Loaded, Scenario};
 use tofsim_learn::training::recipe::Recipe;
 
 use crate::verbs::train;
@@ -48,7 +49,7 @@ impl InstrumentFiles {
         let mut document: DocumentMut = text.parse().map_err(fault)?;
         let mut files = Vec::new();
         let Scenario { tdc, stimulus, estimator, .. } = &loaded.scenario;
-        if estimator.kind == EstimatorKind::Network {
+        if estimator.kind == FirmwareEstimator::Network {
             set(&mut document, "estimator", "network", NETWORK);
         }
         if builtin::chain(&tdc.profile).is_none() && tdc.profile.contains(['/', '.']) {

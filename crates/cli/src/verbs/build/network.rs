@@ -6,8 +6,8 @@ use serde_json::json;
 
 use tofsim::error::{Error, Result, read_text};
 use tofsim::files::output::write_bytes;
+use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::network::Network;
-use tofsim::scenario::EstimatorKind;
 use tofsim::sim::domain;
 use tofsim_learn::dataset::{GridOption, GridPurpose};
 
@@ -19,7 +19,7 @@ use super::step::Outcome;
 const TRAINING: &str = "training";
 
 pub fn run(site: &Site, anew: bool) -> Result<Outcome> {
-    if site.loaded.scenario.estimator.kind != EstimatorKind::Network {
+    if site.loaded.scenario.estimator.kind != FirmwareEstimator::Network {
         let result = json!({ "how": "none" });
         let summary = "none: the estimator is no network".to_owned();
         return Ok(Outcome { outputs: Vec::new(), result, passed: true, summary });

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use tofsim::error::Result;
 use tofsim::files::output::write_bytes;
-use tofsim::scenario::EstimatorKind;
+use tofsim::firmware::tof_top::FirmwareEstimator;
 
 use crate::record::Record;
 use crate::report::page::{Page, StepRow};
@@ -24,7 +24,7 @@ pub fn run(site: &Site, journal: &Journal) -> Result<Outcome> {
     let is_made = journal.is_whole(Step::Network);
     let setup = if is_made { site.with_network()? } else { site.setup.clone() };
     let mut notes: Vec<String> = site.notes.iter().map(|note| note.text.clone()).collect();
-    if is_made && setup.scenario.estimator.kind == EstimatorKind::Network {
+    if is_made && setup.scenario.estimator.kind == FirmwareEstimator::Network {
         notes = setup.notes()?.iter().map(ToString::to_string).collect();
     }
     let result = |step: Step| -> Value {
@@ -61,11 +61,10 @@ pub fn run(site: &Site, journal: &Journal) -> Result<Outcome> {
         steps: steps.collect(),
         network: result(Step::Network),
         evaluation,
-        errors: picture(Path::new(accuracy::FOLDER).join(match setup.scenario.estimator.kind {
-            EstimatorKind::Network => "network_by_distance_m.svg",
-            EstimatorKind::Centroid => "centroid_by_distance_m.svg",
-            EstimatorKind::Likelihood => "likelihood_estimator_by_distance_m.svg",
-        })),
+        errors: picture(
+            Path::new(accuracy::FOLDER)
+                .join(format!("{}_by_distance_m.svg", setup.params.estimator.estimator())),
+        ),
         histogram: picture(Path::new(frame::FOLDER).join("histogram.svg")),
         frame: ran,
         cost: result(Step::Cost),

@@ -36,7 +36,7 @@ pub struct Args {
     #[command(flatten)]
     pub(super) draws: Draws,
     /// Estimators, separated by commas
-    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
+    #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
     pub(super) estimator: Vec<EstimatorKind>,
     /// Which scenes: thesis or test (51 distances, every 10 mm), train (201), KEY=FROM..TO:STEP or KEY=A,B,C
     /// of any numeric key of the scenario (may be repeated), or a TOML file of those [default: the scenario's

@@ -11,7 +11,7 @@ use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::Labelled;
 use tofsim_learn::dataset::axis::thinned;
-use tofsim_learn::estimation::{EstimatorKind, Panel};
+use tofsim_learn::estimation::{Needs, Panel};
 use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures};
 
 use crate::report::evaluation::{self as report, EvaluationFindings};
@@ -29,7 +29,7 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
     let setup = Setup::of_counts(loaded)?;
     let notes = args.notes_on(&setup, &labelled)?;
     talk.heed(&notes)?;
-    if args.estimator.contains(&EstimatorKind::Subtraction) {
+    if args.estimator.iter().any(|kind| kind.needs() == Needs::Dark) {
         let expected = "expected estimators of one histogram, it needs a dark one beside each";
         return Err(Input::new("--estimator", expected).value("subtraction").into());
     }

@@ -32,7 +32,7 @@ pub struct ShowArgs {
 #[derive(Debug, clap::Args)]
 pub struct ColumnsArgs {
     /// Estimators whose columns are listed
-    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',', default_value = "network")]
+    #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',', default_value = "network")]
     estimator: Vec<EstimatorKind>,
     /// Print one JSON object instead of a table
     #[arg(long)]

@@ -52,7 +52,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     repeats: u64,
     /// Estimator of the depths [default: the one in the scenario's estimator slot]
-    #[arg(long, value_parser = words(&EstimatorKind::ALL))]
+    #[arg(long, value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N")]
@@ -93,7 +93,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = Setup::of_counts(loaded.clone())?;
     let kind = args.estimator.unwrap_or(EstimatorKind::in_socket(&loaded.scenario));
     let mut notes = kind.notes(&setup);
-    if matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat) {
+    if kind.is_network() {
         let temperatures = [("tdc.temperature_c", profile.temperatures_c())];
         notes.extend(domain::notes(&setup.network, &loaded.scenario, &temperatures)?);
     }

@@ -1,7 +1,8 @@
 //! The likelihood estimator read as a formula: the same stages in double precision, written without a look at
 //! how words are rounded.
 
-use tofsim::firmware::likelihood_estimator::words::{LEAST_WAITING, STEPS, status};
+use tofsim::firmware::likelihood_estimator::words::{LEAST_WAITING, STEPS};
+use tofsim::firmware::tof_top::status::{Status, StatusSet};
 
 use super::model::Model;
 use super::scan::{Best, scan};
@@ -37,8 +38,8 @@ pub struct Twin {
     pub sigma_m: f64,
     /// Sum of squared residuals over their variances, a quarter of a count more [1].
     pub chi_square: f64,
-    /// Why not to believe it, in the bits of [`status`].
-    pub status: u8,
+    /// Reasons to reject the depth.
+    pub status: StatusSet,
 }
 
 impl Twin {
@@ -74,24 +75,21 @@ impl Twin {
             || start.score < LEAST_SCORE
             || sigma_ps > model.sigma_ps;
         let reasons = [
-            (no_echo, status::NO_ECHO),
+            (no_echo, Status::NoEcho),
             (
                 point.arrival_ps < margin_ps || model.end_ps() - point.arrival_ps < margin_ps,
-                status::CUT_OFF,
+                Status::CutOff,
             ),
-            (used_up, status::USED_UP),
-            (other.score > ANOTHER_SCORE, status::ANOTHER),
-            (
-                information.cut > 0 || information.move_ps.abs() > 2.0 * sigma_ps,
-                status::NOT_SETTLED,
-            ),
-            (square(1.0).take(window.len()).any(|square| square > FAR), status::NO_FIT),
+            (used_up, Status::UsedUp),
+            (other.score > ANOTHER_SCORE, Status::Another),
+            (information.cut > 0 || information.move_ps.abs() > 2.0 * sigma_ps, Status::NotSettled),
+            (square(1.0).take(window.len()).any(|square| square > FAR), Status::NoFit),
         ];
         Twin {
             depth_m: (point.arrival_ps - model.delay_ps) * model.metres_per_ps,
             sigma_m: sigma_ps * model.metres_per_ps,
             chi_square: square(0.25).sum(),
-            status: reasons.iter().filter(|(holds, _)| *holds).map(|(_, bit)| bit).sum(),
+            status: StatusSet::of(&reasons),
             ambient,
             start,
             begin,

@@ -20,7 +20,7 @@ fn says_no_echo(instruments: &[Instrument], number: u64) -> bool {
         &instrument.bins,
     );
     let scene = Scene { instrument, shots, codes, bound_m: 0.0 };
-    scene.look(&scene.draw(&mut random)).status & status::NO_ECHO != 0
+    scene.look(&scene.draw(&mut random)).status.contains(Status::NoEcho)
 }
 
 #[test]

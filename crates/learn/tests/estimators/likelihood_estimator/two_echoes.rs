@@ -6,7 +6,7 @@ mod pair;
 
 use rayon::prelude::*;
 
-use tofsim::firmware::likelihood_estimator::words::status;
+use tofsim::firmware::tof_top::status::{Status, StatusSet};
 use tofsim::sensor::streams::{Source, stream};
 use tofsim::sim::estimates::likelihood::Found;
 
@@ -52,20 +52,20 @@ struct Outcomes {
 impl Outcomes {
     fn add(&mut self, found: &Found, distances_m: [f64; 2], bounds_m: [f64; 2], bins: usize) {
         self.drawn += 1.0;
-        self.unfit += f64::from(found.status & status::NO_FIT != 0);
+        self.unfit += f64::from(found.status.contains(Status::NoFit));
         let [first_m, second_m] = distances_m.map(|m| (found.depth.to_f64() - m).abs());
         let far_m = FAR * found.sigma_m();
-        let believed = Found { status: 0, ..*found };
-        match found.status {
-            0 => {
+        let believed = Found { status: StatusSet::default(), ..*found };
+        match &found.status.words()[..] {
+            [] => {
                 self.silent.add(found, distances_m[0], bounds_m[0]);
                 self.seen += f64::from(first_m > far_m && is_unlikely(found, bins));
                 self.astray += f64::from(first_m.min(second_m) > far_m);
             }
-            status::ANOTHER if first_m <= second_m => {
+            ["another echo"] if first_m <= second_m => {
                 self.of_first.add(&believed, distances_m[0], bounds_m[0]);
             }
-            status::ANOTHER => self.of_second.add(&believed, distances_m[1], bounds_m[1]),
+            ["another echo"] => self.of_second.add(&believed, distances_m[1], bounds_m[1]),
             _ => {}
         }
     }

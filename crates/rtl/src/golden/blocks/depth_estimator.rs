@@ -40,7 +40,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (histograms, special, ends) = histograms::new(params, &size, &mut draw);
     // Words, the products that they leave behind, tansig, output layer.
     let (bins, tansig) = (size.bins as u64, ctrl.tansig());
-    let layers = [0..bins, bins..tansig, tansig..tansig + 2, tansig + 2..params.cycles()];
+    let layers = [0..bins, bins..tansig, tansig..tansig + 2, tansig + 2..params.ctrl().done()];
     let mut estimations = Estimations::new(layers, histograms.len(), special, setting);
     let mut ends = Cover::new("neuron x entries + address at either end of the tansig", ends);
     let mut run = Recorder::new(spec, setting, Stimulus::list());

@@ -4,9 +4,9 @@ use tofsim::firmware::centroid_estimator::{self, CentroidEstimator};
 use tofsim::firmware::depth_estimator::{self, DepthEstimator};
 use tofsim::firmware::estimator_ctrl::{EstimatorCtrl, Params};
 use tofsim::firmware::histogram_builder;
-use tofsim::firmware::likelihood_estimator::params::Params as Likelihood;
-use tofsim::firmware::likelihood_estimator::{self, LikelihoodEstimator};
+use tofsim::firmware::likelihood_estimator::LikelihoodEstimator;
 use tofsim::firmware::spad_control::{self, SpadControl};
+use tofsim::firmware::tof_top::slot::{SlotEstimator, SlotIn};
 use tofsim::firmware::vcsel_driver::{self, VcselDriver};
 use tofsim::kernel::{Clocked, U};
 use tofsim::network;
@@ -21,8 +21,13 @@ const PATIENCE: u64 = 2000;
 pub fn measure(design: &CountedDesign) -> Measured {
     let mut measured = Measured::default();
     estimator(&design.estimator, &mut measured);
-    centroid(&design.estimator, &mut measured);
-    design.likelihood.iter().for_each(|params| likelihood(params, &mut measured));
+    let size = histogram(&design.estimator);
+    let centroid = centroid_estimator::Params { histogram: size, ..Default::default() };
+    let most_hits = size.most_hits();
+    latency::<CentroidEstimator>("centroid_latency", &centroid, most_hits, &mut measured);
+    if let Some(params) = &design.likelihood {
+        latency::<LikelihoodEstimator>("likelihood_latency", params, most_hits, &mut measured);
+    }
     for mode in [false, true] {
         let codes = 0..design.laser.periods.len() as u64;
         codes.for_each(|code| shots(design, mode, code, &mut measured));
@@ -71,39 +76,28 @@ fn estimator(p: &Params, measured: &mut Measured) {
     }
 }
 
-/// Counts the cycles of the centroid estimator.
-fn centroid(p: &Params, measured: &mut Measured) {
-    let params = centroid_estimator::Params { histogram: histogram(p), ..Default::default() };
-    let mut estimator = CentroidEstimator::default();
-    let edge = |algo_start| {
-        let i = centroid_estimator::In { rst: false, algo_start, count: U::new(0) };
-        estimator.rise(&i, &params);
-        estimator.registers.algo_done
-    };
-    for outputs in estimations(PATIENCE, edge, |algo_done| *algo_done) {
-        if outputs.last() == Some(&true) {
-            measured.add("centroid_latency", outputs.len() as u64 - 1);
-        }
-    }
-}
-
-/// Counts the cycles of the likelihood estimator: of an empty histogram, of a full one, and of one in between.
-fn likelihood(params: &Likelihood, measured: &mut Measured) {
-    let mut estimator = LikelihoodEstimator::default();
-    let mut counts = [0, params.histogram.most_hits(), 40].into_iter();
+/// Counts the cycles of an estimator: of an empty histogram, of a full one, and of one in between.
+fn latency<E: SlotEstimator>(
+    property: &str,
+    p: &E::Params,
+    most_hits: u64,
+    measured: &mut Measured,
+) {
+    let mut estimator = E::default();
+    let mut counts = [0, most_hits, 40].into_iter();
     let mut count = counts.next();
     let edge = |algo_start| {
         let count_now = U::new(count.unwrap_or(0));
-        let i = likelihood_estimator::In { rst: false, algo_start, mode: false, count: count_now };
-        estimator.rise(&i, params);
-        if estimator.registers.algo_done {
+        estimator.rise(&SlotIn { rst: false, algo_start, mode: false, count: count_now }.into(), p);
+        let algo_done = estimator.outputs().algo_done;
+        if algo_done {
             count = counts.next();
         }
-        estimator.registers.algo_done
+        algo_done
     };
-    for outputs in estimations(2 * params.done(), edge, |algo_done| *algo_done) {
+    for outputs in estimations(2 * E::cycles(p), edge, |algo_done| *algo_done) {
         if outputs.last() == Some(&true) {
-            measured.add("likelihood_latency", outputs.len() as u64 - 1);
+            measured.add(property, outputs.len() as u64 - 1);
         }
     }
 }

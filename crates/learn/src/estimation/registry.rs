@@ -1,0 +1,278 @@
+//! The registry of estimators: what the command line, studies, Python and notes know of each.
+
+use tofsim::error::{Error, Input};
+use tofsim::firmware::histogram_builder;
+use tofsim::firmware::tof_top::FirmwareEstimator;
+use tofsim::network::Network;
+use tofsim::scenario::Scenario;
+use tofsim::sim::setup::Setup;
+
+use super::acquisition::Acquisition;
+use super::centroid::Centroid;
+use super::estimator::Estimator;
+use super::in_firmware::likelihood_estimator;
+use super::likelihood::Likelihood;
+use super::likelihood::two_echoes::{self, TwoEchoes};
+use super::matched_filter::MatchedFilter;
+use super::network::{fixed, float};
+use super::peak_detection::PeakDetection;
+use super::subtraction::{self, Subtraction};
+
+/// An estimator of the registry.
+struct Registered {
+    /// Name on the command line.
+    name: &'static str,
+    /// What it does, for help.
+    about: &'static str,
+    /// Its block, where the firmware computes the same bits.
+    firmware: Option<FirmwareEstimator>,
+    /// What it needs beside histograms.
+    needs: Needs,
+    make: fn(&EstimatorInputs) -> Result<Box<dyn Estimator>, Input>,
+}
+
+/// What an estimator needs beside the histograms of lit frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// What it knows of the instrument.
+    Model,
+    /// A network for such histograms, which knows what it was trained for.
+    Network,
+    /// A dark histogram beside each lit one.
+    Dark,
+}
+
+impl Registered {
+    /// An estimator that no firmware has, and that needs nothing more.
+    const fn new(
+        name: &'static str,
+        about: &'static str,
+        make: fn(&EstimatorInputs) -> Result<Box<dyn Estimator>, Input>,
+    ) -> Self {
+        Registered { name, about, firmware: None, needs: Needs::Model, make }
+    }
+
+    const fn in_firmware(
+        firmware: FirmwareEstimator,
+        about: &'static str,
+        make: fn(&EstimatorInputs) -> Result<Box<dyn Estimator>, Input>,
+    ) -> Self {
+        let of = Registered::new(firmware.estimator(), about, make);
+        Registered { firmware: Some(firmware), ..of }
+    }
+
+    const fn needs(self, needs: Needs) -> Self {
+        Registered { needs, ..self }
+    }
+}
+
+macro_rules! registry {
+    ($($(#[$doc:meta])* $Kind:ident = $entry:expr;)+) => {
+        /// An estimator's name.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum EstimatorKind {
+            $($(#[$doc])* $Kind,)+
+        }
+
+        const REGISTRY: &[Registered] = &[$($entry),+];
+
+        impl EstimatorKind {
+            /// Every estimator: its name on the command line, the kind, what it does.
+            pub const ALL: &[(&'static str, Self, &'static str)] = &[$((
+                REGISTRY[EstimatorKind::$Kind as usize].name,
+                EstimatorKind::$Kind,
+                REGISTRY[EstimatorKind::$Kind as usize].about,
+            )),+];
+        }
+    };
+}
+
+registry! {
+    /// The network in fixed point.
+    Network = Registered::in_firmware(
+        FirmwareEstimator::Network,
+        "The network in fixed point, bit for bit as the firmware",
+        |i| Ok(Box::new(fixed(i.network, i.size()))),
+    )
+    .needs(Needs::Network);
+    /// The network in double precision.
+    NetworkFloat = Registered::new(
+        "network-float",
+        "The network in double precision",
+        |i| Ok(Box::new(float(i.network, i.size()))),
+    )
+    .needs(Needs::Network);
+    /// Argmax with centroid correction.
+    Centroid = Registered::in_firmware(
+        FirmwareEstimator::Centroid,
+        "Argmax with centroid correction, bit for bit as the firmware's other estimator",
+        |i| Ok(Box::new(Centroid(i.setup.params.centroid_estimator))),
+    );
+    /// The thesis's peak detection.
+    Peak = Registered::new(
+        "peak",
+        "The thesis's peak detection, on the bins of the chain",
+        |i| Ok(Box::new(PeakDetection::of_bins(i.acquisition.shots, i.acquisition.bins))),
+    );
+    /// Peak detection on a lit histogram less a dark one.
+    Subtraction = Registered::new(
+        subtraction::NAME,
+        "Peak detection on a lit histogram less a dark one, of half the shots each",
+        |i| Ok(Box::new(Subtraction::of_bins(i.acquisition.shots, i.acquisition.bins)?)),
+    )
+    .needs(Needs::Dark);
+    /// Maximum likelihood in double precision.
+    Likelihood = Registered::new(
+        "likelihood",
+        "Maximum likelihood with pile-up in the model",
+        |i| Ok(Box::new(Likelihood::new(&i.acquisition)?)),
+    );
+    /// Maximum likelihood of two echoes.
+    TwoEchoes = Registered::new(
+        two_echoes::NAME,
+        "Maximum likelihood of two echoes where two are sure, of one elsewhere",
+        |i| Ok(Box::new(TwoEchoes::new(&i.acquisition)?)),
+    );
+    /// Maximum likelihood in integers.
+    LikelihoodEstimator = Registered::in_firmware(
+        FirmwareEstimator::Likelihood,
+        "Maximum likelihood in integers, bit for bit as the firmware would",
+        |i| Ok(Box::new(likelihood_estimator(i.setup.likelihood(i.acquisition.shots)?))),
+    );
+    /// Matched filter.
+    Matched = Registered::new(
+        "matched",
+        "Matched filter after Coates's correction of pile-up",
+        |i| Ok(Box::new(MatchedFilter::new(&i.acquisition)?)),
+    );
+}
+
+/// What there is to make an estimator of.
+#[derive(Clone, Copy, Debug)]
+pub struct EstimatorInputs<'a> {
+    /// The histograms.
+    pub acquisition: Acquisition<'a>,
+    /// The network in the depth estimator.
+    pub network: &'a Network,
+    /// The instrument, whose scene does not matter.
+    pub setup: &'a Setup,
+}
+
+impl EstimatorInputs<'_> {
+    /// Size of the histograms.
+    fn size(&self) -> &histogram_builder::Params {
+        &self.setup.params.histogram
+    }
+}
+
+impl EstimatorKind {
+    fn registered(self) -> &'static Registered {
+        &REGISTRY[self as usize]
+    }
+
+    /// Returns the estimator of that name on the command line.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.iter().find(|(known, ..)| *known == name).map(|(_, kind, _)| *kind)
+    }
+
+    /// Names of all estimators.
+    pub fn names() -> impl Iterator<Item = &'static str> + Clone {
+        Self::ALL.iter().map(|(name, ..)| *name)
+    }
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        self.registered().name
+    }
+
+    /// What it needs beside the histograms of lit frames.
+    pub fn needs(self) -> Needs {
+        self.registered().needs
+    }
+
+    /// Whether it is a network, which knows what it was trained for.
+    pub fn is_network(self) -> bool {
+        self.needs() == Needs::Network
+    }
+
+    /// Whether it computes in integers, bit for bit as a block of the firmware.
+    pub fn is_in_firmware(self) -> bool {
+        self.registered().firmware.is_some()
+    }
+
+    /// The estimator in the scenario's firmware, bit for bit.
+    pub fn in_socket(scenario: &Scenario) -> Self {
+        let is_it = |kind: &Self| kind.registered().firmware == Some(scenario.estimator.kind);
+        let mut all = Self::ALL.iter().map(|(_, kind, _)| *kind);
+        all.find(is_it).unwrap_or(EstimatorKind::Network)
+    }
+
+    /// Checks what the estimator needs of a setup beside its histograms.
+    ///
+    /// # Errors
+    /// When it is a network for other histograms.
+    pub fn check(self, setup: &Setup) -> Result<(), Error> {
+        if self.is_network() { setup.check_network() } else { Ok(()) }
+    }
+
+    /// Makes the estimator.
+    ///
+    /// # Errors
+    /// When [`Acquisition::check`] fails, or the estimator's model does not hold for the instrument.
+    pub fn estimator(self, inputs: &EstimatorInputs) -> Result<Box<dyn Estimator>, Input> {
+        inputs.acquisition.check()?;
+        (self.registered().make)(inputs)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tofsim::kernel::pulse::Pulse;
+
+    use super::*;
+    use crate::estimation::Panel;
+    use tofsim::sim::{Run, Stepping};
+
+    #[test]
+    fn every_estimator_answers_to_its_name() {
+        let setup = &Setup::load("kc705", &["tdc.profile=ideal"]).unwrap();
+        let bins = &setup.bins();
+        let network = &Network::builtin("ideal").unwrap().unwrap();
+        let gaussian = |sigma_ps| Pulse::Gaussian { sigma_ps };
+        let pulse = gaussian(137.0);
+        let acquisition = Acquisition::new(bins, 30_000, &pulse);
+        let needs = EstimatorInputs { acquisition, network, setup };
+        for &(name, kind, _) in EstimatorKind::ALL {
+            assert_eq!(kind.estimator(&needs).unwrap().name(), name);
+            assert_eq!((kind.name(), EstimatorKind::find(name)), (name, Some(kind)));
+        }
+        for (shots, sigma_ps, field) in
+            [(0, 137.0, "shots = 0"), (1 << 24, 137.0, "shots"), (1, f64::NAN, "pulse = NaN")]
+        {
+            let pulse = gaussian(sigma_ps);
+            let acquisition = Acquisition::new(bins, shots, &pulse);
+            let needs = EstimatorInputs { acquisition, network, setup };
+            let fault = EstimatorKind::Peak.estimator(&needs).err().unwrap().to_string();
+            assert!(fault.contains(field), "{fault}");
+        }
+    }
+
+    #[test]
+    fn every_estimator_of_the_firmware_is_registered_and_gives_the_words_of_its_block() {
+        for firmware in FirmwareEstimator::ALL {
+            let kind = format!("estimator.kind={}", firmware.name());
+            let setup = Setup::load("kc705", &[&kind]).unwrap();
+            let in_socket = EstimatorKind::in_socket(&setup.scenario);
+            assert_eq!(
+                (in_socket.name(), in_socket.is_in_firmware()),
+                (firmware.estimator(), true)
+            );
+            let frame = Run::new(&setup).stepping(Stepping::LeapShots).frames(1).unwrap().remove(0);
+            let panel = Panel::new(&[in_socket], &setup).unwrap();
+            let found = panel.read(&frame.histogram).remove(0);
+            let own = frame.estimate();
+            assert_eq!((found.depth_m, found.sigma_m), (own.depth_m, own.sigma_m), "{firmware:?}");
+            assert_eq!((found.valid, found.status), (own.valid, own.status), "{firmware:?}");
+        }
+    }
+}

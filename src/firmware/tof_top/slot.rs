@@ -1,0 +1,100 @@
+//! The estimator slot: what fits it has these ports.
+
+use fixed::types::extra::U29;
+use fixed::{FixedI64, FixedU64};
+
+use crate::firmware::forward2::Depth;
+use crate::firmware::histogram_builder::{Bin, Count};
+use crate::kernel::U;
+
+/// Standard deviation of a depth, with as many fraction bits as the depth word [2^-29 m].
+pub type Sigma = U<36>;
+/// Status word: each bit a reason to reject the depth (see [`Status`](super::status::Status)).
+pub type StatusBits = U<7>;
+
+/// Input ports of the slot; an estimator has those that it needs.
+#[derive(Clone, Copy, Debug)]
+pub struct SlotIn {
+    /// Synchronous reset.
+    pub rst: bool,
+    /// Starts an estimation.
+    pub algo_start: bool,
+    /// SPADs come back by themselves (MODE 1).
+    pub mode: bool,
+    /// Word of the histogram at `read_addr` [hits].
+    pub count: Count,
+}
+
+/// Outputs of the estimator in the slot; waveforms show that estimator's own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SlotOut {
+    /// The histogram's word at `read_addr` is being read.
+    pub read_en: bool,
+    /// Word of the histogram.
+    pub read_addr: Bin,
+    /// The estimate, from `algo_done` until the next one.
+    pub words: EstimateWords,
+    /// The estimate is ready; one cycle.
+    pub algo_done: bool,
+}
+
+/// Words of an estimate, as the ports have them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EstimateWords {
+    /// Distance of the target [m].
+    pub depth: Depth,
+    /// Its standard deviation; 0 from an estimator that states none.
+    pub sigma: Sigma,
+    /// Reasons to reject the depth; 0 from an estimator that states none.
+    pub status: StatusBits,
+    /// The status has no reason to reject the depth; low from an estimator that states none.
+    pub valid: bool,
+}
+
+/// Distance with the fraction bits of a depth word [m].
+pub type DepthM = FixedI64<U29>;
+/// Standard deviation with as many fraction bits [m].
+pub type SigmaM = FixedU64<U29>;
+
+impl EstimateWords {
+    /// Words of an estimator that states only a depth.
+    pub fn of_depth(depth: Depth) -> Self {
+        EstimateWords { depth, ..EstimateWords::default() }
+    }
+
+    /// Distance of the target [m].
+    pub fn depth_m(&self) -> DepthM {
+        DepthM::from_bits(self.depth.get())
+    }
+
+    /// Its standard deviation [m].
+    pub fn sigma_m(&self) -> SigmaM {
+        SigmaM::from_bits(self.sigma.get())
+    }
+}
+
+/// An estimator that fits the slot.
+pub trait SlotEstimator: Default {
+    /// Its input ports.
+    type In: From<SlotIn>;
+    /// What elaboration fixes.
+    type Params;
+    /// Whether it states a sigma, a status and `valid` beside the depth.
+    const STATES_SIGMA: bool = false;
+
+    /// The rising edge of `clk_sys`.
+    fn rise(&mut self, i: &Self::In, p: &Self::Params);
+
+    /// Its output ports.
+    fn outputs(&self) -> SlotOut;
+
+    /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles of clk_sys].
+    fn cycles(p: &Self::Params) -> u64;
+
+    /// Cycles since the edge that took `algo_start`, up to the cycle of `algo_done`; an estimator may stop counting
+    /// at 1 [cycles of clk_sys].
+    fn phase(&self, p: &Self::Params) -> Option<u64>;
+
+    /// Whether no edge changes anything until an input does.
+    fn rests(&self, i: &Self::In, p: &Self::Params) -> bool;
+}

@@ -1,0 +1,123 @@
+//! One form for every estimate, whoever makes it and wherever it is shown.
+
+use serde::{Serialize, Serializer};
+
+use crate::firmware::depth_estimator::datapath::DEPTH_BITS;
+use crate::firmware::tof_top::FirmwareEstimator;
+use crate::firmware::tof_top::slot::{DepthM, EstimateWords};
+use crate::firmware::tof_top::status::StatusSet;
+
+/// What an estimator makes of a histogram.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Estimate {
+    /// Name of the estimator on the command line.
+    pub estimator: &'static str,
+    /// Distance of the target; null where there is none [m].
+    pub depth_m: Option<f64>,
+    /// Depth word, from an estimator in integers: 36 bits in hexadecimal.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_digits")]
+    pub depth_raw: Option<DepthM>,
+    /// Standard deviation of the depth; null where the estimator states none [m].
+    pub sigma_m: Option<f64>,
+    /// Whether the status has no reason to reject the depth.
+    pub valid: bool,
+    /// Reasons to reject the depth, in words; empty if there are none.
+    pub status: StatusSet,
+    /// Sum of squared residuals over their variances, about one a bin of the fit [1].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chi_square: Option<f64>,
+    /// Second echo, where the estimator looks for one and has found it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub second: Option<EchoDepth>,
+    /// The status in full, where there is no depth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
+}
+
+/// Where an echo comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EchoDepth {
+    /// Distance of what it comes from [m].
+    pub depth_m: f64,
+    /// Its standard deviation [m].
+    pub sigma_m: f64,
+}
+
+impl Estimate {
+    /// An estimate of which only the depth is known.
+    pub fn of_depth(estimator: &'static str, depth_m: Option<f64>) -> Self {
+        Estimate {
+            estimator,
+            depth_m,
+            depth_raw: None,
+            sigma_m: None,
+            valid: depth_m.is_some(),
+            status: StatusSet::default(),
+            chi_square: None,
+            second: None,
+            failure: None,
+        }
+    }
+
+    /// The estimate in words of the firmware. One that states no status is valid.
+    pub fn of_words(estimator: FirmwareEstimator, words: &EstimateWords) -> Self {
+        let (depth, states) = (words.depth_m(), estimator.states_sigma());
+        Estimate {
+            depth_raw: Some(depth),
+            sigma_m: states.then(|| words.sigma_m().to_num()),
+            valid: words.valid || !states,
+            status: words.status.into(),
+            ..Estimate::of_depth(estimator.estimator(), Some(depth.to_num()))
+        }
+    }
+}
+
+/// Nine hexadecimal digits of a depth word.
+fn as_digits<S: Serializer>(depth: &Option<DepthM>, serializer: S) -> Result<S::Ok, S::Error> {
+    depth.map(digits).serialize(serializer)
+}
+
+/// A depth word's 36 bits in hexadecimal.
+pub fn digits(depth: DepthM) -> String {
+    format!("{:09x}", depth.to_bits() & ((1 << DEPTH_BITS) - 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::firmware::forward2::Depth;
+    use crate::firmware::tof_top::status::Status;
+    use crate::kernel::U;
+
+    #[test]
+    fn an_estimate_has_what_its_words_state() {
+        let status = U::new((Status::CutOff.bit() | Status::NoFit.bit()).into());
+        let (depth, sigma) = (Depth::new(0x1013_c199), U::new(1 << 19));
+        let words = EstimateWords { depth, sigma, status, valid: false };
+        let json =
+            |words| serde_json::to_value(Estimate::of_words(FirmwareEstimator::Likelihood, words));
+        let expected = serde_json::json!({
+            "estimator": "likelihood_estimator",
+            "depth_m": depth.to_f64(),
+            "depth_raw": "01013c199",
+            "sigma_m": 2f64.powi(-10),
+            "valid": false,
+            "status": ["cut off by the window", "no fit"],
+        });
+        assert_eq!(json(&words).unwrap(), expected);
+        let clear = EstimateWords { status: U::new(0), valid: true, ..words };
+        let found = json(&clear).unwrap();
+        assert_eq!((&found["valid"], &found["status"]), (&true.into(), &serde_json::json!([])));
+    }
+
+    #[test]
+    fn an_estimator_without_a_status_is_valid_and_states_no_sigma() {
+        for estimator in [FirmwareEstimator::Network, FirmwareEstimator::Centroid] {
+            let words = EstimateWords::of_depth(Depth::new(1 << 28));
+            let found = Estimate::of_words(estimator, &words);
+            let Estimate { depth_m, sigma_m, valid, status, .. } = found;
+            assert_eq!((depth_m, sigma_m, valid), (Some(0.5), None, true));
+            assert!(status.is_empty());
+        }
+    }
+}
