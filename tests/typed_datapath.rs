@@ -3,17 +3,17 @@
 //! Each word is a type of its own, so that a binary point in the wrong place does not compile or shows here; the
 //! parametric datapath counts in plain integers.
 
-use fixed::types::extra::{U9, U13, U14, U15, U17, U23, U29};
+use fixed::types::extra::{U4, U9, U13, U14, U15, U17, U23, U29};
 use fixed::{FixedI16, FixedI32, FixedI64};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use tofsim::DepthM;
 use tofsim::firmware::depth_estimator::Params;
 use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::firmware::forward2::NEURONS;
 use tofsim::kernel::wrapped;
 use tofsim::network::{Histogram, Network, estimate};
+use tofsim::{DepthM, Setup};
 
 /// Histograms of each network.
 const HISTOGRAMS: usize = 5_000;
@@ -116,4 +116,26 @@ fn check(name: &str, seed: u64) {
 fn the_parametric_datapath_gives_the_words_of_table_6_4_in_10_000_histograms() {
     check("uniform", 1);
     check("ideal", 2);
+}
+
+/// Time from the laser edge, in the KC705's units of a 16th of a bin [bins].
+type BinTime = FixedI32<U4>;
+
+#[test]
+fn a_code_of_the_kc705_is_the_whole_bins_of_its_time() {
+    let setup = Setup::load("kc705", &["tdc.profile=kintex7"]).unwrap();
+    let decoder = &setup.params.tdc.decoder;
+    let period = BinTime::from_num(320);
+    let mut codes = 0;
+    for (n, age) in decoder.cal.iter().enumerate() {
+        let age = BinTime::from_bits(age.get() as i32);
+        for coarse in 0..8 {
+            let time = period * (coarse + 1) - age;
+            let code = (0..256).contains(&time.floor().to_num::<i32>()).then(|| time.to_num());
+            let found = decoder.code(coarse as u64, n).map(|code| code.get() as i32);
+            assert_eq!(found, code, "edge {coarse}, {n} taps");
+            codes += usize::from(code.is_some());
+        }
+    }
+    assert!(codes > 400, "{codes} of the taps have a code");
 }

@@ -33,7 +33,7 @@ use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
 mod params;
 
 pub use params::{
-    MOST_HALF_WIDTH, Offset, POSITION_FRACTION, Params, Position, SLOPE_FRACTION, Slope, SlopeM,
+    MOST_HALF_WIDTH, Offset, POSITION_FRACTION, Params, Position, SLOPE_FRACTION, Slope,
     position_bits,
 };
 use params::{QUOTIENT_BITS, SUMS};

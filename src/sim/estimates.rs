@@ -1,15 +1,12 @@
-//! Estimates as the firmware's estimators compute them, bit for bit, without their clock. The network's is
-//! [`network::estimate`](crate::network::estimate).
+//! Estimates as the firmware's estimators compute them, bit for bit, without their clock.
 
 pub mod centroid;
 mod estimate;
 pub mod likelihood;
+mod network;
 
-use crate::firmware::centroid_estimator::CentroidEstimator;
-use crate::firmware::depth_estimator::DepthEstimator;
-use crate::firmware::likelihood_estimator::LikelihoodEstimator;
-use crate::firmware::tof_top::slot::{EstimateWords, SlotEstimator};
-use crate::network;
+use crate::firmware::histogram_builder::Count;
+use crate::firmware::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn};
 
 pub use estimate::{EchoDepth, Estimate, digits};
 
@@ -17,23 +14,14 @@ pub use estimate::{EchoDepth, Estimate, digits};
 pub trait Clockless: SlotEstimator {
     /// The estimate of a histogram whose shots were all armed (MODE 0).
     fn estimate(p: &Self::Params, histogram: &[u32]) -> EstimateWords;
-}
 
-impl Clockless for DepthEstimator {
-    fn estimate(p: &Self::Params, histogram: &[u32]) -> EstimateWords {
-        EstimateWords::of_depth(network::estimate::estimate(p, histogram).depth)
-    }
-}
-
-impl Clockless for CentroidEstimator {
-    fn estimate(p: &Self::Params, histogram: &[u32]) -> EstimateWords {
-        EstimateWords::of_depth(centroid::locate(p, histogram).depth)
-    }
-}
-
-impl Clockless for LikelihoodEstimator {
-    fn estimate(p: &Self::Params, histogram: &[u32]) -> EstimateWords {
-        likelihood::estimate(p, histogram).words()
+    /// Lands in the cycle before `algo_done` from the first cycle of an estimation of `words`; `idle` is the word at
+    /// the port while none is read.
+    fn land(&mut self, words: &[Count], _idle: Count, mode: bool, p: &Self::Params) {
+        for _ in 1..Self::cycles(p) {
+            let count = words[self.outputs().read_addr.index()];
+            self.rise(&SlotIn { rst: false, algo_start: false, mode, count }.into(), p);
+        }
     }
 }
 

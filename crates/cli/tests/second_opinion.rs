@@ -32,6 +32,29 @@ fn a_frame_has_a_second_opinion_of_its_own_accuracy() {
 }
 
 #[test]
+fn every_estimate_has_the_same_members() {
+    let members = ["estimator", "depth_m", "sigma_m", "valid", "status"];
+    let of = |estimate: &Value| members.map(|member| estimate[member].clone());
+    let set = ["-s", "estimator.kind=likelihood", "--estimator", "network,likelihood_estimator"];
+    let found = run(&set);
+    let (frame, estimates) = (&found["frames"][0], &found["frames"][0]["estimates"]);
+    assert_eq!(of(frame), of(&frame["second_opinion"]));
+    assert_eq!(of(frame), of(&estimates[1]));
+    assert!(frame["sigma_m"].as_f64().unwrap() > 0.0 && frame["valid"] == true);
+    assert_eq!(frame["estimator"], "likelihood_estimator");
+    let network = of(&estimates[0]);
+    assert_eq!((&network[0], &network[2]), (&"network".into(), &Value::Null));
+    assert_eq!((&network[3], &network[4]), (&true.into(), &Value::Array(vec![])));
+    let dark = run(&[&set[..], &["-s", "firmware.laser_en=false"]].concat());
+    let frame = &dark["frames"][0];
+    assert_eq!((&frame["valid"], &frame["status"][0]), (&false.into(), &"no echo".into()));
+    let (of_frame, mut of_estimate) = (of(frame), of(&frame["estimates"][1]));
+    assert!(of_estimate[1].is_null() && of_estimate[2].is_null());
+    (of_estimate[1], of_estimate[2]) = (of_frame[1].clone(), of_frame[2].clone());
+    assert_eq!(of_frame, of_estimate);
+}
+
+#[test]
 fn a_network_out_of_its_depth_parts_from_it() {
     let far = ["-s", "target.distance_m=0.8"];
     let found = run(&[&far[..], &["--frames", "100"]].concat());

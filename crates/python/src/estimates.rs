@@ -54,6 +54,7 @@ pub fn estimate<'py>(
     threads: Option<usize>,
 ) -> Result<Bound<'py, PyDict>> {
     let setup = Setup::new(Scenario::of(scenario)?.seeded(None))?;
+    let own = setup.params.estimator.estimator();
     let kinds = kinds(&estimators)?;
     let lent = Lent::new(histograms, &setup.params.histogram)?;
     // The task may be left to itself, and Python's memory not.
@@ -72,12 +73,14 @@ pub fn estimate<'py>(
     })?;
     let columns = |place: usize| columns(py, all.iter().map(|each| &each[place]));
     let found = columns(0)?;
+    found.set_item("estimator", own)?;
     let words =
         all.iter().filter_map(|each| each[0].depth_raw).map(|word| word.to_bits()).collect();
     found.set_item("depth_raw", PyArray1::<i64>::from_vec(py, words))?;
     let others = PyDict::new(py);
     for (place, name) in estimators.iter().enumerate() {
         let estimates = columns(place + 1)?;
+        estimates.set_item("estimator", name)?;
         found.set_item(name, estimates.get_item("depth_m")?)?;
         others.set_item(name, estimates)?;
     }
@@ -95,7 +98,6 @@ fn columns<'py, 'a>(
         PyArray1::<f64>::from_vec(py, all)
     };
     let found = PyDict::new(py);
-    found.set_item("estimator", estimates.clone().next().map(|one| one.estimator))?;
     found.set_item("depth_m", metres(|one| one.depth_m))?;
     found.set_item("sigma_m", metres(|one| one.sigma_m))?;
     let valid = estimates.clone().map(|one| one.valid).collect();

@@ -19,6 +19,10 @@ def test_depths_are_those_of_the_run(frames: tofsim.Frames) -> None:
     found = tofsim.estimate(frames.histograms)
     assert found["depth_raw"].tobytes() == frames.depth_raw.tobytes()
     assert found["depth_m"].tobytes() == frames.depth_m.tobytes()
+    assert found["estimator"] == frames.estimator == "network"
+    assert np.isnan(found["sigma_m"]).all() and np.isnan(frames.sigma_m).all()
+    assert found["valid"].all() and frames.valid.all() and frames[0].valid
+    assert found["status"] == frames.status == [[]] * 5
     one = tofsim.estimate(frames.histograms[2])
     assert one["depth_raw"].tolist() == [frames.depth_raw[2]]
 
@@ -42,7 +46,10 @@ def test_depths_are_those_of_the_command(
 
 def test_a_failure_is_no_number() -> None:
     nothing = np.zeros((2, 256), dtype=np.uint32)
-    assert np.isnan(tofsim.estimate(nothing, estimators=["peak"])["peak"]).all()
+    found = tofsim.estimate(nothing, estimators=["peak"])
+    assert np.isnan(found["peak"]).all()
+    peak = found["estimates"]["peak"]
+    assert peak["status"] == [["no hits"]] * 2 and not peak["valid"].any()
 
 
 def test_counts_of_any_whole_type_will_do(frames: tofsim.Frames) -> None:

@@ -23,7 +23,7 @@ pub type Slope = U<17>;
 pub const SLOPE_FRACTION: u32 = SlopeM::FRAC_NBITS;
 /// [`Slope`] as a number [m].
 pub type SlopeM = FixedU32<U24>;
-/// Position in a histogram from the start of bin 0 [bins].
+/// Position in a histogram from the begin of bin 0 [bins].
 pub type Position = FixedU32<U12>;
 /// Distance that is added [m].
 pub type Offset = S<30, 29>;
@@ -73,7 +73,7 @@ impl Params {
         DepthM::from_bits(self.offset.get())
     }
 
-    /// Distance of a position; the bits past the last of a depth word are dropped.
+    /// Distance of a position, the bits past the last of a depth word dropped.
     pub fn depth(&self, position: Position) -> Depth {
         let metres = DepthM::from_num(position.wide_mul(self.slope_m()));
         Depth::new((metres + self.offset_m()).to_bits())

@@ -5,9 +5,30 @@ use serde::{Deserialize, Serialize};
 
 use super::slot::SlotEstimator;
 
-macro_rules! estimators {
-    ($($(#[$doc:meta])* $Name:ident = $name:literal, $estimator:literal: $module:ident,)+) => {
-        /// What is in the estimator's socket.
+/// Calls a macro with the list of the firmware's estimators, after what is given to it: variant, name in a scenario, name
+/// on the command line, module and block of each. A new estimator is a line here.
+#[macro_export]
+macro_rules! firmware_estimators {
+    ([$($callback:tt)+] $($($given:tt)+)?) => {
+        $($callback)+! {
+            $($($given)+;)?
+            /// The neural network (`depth_estimator`).
+            #[default]
+            Network = "network", "network": depth_estimator::DepthEstimator,
+            /// Argmax with centroid correction (`centroid_estimator`).
+            Centroid = "centroid", "centroid": centroid_estimator::CentroidEstimator,
+            /// Maximum likelihood in integers (`likelihood_estimator`).
+            Likelihood = "likelihood", "likelihood_estimator":
+                likelihood_estimator::LikelihoodEstimator,
+        }
+    };
+}
+
+macro_rules! enumerated {
+    ($(
+        $(#[$doc:meta])* $Name:ident = $name:literal, $estimator:literal: $module:ident::$Block:ident,
+    )+) => {
+        /// The estimator in the estimator slot.
         #[derive(
             Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema,
         )]
@@ -36,7 +57,7 @@ macro_rules! estimators {
             }
 
             /// Name of its module.
-            pub fn module(self) -> &'static str {
+            pub const fn module(self) -> &'static str {
                 match self {
                     $(Self::$Name => stringify!($module),)+
                 }
@@ -45,34 +66,29 @@ macro_rules! estimators {
     };
 }
 
-estimators! {
-    /// The neural network (`depth_estimator`).
-    #[default]
-    Network = "network", "network": depth_estimator,
-    /// Argmax with centroid correction (`centroid_estimator`).
-    Centroid = "centroid", "centroid": centroid_estimator,
-    /// Maximum likelihood in integers (`likelihood_estimator`).
-    Likelihood = "likelihood", "likelihood_estimator": likelihood_estimator,
-}
+firmware_estimators!([enumerated]);
 
 /// Evaluates an expression in which a name stands for the block of an estimator: the one match over
 /// [`FirmwareEstimator`].
 #[macro_export]
 macro_rules! in_slot {
-    ($estimator:expr, $Block:ident => $body:expr) => {
+    ($estimator:expr, $Chosen:ident => $body:expr) => {
+        $crate::firmware_estimators!([$crate::in_slot_arms] ($estimator) $Chosen $body)
+    };
+}
+
+/// The match of [`in_slot`].
+#[doc(hidden)]
+#[macro_export]
+macro_rules! in_slot_arms {
+    (($estimator:expr) $Chosen:ident $body:expr; $(
+        $(#[$doc:meta])* $Name:ident = $name:literal, $cli:literal: $module:ident::$Block:ident,
+    )+) => {
         match $estimator {
-            $crate::firmware::tof_top::FirmwareEstimator::Network => {
-                type $Block = $crate::firmware::depth_estimator::DepthEstimator;
+            $($crate::firmware::tof_top::FirmwareEstimator::$Name => {
+                type $Chosen = $crate::firmware::$module::$Block;
                 $body
-            }
-            $crate::firmware::tof_top::FirmwareEstimator::Centroid => {
-                type $Block = $crate::firmware::centroid_estimator::CentroidEstimator;
-                $body
-            }
-            $crate::firmware::tof_top::FirmwareEstimator::Likelihood => {
-                type $Block = $crate::firmware::likelihood_estimator::LikelihoodEstimator;
-                $body
-            }
+            })+
         }
     };
 }

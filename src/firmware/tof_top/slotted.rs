@@ -1,9 +1,7 @@
 //! The estimators in the top: their ports, parameters and clock.
 
-use crate::firmware::centroid_estimator::{self, CentroidEstimator};
-use crate::firmware::depth_estimator::{self, DepthEstimator};
-use crate::firmware::likelihood_estimator::{self, LikelihoodEstimator};
-use crate::in_slot;
+use crate::firmware::{centroid_estimator, depth_estimator, likelihood_estimator};
+use crate::{firmware_estimators, in_slot};
 
 use super::slot::SlotEstimator;
 use super::{Params, TofTop, Wires};
@@ -21,8 +19,10 @@ pub trait Slotted: SlotEstimator {
 }
 
 macro_rules! slotted {
-    ($($module:ident::$Block:ident),+) => {
-        $(impl Slotted for $Block {
+    ($(
+        $(#[$doc:meta])* $Name:ident = $name:literal, $estimator:literal: $module:ident::$Block:ident,
+    )+) => {
+        $(impl Slotted for $module::$Block {
             #[inline(always)]
             fn params(p: &Params) -> &Self::Params {
                 &p.$module
@@ -60,11 +60,7 @@ macro_rules! slotted {
     };
 }
 
-slotted!(
-    depth_estimator::DepthEstimator,
-    centroid_estimator::CentroidEstimator,
-    likelihood_estimator::LikelihoodEstimator
-);
+firmware_estimators!([slotted]);
 
 impl Params {
     /// From the edge that takes `algo_start` to the one that raises `algo_done`, for the estimator in

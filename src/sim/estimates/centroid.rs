@@ -1,8 +1,11 @@
 //! Argmax with centroid correction, without its clock: bit for bit what
 //! [`centroid_estimator`](crate::firmware::centroid_estimator) computes, as sums over its window.
 
-use crate::firmware::centroid_estimator::{POSITION_FRACTION, Params, Position};
+use crate::firmware::centroid_estimator::{CentroidEstimator, POSITION_FRACTION, Params, Position};
 use crate::firmware::forward2::Depth;
+use crate::firmware::tof_top::slot::EstimateWords;
+
+use super::Clockless;
 
 /// The result of an estimation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,6 +18,12 @@ pub struct Found {
     pub peak: usize,
     /// Hits in its window.
     pub best_sum: u64,
+}
+
+impl Clockless for CentroidEstimator {
+    fn estimate(p: &Params, histogram: &[u32]) -> EstimateWords {
+        EstimateWords::of_depth(locate(p, histogram).depth)
+    }
 }
 
 /// Estimates the depth of a histogram.
@@ -59,7 +68,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::firmware::centroid_estimator::{CentroidEstimator, In};
+    use crate::firmware::centroid_estimator::In;
     use crate::firmware::histogram_builder;
     use crate::firmware::tof_top::slot::SlotEstimator;
     use crate::kernel::{S, U};

@@ -8,8 +8,12 @@ mod step;
 mod terms;
 mod verdict;
 
+use crate::firmware::likelihood_estimator::LikelihoodEstimator;
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::words::STEPS;
+use crate::firmware::tof_top::slot::EstimateWords;
+
+use super::Clockless;
 
 use histogram::Shots;
 use step::step;
@@ -35,6 +39,12 @@ pub struct Trace {
     pub other: Best,
     /// The result.
     pub found: Found,
+}
+
+impl Clockless for LikelihoodEstimator {
+    fn estimate(p: &Params, histogram: &[u32]) -> EstimateWords {
+        estimate(p, histogram).words()
+    }
 }
 
 /// Estimates the depth of a histogram.

@@ -4,21 +4,13 @@
 //! its cycle of Clear, and an estimation is sums of integers. The TDC's window is closed, so that it sees
 //! avalanches on the way with the next edges.
 
-use crate::firmware::centroid_estimator::CentroidEstimator;
-use crate::firmware::depth_estimator::{self, DepthEstimator};
-use crate::firmware::estimator_ctrl::EstimatorCtrl;
-use crate::firmware::forward1::Forward1;
 use crate::firmware::frame_ctrl::State;
-use crate::firmware::histogram_builder::Count;
-use crate::firmware::likelihood_estimator::LikelihoodEstimator;
-use crate::firmware::tof_top::slot::{SlotEstimator, SlotIn};
 use crate::firmware::tof_top::slotted::Slotted;
 use crate::firmware::tof_top::{HistogramSource, Params, TofTop};
 use crate::in_slot;
 use crate::kernel::U;
-use crate::network::Histogram;
-use crate::network::estimate::estimate;
 use crate::sim::device::Device;
+use crate::sim::estimates::Clockless;
 
 use super::steady::{control_is_steady, estimation_phase, estimator_rests};
 
@@ -73,34 +65,4 @@ fn land_in_estimation(top: &mut TofTop, p: &Params) {
         block.land(words, idle, mode, E::params(p));
         *E::block_mut(top) = block;
     });
-}
-
-/// An estimator whose estimation is leapt over.
-trait Leap: SlotEstimator {
-    /// Lands in the cycle before `algo_done` from the first cycle of an estimation of `words`; `idle` is the word at
-    /// the port while none is read.
-    fn land(&mut self, words: &[Count], _idle: Count, mode: bool, p: &Self::Params) {
-        for _ in 1..Self::cycles(p) {
-            let count = words[self.outputs().read_addr.index()];
-            self.rise(&SlotIn { rst: false, algo_start: false, mode, count }.into(), p);
-        }
-    }
-}
-
-impl Leap for CentroidEstimator {}
-
-impl Leap for LikelihoodEstimator {}
-
-impl Leap for DepthEstimator {
-    /// The hidden layer's sums at once, and then the plain step.
-    fn land(&mut self, words: &[Count], idle: Count, _: bool, p: &depth_estimator::Params) {
-        let histogram: Histogram = words.iter().map(|word| word.get() as u32).collect();
-        let ctrl = p.ctrl();
-        self.estimator_ctrl = EstimatorCtrl::at(ctrl.tansig(), &ctrl);
-        self.forward1 = Forward1::at_rest(estimate(p, &histogram).l1_in, idle, &p.forward1);
-        let idle = depth_estimator::In { rst: false, algo_start: false, count: idle };
-        for _ in ctrl.tansig() + 1..ctrl.done() {
-            self.rise(&idle, p);
-        }
-    }
 }

@@ -118,9 +118,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         );
     }
     let mut report = json!({ "schema": "tofsim.estimate/1", "network": network.name });
-    // The same again for scripts, if there is just one histogram.
-    if let ([row], Some(report)) = (&rows[..], report.as_object_mut()) {
-        report.extend(json!(row.numbers).as_object().cloned().unwrap_or_default());
+    // Once more for scripts, if there is just one histogram.
+    if let [row] = &rows[..] {
+        let numbers = json!(row.numbers);
+        for key in ["depth_raw", "depth_m", "l1_in"] {
+            report[key] = numbers[key].clone();
+        }
     }
     report["histograms"] = json!(rows);
     Record::new(&setup, &talk.command).put_into(&mut report, &notes);

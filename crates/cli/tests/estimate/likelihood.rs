@@ -38,11 +38,11 @@ fn the_table_fits_a_terminal_and_says_the_status_in_words() {
         |more: &[&str]| stdout(folder.path(), &[&LIKELIHOOD[..], &["--explain"], more].concat());
     let text = explained(&[]);
     let head = "0.499689 m (00ffd74c6), likelihood_estimator, sd 0.000296 m";
-    assert!(text.contains(head) && text.contains("integers: to be believed"), "{text}");
+    assert!(text.contains(head) && text.contains("integers: accepted"), "{text}");
     assert!(text.lines().skip(1).all(|line| line.chars().count() <= 80), "{text}");
     assert!(!text.contains("l1_in"), "{text}");
     let none = explained(&["-s", "estimator.assumed_shots=65535"]);
-    assert!(none.contains("integers: not to be believed: another echo, no fit"), "{none}");
+    assert!(none.contains("integers: rejected: another echo, no fit"), "{none}");
     let both = stdout(
         folder.path(),
         &["estimate", HISTOGRAM, "--estimator", "network,likelihood_estimator", "--explain"],

@@ -9,7 +9,7 @@ use tofsim::network::float::Float;
 use tofsim::sim::estimates::centroid::locate;
 
 use crate::estimation::estimator::Failure;
-use crate::estimation::likelihood_estimator::LikelihoodEstimator;
+use crate::estimation::in_firmware::likelihood_estimator;
 use crate::estimation::network::NetworkEstimator;
 use crate::estimation::{Acquisition, Estimator, EstimatorInputs, EstimatorKind};
 use crate::quantize::likelihood::LikelihoodExplainer;
@@ -31,7 +31,7 @@ pub fn estimator(kind: EstimatorKind, variant: &Variant) -> Result<Box<dyn Estim
         }
         EstimatorKind::LikelihoodEstimator if is_fixed => {
             let params = setup.likelihood_of(*told_shots, bins, Params::new)?;
-            Box::new(LikelihoodEstimator::new(params))
+            Box::new(likelihood_estimator(params))
         }
         EstimatorKind::LikelihoodEstimator => {
             Box::new(LikelihoodTwin(LikelihoodExplainer::of_bins(setup, *told_shots, bins)?))

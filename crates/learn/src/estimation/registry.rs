@@ -10,9 +10,9 @@ use tofsim::sim::setup::Setup;
 use super::acquisition::Acquisition;
 use super::centroid::Centroid;
 use super::estimator::Estimator;
+use super::in_firmware::likelihood_estimator;
 use super::likelihood::Likelihood;
 use super::likelihood::two_echoes::{self, TwoEchoes};
-use super::likelihood_estimator::LikelihoodEstimator;
 use super::matched_filter::MatchedFilter;
 use super::network::{fixed, float};
 use super::peak_detection::PeakDetection;
@@ -137,7 +137,7 @@ registry! {
     LikelihoodEstimator = Registered::in_firmware(
         FirmwareEstimator::Likelihood,
         "Maximum likelihood in integers, bit for bit as the firmware would",
-        |i| Ok(Box::new(LikelihoodEstimator::new(i.setup.likelihood(i.acquisition.shots)?))),
+        |i| Ok(Box::new(likelihood_estimator(i.setup.likelihood(i.acquisition.shots)?))),
     );
     /// Matched filter.
     Matched = Registered::new(

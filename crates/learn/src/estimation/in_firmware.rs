@@ -1,0 +1,65 @@
+//! An estimator of the firmware, bit for bit.
+
+use tofsim::firmware::likelihood_estimator::LikelihoodEstimator;
+use tofsim::firmware::likelihood_estimator::params::Params;
+use tofsim::firmware::tof_top::FirmwareEstimator;
+use tofsim::firmware::tof_top::status::StatusSet;
+use tofsim::sim::estimates::Clockless;
+
+use super::estimator::{Estimator, Failure, Found};
+
+/// An estimator of the firmware for the histograms of one instrument; a depth that it rejects is a failure.
+pub struct InFirmware<E: Clockless> {
+    name: &'static str,
+    params: E::Params,
+}
+
+impl<E: Clockless> InFirmware<E> {
+    /// The block `E` with its parameters and ROMs.
+    pub fn new(estimator: FirmwareEstimator, params: E::Params) -> Self {
+        InFirmware { name: estimator.estimator(), params }
+    }
+}
+
+/// The likelihood estimator by the parameters and ROMs that the instrument has, as `Setup::likelihood` gives them.
+pub fn likelihood_estimator(params: Params) -> InFirmware<LikelihoodEstimator> {
+    InFirmware::new(FirmwareEstimator::Likelihood, params)
+}
+
+impl<E: Clockless<Params: Send + Sync>> Estimator for InFirmware<E> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
+        Ok(self.find(histogram)?.depth_m)
+    }
+
+    fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
+        let words = E::estimate(&self.params, histogram);
+        let status = StatusSet::from(words.status);
+        if !status.is_empty() {
+            return Err(Failure::Rejected(status));
+        }
+        let sigma_m = E::STATES_SIGMA.then(|| words.sigma_m().to_num());
+        Ok(Found { depth_m: words.depth_m().to_num(), sigma_m, second: None })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim::Run;
+    use tofsim::sim::setup::Setup;
+
+    #[test]
+    fn what_is_not_believed_is_a_failure_in_words() {
+        let setup = Setup::load("kc705", &[]).unwrap();
+        let estimator = likelihood_estimator(setup.likelihood(30_000).unwrap());
+        let failure = estimator.estimate(&[0; 256]).unwrap_err().to_string();
+        assert!(failure.starts_with("no echo"), "{failure}");
+        let frames = Run::new(&setup).frames(1).unwrap();
+        let depth_m = estimator.estimate(&frames[0].histogram).unwrap();
+        assert!((depth_m - 0.5).abs() < 0.002, "{depth_m} m");
+    }
+}
