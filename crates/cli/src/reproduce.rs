@@ -1,17 +1,18 @@
 //! The tables and figures of the thesis made again, each with a verdict.
 
+pub mod finding;
 pub mod html;
-pub mod item;
-mod items;
 pub mod json;
+mod line;
+mod measures;
 mod networks;
 mod peaks;
-pub mod results;
+mod published;
 mod scenes;
 mod scopes;
 pub mod study;
+mod sweeps;
+pub mod table;
 pub mod text;
-mod tradeoffs;
+mod values;
 pub mod verdict;
-
-pub use items::all;

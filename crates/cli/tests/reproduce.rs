@@ -3,15 +3,28 @@
 pub mod page;
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::sync::LazyLock;
 
 use serde_json::Value;
 
 use crate::common::{empty, files, json, output, refused, stdout};
 
-/// All items, quickly.
-fn quick() -> Value {
-    json(empty().path(), &["reproduce", "--quick", "--json"])
+/// All items, quickly: what the command prints, its object, and its page.
+struct Quick {
+    overview: String,
+    object: Value,
+    page: String,
 }
+
+/// One run for all tests that look at all items.
+static QUICK: LazyLock<Quick> = LazyLock::new(|| {
+    let folder = empty();
+    let overview = stdout(folder.path(), &["reproduce", "--quick", "-o", "out"]);
+    let read = |file: &str| fs::read_to_string(folder.path().join("out").join(file)).unwrap();
+    let object = serde_json::from_str(&read("reproduce.json")).unwrap();
+    Quick { overview, object, page: read("reproduce.html") }
+});
 
 fn item<'a>(all: &'a Value, id: &str) -> &'a Value {
     all["items"].as_array().unwrap().iter().find(|item| item["id"] == id).unwrap()
@@ -24,7 +37,7 @@ fn ours(item: &Value, what: &str) -> f64 {
 
 #[test]
 fn every_item_has_a_verdict_and_what_is_not_the_same_has_a_reason() {
-    let all = quick();
+    let all = &QUICK.object;
     assert_eq!(all["schema"], "tofsim.reproduce/1");
     for key in ["set", "hash", "notes", "seed", "command"] {
         assert!(!all[key].is_null(), "{key}");
@@ -56,9 +69,9 @@ fn every_item_has_a_verdict_and_what_is_not_the_same_has_a_reason() {
 
 #[test]
 fn numbers_that_are_known_come_out() {
-    let all = quick();
+    let all = &QUICK.object;
     let is = |id: &str, what: &str, value: f64, within: f64| {
-        let found = ours(item(&all, id), what);
+        let found = ours(item(all, id), what);
         assert!((found - value).abs() <= within, "{id}, {what}: {found}");
     };
     is("eq-3.3", "P_m,avg", 12.774, 0.001);
@@ -96,7 +109,8 @@ fn named_items_are_made_alone_with_their_rows_within_80_columns() {
     }
     assert!(!text.contains("table-4.3: "), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    let overview = stdout(empty().path(), &["reproduce", "--quick"]);
+    let overview = &QUICK.overview;
+    assert!(overview.lines().count() > 60, "{overview}");
     assert!(overview.lines().all(|line| line.chars().count() <= 80), "{overview}");
 }
 

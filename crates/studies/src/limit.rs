@@ -39,16 +39,34 @@ const RELATIONS: [(&str, Relation); 4] = [
     (">", Relation::Above),
 ];
 
+impl Relation {
+    /// Splits a text at its relation: what stands before it, the relation, and what stands after it.
+    pub fn split(text: &str) -> Option<(&str, Relation, &str)> {
+        RELATIONS.iter().find_map(|(sign, relation)| {
+            let (left, right) = text.split_once(sign)?;
+            Some((left.trim(), *relation, right.trim()))
+        })
+    }
+
+    /// Returns whether the left number lies so to the right one.
+    pub fn holds(self, left: f64, right: f64) -> bool {
+        match self {
+            Relation::Below => left < right,
+            Relation::AtMost => left <= right,
+            Relation::Above => left > right,
+            Relation::AtLeast => left >= right,
+        }
+    }
+}
+
 impl Limit {
     /// Parses a limit at a key of a plan.
     ///
     /// # Errors
     /// If it is not a limit, or its column does not exist.
     pub fn parse(checked: &Checked, key: &str, text: &str, known: &[Column]) -> Result<Self> {
-        let found = RELATIONS.iter().find_map(|(sign, relation)| {
-            let (column, number) = text.split_once(sign)?;
-            Some((column.trim(), *relation, number.trim().parse().ok()?))
-        });
+        let found = Relation::split(text)
+            .and_then(|(column, relation, number)| Some((column, relation, number.parse().ok()?)));
         let number = |(_, _, number): &(&str, Relation, f64)| number.is_finite();
         let Some((column, relation, number)) = found.filter(number) else {
             let expected =
@@ -65,13 +83,7 @@ impl Limit {
 
     /// Returns whether a value meets the limit; a missing value does not.
     pub fn is_met(&self, value: Option<f64>) -> bool {
-        let Some(value) = value else { return false };
-        match self.relation {
-            Relation::Below => value < self.number,
-            Relation::AtMost => value <= self.number,
-            Relation::Above => value > self.number,
-            Relation::AtLeast => value >= self.number,
-        }
+        value.is_some_and(|value| self.relation.holds(value, self.number))
     }
 
     /// Returns how close a value is to violating the limit, larger being worse: the used fraction of the limit, or
@@ -90,12 +102,8 @@ impl Limit {
 
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sign = match self.relation {
-            Relation::Below => "<",
-            Relation::AtMost => "<=",
-            Relation::Above => ">",
-            Relation::AtLeast => ">=",
-        };
+        let sign = RELATIONS.iter().find(|(_, relation)| *relation == self.relation);
+        let sign = sign.map_or("", |(sign, _)| sign);
         write!(f, "{} {sign} {}", self.column, self.number)
     }
 }

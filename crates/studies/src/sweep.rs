@@ -64,14 +64,16 @@ pub struct Begun {
 /// # Errors
 /// If a point is refused, or the sweep is stopped.
 pub fn work_out(plan: &Plan, points: &[u64], stop: Option<&AtomicBool>) -> Result<Vec<Entry>> {
-    let of_point = |point: &u64| {
-        if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-            return Err(Error::Interrupted);
-        }
-        let worked = work(plan, *point, stop)?;
-        Ok(Entry { cells: worked.row.cells, notes: worked.notes })
-    };
-    points.par_iter().map(of_point).collect()
+    points.par_iter().map(|point| entry(plan, *point, stop)).collect()
+}
+
+/// Works out one point, unless it is stopped.
+fn entry(plan: &Plan, point: u64, stop: Option<&AtomicBool>) -> Result<Entry> {
+    if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+        return Err(Error::Interrupted);
+    }
+    let worked = work(plan, point, stop)?;
+    Ok(Entry { cells: worked.row.cells, notes: worked.notes })
 }
 
 /// Result of a sweep.
@@ -194,12 +196,7 @@ impl Sweep<'_> {
     ) -> Result<()> {
         let missing = is_there.par_iter().enumerate().filter(|(_, is_there)| !**is_there);
         missing.try_for_each(|(place, _)| {
-            if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-                return Err(Error::Interrupted);
-            }
-            let point = place as u64 * self.shard.count + self.shard.index - 1;
-            let worked = work(self.plan, point, stop)?;
-            take(Entry { cells: worked.row.cells, notes: worked.notes })
+            take(entry(self.plan, place as u64 * self.shard.count + self.shard.index - 1, stop)?)
         })
     }
 

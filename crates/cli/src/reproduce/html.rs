@@ -5,20 +5,19 @@ use crate::page::html::{badge, comparison, escaped, figure, wide_figure};
 use crate::page::timing;
 use crate::record::Record;
 
-use super::results::{Made, tally};
+use super::finding::{Finding, tally};
 use super::verdict::{RULE, Row, Verdict};
 
 /// The whole page.
-pub fn page(made: &[Made], record: &Record, quick: bool) -> String {
+pub fn page(findings: &[Finding], record: &Record, quick: bool) -> String {
     let lead = "Tables and numbered figures of M. Chen, 1D time-of-flight LIDAR (master's thesis, TU Delft, 2022), made again \
                 by this simulator.";
-    let counts = tally(made).map(|(verdict, count)| (verdict.words(), count.to_string()));
-    let size = match quick {
-        true => {
-            "<p class=\"bad\">This was a quick run: a tenth of the histograms, so that standard errors are three times those of a \
-             full one.</p>\n"
-        }
-        false => "",
+    let counts = tally(findings).map(|(verdict, count)| (verdict.words(), count.to_string()));
+    let size = if quick {
+        "<p class=\"bad\">This was a quick run: a tenth of the histograms, so that standard errors are three times those of a \
+         full one.</p>\n"
+    } else {
+        ""
     };
     let about = format!(
         "{size}<p>{}</p>\n<p>Of a claim in words, \"here\" says by what one sees whether it holds. A verdict of an item is \
@@ -31,8 +30,8 @@ pub fn page(made: &[Made], record: &Record, quick: bool) -> String {
     );
     let body = tiles(counts)
         + &section("How it is judged", &about)
-        + &section("Contents", &contents(made))
-        + &made.iter().map(item).collect::<String>();
+        + &section("Contents", &contents(findings))
+        + &findings.iter().map(item).collect::<String>();
     let title = "tofsim: the thesis's tables and figures";
     let heading = "The thesis, reproduced";
     Document { title, heading, lead, body, record }.html()
@@ -42,20 +41,19 @@ fn verdict(verdict: Verdict) -> String {
     badge(verdict.class(), verdict.words())
 }
 
-fn contents(made: &[Made]) -> String {
-    let line = |one: &Made| {
-        let (id, title) = (one.item.id, escaped(one.item.title));
+fn contents(findings: &[Finding]) -> String {
+    let line = |one: &Finding| {
+        let (id, title) = (&one.id, escaped(&one.title));
         format!("<li>{}<a href=\"#{id}\">{id}</a> {title}</li>\n", verdict(one.verdict))
     };
-    format!("<ul class=\"contents\">\n{}</ul>\n", made.iter().map(line).collect::<String>())
+    format!("<ul class=\"contents\">\n{}</ul>\n", findings.iter().map(line).collect::<String>())
 }
 
-fn item(made: &Made) -> String {
-    let finding = &made.finding;
+fn item(finding: &Finding) -> String {
     let pictures: String = (finding.figures.iter())
-        .map(|one| match one.is_wide {
-            true => wide_figure(&one.svg, &escaped(&one.words)),
-            false => figure(&one.svg, &escaped(&one.words)),
+        .map(|one| {
+            let figure = if one.is_wide { wide_figure } else { figure };
+            figure(&one.svg, &escaped(&one.words))
         })
         .collect();
     let traces: String = (finding.traces.iter())
@@ -66,14 +64,14 @@ fn item(made: &Made) -> String {
         reason => format!("<p class=\"reason\">{}</p>\n", escaped(reason)),
     };
     let made_by: Vec<_> =
-        [made.command.clone()].into_iter().chain(finding.commands.clone()).collect();
+        [finding.command.clone()].into_iter().chain(finding.commands.clone()).collect();
     let made_by = if finding.rows.is_empty() { String::new() } else { commands(&made_by) };
     format!(
         "<section id=\"{id}\">\n<h3>{} {id}: {}</h3>\n{}{pictures}{traces}{reason}{made_by}</section>\n",
-        verdict(made.verdict),
-        escaped(made.item.title),
+        verdict(finding.verdict),
+        escaped(&finding.title),
         rows(&finding.rows),
-        id = made.item.id,
+        id = finding.id,
     )
 }
 

@@ -2,7 +2,7 @@
 
 use crate::text::table::{plain, table};
 
-use super::results::{Made, tally};
+use super::finding::{Finding, tally};
 use super::verdict::Verdict;
 
 /// Columns of a line of words.
@@ -11,34 +11,34 @@ const WIDTH: usize = 79;
 const OURS: usize = 26;
 
 /// A line for each item, and how many have which verdict.
-pub fn overview(made: &[Made]) -> String {
-    let rows = made.iter().map(|one| {
-        let (same, all) = one.finding.score();
+pub fn overview(findings: &[Finding]) -> String {
+    let rows = findings.iter().map(|one| {
+        let (same, all) = one.score();
         let score = if all == 0 { String::new() } else { format!("{same} of {all}") };
-        [one.item.id.to_owned(), one.verdict.words().to_owned(), score, shortened(one.item.title)]
+        [one.id.clone(), one.verdict.words().to_owned(), score, shortened(&one.title)]
     });
     format!(
         "{}\n\n{}\n",
         table(["item", "verdict", "same", "what it shows"], rows, ..0),
-        counts(made)
+        counts(findings)
     )
 }
 
 /// All rows of each item, with the reason.
-pub fn in_full(made: &[Made]) -> String {
-    let each = made.iter().map(|one| {
-        let head = format!("{}: {} -- {}\n", one.item.id, one.item.title, one.verdict.words());
-        let reason = match one.finding.reason.as_str() {
+pub fn in_full(findings: &[Finding]) -> String {
+    let each = findings.iter().map(|one| {
+        let head = format!("{}: {} -- {}\n", one.id, one.title, one.verdict.words());
+        let reason = match one.reason.as_str() {
             "" => String::new(),
             reason => format!("\n{}\n", wrapped(reason, WIDTH)),
         };
         head + &rows(one) + &reason + &format!("\n{}\n", one.command)
     });
-    each.collect::<Vec<_>>().join("\n") + &format!("\n{}\n", counts(made))
+    each.collect::<Vec<_>>().join("\n") + &format!("\n{}\n", counts(findings))
 }
 
-fn rows(made: &Made) -> String {
-    let rows: Vec<[String; 4]> = (made.finding.rows.iter())
+fn rows(finding: &Finding) -> String {
+    let rows: Vec<[String; 4]> = (finding.rows.iter())
         .map(|row| {
             let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
             let thesis = row.thesis.as_ref().map_or("-".to_owned(), |side| side.words());
@@ -63,9 +63,9 @@ fn rows(made: &Made) -> String {
 }
 
 /// How many items have each verdict.
-fn counts(made: &[Made]) -> String {
+fn counts(findings: &[Finding]) -> String {
     let counts =
-        tally(made).map(|(verdict, count)| [count.to_string(), verdict.words().to_owned()]);
+        tally(findings).map(|(verdict, count)| [count.to_string(), verdict.words().to_owned()]);
     plain(counts)
 }
 

@@ -14,6 +14,10 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    fn of(is_same: bool) -> Self {
+        if is_same { Verdict::Same } else { Verdict::Differs }
+    }
+
     /// In words.
     pub fn words(self) -> &'static str {
         match self {
@@ -48,15 +52,6 @@ pub struct Number {
 }
 
 impl Number {
-    pub fn new(value: f64, decimals: usize) -> Self {
-        Number { value, decimals, standard_error: None }
-    }
-
-    /// The same with a standard error.
-    pub fn with_error(self, standard_error: f64) -> Self {
-        Number { standard_error: Some(standard_error), ..self }
-    }
-
     /// As it is written.
     pub fn words(&self) -> String {
         let Number { value, decimals, .. } = *self;
@@ -94,7 +89,7 @@ impl Side {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     pub what: String,
-    pub unit: &'static str,
+    pub unit: String,
     /// As printed; null where the thesis prints nothing.
     pub thesis: Option<Side>,
     pub ours: Side,
@@ -103,40 +98,20 @@ pub struct Row {
 }
 
 impl Row {
-    /// Two numbers, by the [`RULE`]; the decimals of the thesis's are those that it prints.
-    pub fn numbers(
-        what: impl Into<String>,
-        unit: &'static str,
-        thesis: Number,
-        ours: Number,
-    ) -> Self {
-        let verdict = if is_same(&thesis, &ours) { Verdict::Same } else { Verdict::Differs };
-        let (thesis, ours) = (Some(Side::Number(thesis)), Side::Number(ours));
-        Row { what: what.into(), unit, thesis, ours, verdict: Some(verdict) }
+    /// Compares both sides: numbers by the [`RULE`], words letter by letter. Where the thesis prints nothing there is no
+    /// verdict.
+    pub fn new(what: String, unit: &str, thesis: Option<Side>, ours: Side) -> Self {
+        let is_same = thesis.as_ref().map(|thesis| match (thesis, &ours) {
+            (Side::Number(thesis), Side::Number(ours)) => is_same(thesis, ours),
+            _ => *thesis == ours,
+        });
+        Row { what, unit: unit.to_owned(), thesis, ours, verdict: is_same.map(Verdict::of) }
     }
 
-    /// Words that have to be equal.
-    pub fn words(
-        what: impl Into<String>,
-        thesis: impl Into<String>,
-        ours: impl Into<String>,
-    ) -> Self {
-        let (thesis, ours) = (thesis.into(), ours.into());
-        let verdict = if thesis == ours { Verdict::Same } else { Verdict::Differs };
-        let (thesis, ours) = (Some(Side::Words(thesis)), Side::Words(ours));
-        Row { what: what.into(), unit: "", thesis, ours, verdict: Some(verdict) }
-    }
-
-    /// Something that the thesis says holds, whether it does here, and by what one sees that.
-    pub fn claim(what: impl Into<String>, holds: bool, seen: impl Into<String>) -> Self {
-        let verdict = Some(if holds { Verdict::Same } else { Verdict::Differs });
-        let (thesis, ours) = (Some(Side::Words("so it says".to_owned())), Side::Words(seen.into()));
-        Row { what: what.into(), unit: "", thesis, ours, verdict }
-    }
-
-    /// Something that the thesis does not print.
-    pub fn ours_alone(what: impl Into<String>, unit: &'static str, ours: Number) -> Self {
-        Row { what: what.into(), unit, thesis: None, ours: Side::Number(ours), verdict: None }
+    /// Judges a claim: whether it holds here, and by what one sees that.
+    pub fn claim(what: String, holds: bool, seen: String) -> Self {
+        let (thesis, ours) = (Some(Side::Words("so it says".to_owned())), Side::Words(seen));
+        Row { what, unit: String::new(), thesis, ours, verdict: Some(Verdict::of(holds)) }
     }
 }
 
@@ -152,37 +127,47 @@ fn is_same(thesis: &Number, ours: &Number) -> bool {
 mod tests {
     use super::*;
 
+    fn number(value: f64, decimals: usize, standard_error: Option<f64>) -> Number {
+        Number { value, decimals, standard_error }
+    }
+
+    fn row(thesis: Option<Side>, ours: Side) -> Option<Verdict> {
+        Row::new(String::new(), "", thesis, ours).verdict
+    }
+
     fn verdict(thesis: Number, ours: Number) -> Option<Verdict> {
-        Row::numbers("", "", thesis, ours).verdict
+        row(Some(Side::Number(thesis)), Side::Number(ours))
     }
 
     #[test]
     fn rounding_and_two_standard_errors_of_both_are_no_difference() {
-        let thesis = Number::new(12.77, 2);
-        assert_eq!(verdict(thesis, Number::new(12.774, 3)), Some(Verdict::Same));
-        assert_eq!(verdict(thesis, Number::new(12.776, 3)), Some(Verdict::Differs));
-        assert_eq!(verdict(thesis, Number::new(12.80, 2).with_error(0.01)), Some(Verdict::Differs));
-        let both = verdict(thesis.with_error(0.01), Number::new(12.80, 2).with_error(0.01));
+        let thesis = number(12.77, 2, None);
+        assert_eq!(verdict(thesis, number(12.774, 3, None)), Some(Verdict::Same));
+        assert_eq!(verdict(thesis, number(12.776, 3, None)), Some(Verdict::Differs));
+        assert_eq!(verdict(thesis, number(12.80, 2, Some(0.01))), Some(Verdict::Differs));
+        let both =
+            verdict(Number { standard_error: Some(0.01), ..thesis }, number(12.80, 2, Some(0.01)));
         assert_eq!(both, Some(Verdict::Same));
     }
 
     #[test]
     fn whole_numbers_have_no_room_beside_half_a_unit() {
-        let seven = Number::new(7.0, 0);
-        assert_eq!(verdict(seven, Number::new(7.0, 0)), Some(Verdict::Same));
-        assert_eq!(verdict(seven, Number::new(6.0, 0)), Some(Verdict::Differs));
+        let seven = number(7.0, 0, None);
+        assert_eq!(verdict(seven, number(7.0, 0, None)), Some(Verdict::Same));
+        assert_eq!(verdict(seven, number(6.0, 0, None)), Some(Verdict::Differs));
     }
 
     #[test]
     fn words_are_the_same_or_not() {
-        assert_eq!(Row::words("a", "01", "01").verdict, Some(Verdict::Same));
-        assert_eq!(Row::words("a", "01", "1").verdict, Some(Verdict::Differs));
-        assert_eq!(Row::ours_alone("a", "", Number::new(1.0, 0)).verdict, None);
+        let words = |text: &str| Side::Words(text.to_owned());
+        assert_eq!(row(Some(words("01")), words("01")), Some(Verdict::Same));
+        assert_eq!(row(Some(words("01")), words("1")), Some(Verdict::Differs));
+        assert_eq!(row(None, words("1")), None);
     }
 
     #[test]
     fn a_number_is_written_with_its_standard_error_and_without_a_minus_at_nothing() {
-        assert_eq!(Number::new(-5.66, 1).with_error(0.06).words(), "-5.7 +- 0.06");
-        assert_eq!(Number::new(-0.04, 1).words(), "0.0");
+        assert_eq!(number(-5.66, 1, Some(0.06)).words(), "-5.7 +- 0.06");
+        assert_eq!(number(-0.04, 1, None).words(), "0.0");
     }
 }

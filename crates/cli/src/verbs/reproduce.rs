@@ -11,10 +11,10 @@ use tofsim::files::staged::StagedFolder;
 
 use crate::page::wavejson::wavejson;
 use crate::record::Record;
-use crate::reproduce::item::Item;
-use crate::reproduce::results::Made;
+use crate::reproduce::finding::Finding;
 use crate::reproduce::study::Study;
-use crate::reproduce::{all, html, json, text};
+use crate::reproduce::table::{self, Item};
+use crate::reproduce::{html, json, text};
 use crate::text::table::facts;
 
 use super::draws::{MOST_THREADS, use_threads};
@@ -68,8 +68,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let progress = talk.progress(items.len() as u64, "items");
     let mut made = Vec::new();
     for item in items {
-        talk.detail(item.id);
-        made.push(Made::new(item, item.find(&study)?, args.seed, args.quick));
+        talk.detail(&item.id);
+        made.push(Finding::new(&item, &study)?);
         progress.inc(1);
     }
     progress.finish_and_clear();
@@ -94,10 +94,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 }
 
 /// The timing diagrams of all items.
-fn write_waves(made: &[Made], folder: &Path) -> Result<()> {
-    for one in made {
-        for (words, trace) in &one.finding.traces {
-            let path = folder.join(format!("{}.wave.json", one.item.id));
+fn write_waves(findings: &[Finding], folder: &Path) -> Result<()> {
+    for one in findings {
+        for (words, trace) in &one.traces {
+            let path = folder.join(format!("{}.wave.json", one.id));
             write_bytes(&path, format!("{}\n", wavejson(trace, words)))?;
         }
     }
@@ -105,26 +105,23 @@ fn write_waves(made: &[Made], folder: &Path) -> Result<()> {
 }
 
 /// The items of such names, in the order of the thesis; all without names.
-fn chosen(names: &[String]) -> Result<Vec<&'static Item>> {
-    let all = all();
+fn chosen(names: &[String]) -> Result<Vec<Item>> {
+    let all = table::items()?;
     for name in names {
-        if all.iter().all(|item| item.id != name) {
-            let near = nearest(name, all.iter().map(|item| item.id));
+        if all.iter().all(|item| item.id != *name) {
+            let near = nearest(name, all.iter().map(|item| item.id.as_str()));
             let hint = near.map_or(String::new(), |near| format!(" ({near}?)"));
             let expected = format!("there is no item of that name{hint}; --list has all");
             return Err(Input::new("ITEM", expected).value(name).into());
         }
     }
-    Ok(all
-        .into_iter()
-        .filter(|item| names.is_empty() || names.iter().any(|name| name == item.id))
-        .collect())
+    Ok(all.into_iter().filter(|item| names.is_empty() || names.contains(&item.id)).collect())
 }
 
-fn list(items: &[&Item], as_json: bool) -> Result<()> {
+fn list(items: &[Item], as_json: bool) -> Result<()> {
     if as_json {
-        let object = |item: &&Item| json!({ "id": item.id, "title": item.title });
+        let object = |item: &Item| json!({ "id": item.id, "title": item.title });
         return print_json(&items.iter().map(object).collect());
     }
-    print(&format!("{}\n", facts(items.iter().map(|item| (item.id, item.title.to_owned())))))
+    print(&format!("{}\n", facts(items.iter().map(|item| (item.id.as_str(), item.title.clone())))))
 }

@@ -7,13 +7,10 @@ use tofsim::sim::Run;
 use tofsim::sim::run::Observers;
 use tofsim::sim::shot_recorder::Shot;
 
-use crate::page::plot::{BLUE, GREY, Layer, Plot, Shape};
-use crate::reproduce::item::{Finding, Item};
+use crate::page::plot::{BLUE, GREY, Layer, Shape};
+use crate::reproduce::finding::Measured;
 use crate::reproduce::study::Study;
-use crate::reproduce::verdict::{Number, Row, Verdict};
-
-pub const ITEMS: [Item; 1] =
-    [Item::made("fig-6.7", "The SPAD's output on an oscilloscope", screen)];
+use crate::reproduce::values::Values;
 
 /// Time constants of the path, each a low pass of the first order: the pad's driver into its pair, and the board with
 /// the probe. Our assumptions: edges of 0.4 and 0.9 ns from 10 to 90 % [ns].
@@ -23,7 +20,7 @@ const BOARD_NS: f64 = 0.9 / 2.197;
 const SCREEN_NS: f64 = 12.0;
 const STEP_NS: f64 = 0.1;
 const BIN_NS: f64 = 0.2;
-/// Shots drawn, and shots of the accumulated histogram.
+/// Shots whose edges are drawn.
 const DRAWN: usize = 12;
 
 /// The edge that a step at 0 becomes after both low passes [1].
@@ -35,7 +32,7 @@ fn edge(ns: f64) -> f64 {
     1.0 - (a * (-ns / a).exp() - b * (-ns / b).exp()) / (a - b)
 }
 
-fn screen(study: &Study) -> Result<Finding> {
+pub(super) fn screen(study: &Study) -> Result<Measured> {
     let setup = study.setup("kc705", &["target.distance_m=0.6"])?;
     let mut arrivals = Vec::new();
     let mut take = |shot: &Shot| {
@@ -68,24 +65,11 @@ fn screen(study: &Study) -> Result<Finding> {
     layers.push(Layer::new("mean of all shots with a hit", BLUE, Shape::Line, means));
     let rise = |part: f64| (0..100_000).map(|k| k as f64 * 1e-4).find(|ns| edge(*ns) >= part);
     let rise_ns = rise(0.9).unwrap_or(f64::NAN) - rise(0.1).unwrap_or(f64::NAN);
-    let rows = [
-        Row::ours_alone("edge from 10 to 90 %, as modelled", "ns", Number::new(rise_ns, 2)),
-        Row::ours_alone(
-            "shots of a frame with a hit on the screen",
-            "",
-            Number::new(arrivals.len() as f64, 0),
-        ),
-    ];
-    let axes = ["time from the laser edge [ns]", "tdc_stop, of its swing"];
-    let plot = Plot { title: "0.6 m, 34 %, 0.2 W/m^2/nm", axes, layers };
-    let reason = "A photo of a screen, without a scale that can be read and of a board that was not measured. What is drawn is \
-                  a model: tdc_stop of the simulation, level by level, through two low passes of the first order, 0.4 ns for \
-                  the LVDS driver and 0.9 ns for board and probe (10 to 90 %), which are our assumptions.";
-    let words = format!(
-        "The edges of {DRAWN} shots, the mean of all, and the histogram that the instrument accumulates."
-    );
-    let finding = Finding { overruled: Some(Verdict::CannotBeReproduced), ..Finding::of(rows) };
-    finding.because(reason).with_plot(&plot, words)
+    let mut values = Values::default();
+    values.put("rise_ns", rise_ns);
+    values.put("shots", arrivals.len() as f64);
+    values.put("drawn", DRAWN as f64);
+    Ok(Measured::from(values).layers(layers))
 }
 
 #[cfg(test)]
