@@ -1,11 +1,14 @@
-//! `docs/adding-a-block.md` is enough to add a block: its pieces are applied to a copy of the repository,
-//! and what comes of it is built and run.
+//! The pages of docs/ that add something are enough to add it: their pieces are applied to a copy of the repository,
+//! which is built once and run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+
+/// Pages whose pieces are applied, all to the same copy.
+const PAGES: [&str; 2] = ["docs/adding-a-block.md", "docs/adding-a-column.md"];
 
 /// A piece of the example, and the file it goes into.
 struct Piece<'a> {
@@ -109,10 +112,12 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path();
     copy(root);
-    let page = fs::read_to_string(root.join("docs/adding-a-block.md")).unwrap();
-    let pieces = pieces(&page);
-    assert!(pieces.len() > 8);
-    pieces.iter().for_each(|piece| piece.apply(root));
+    for page in PAGES {
+        let page = fs::read_to_string(root.join(page)).unwrap();
+        let pieces = pieces(&page);
+        assert!(pieces.len() > 2);
+        pieces.iter().for_each(|piece| piece.apply(root));
+    }
 
     // Other people's libraries are where this test's own are; what is made of the copy is apart.
     let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("adding_a_block");
@@ -150,13 +155,17 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
     tofsim(&["vectors", "miss_counter", "-o", "out"]);
     let ports = fs::read_to_string(root.join("out/miss_counter/ports.json")).unwrap();
     assert!(ports.contains(r#""meaning": "Shots without a code in this frame.""#));
+    let plan = "outputs = [\"fullest_bin_hits\"]\nframes = 2\n";
+    fs::write(root.join("plan.toml"), plan).unwrap();
+    let table = tofsim(&["sweep", "plan.toml"]);
+    assert!(table.contains("fullest_bin_hits") && table.contains("+-"), "{table}");
 }
 
 #[test]
 fn every_piece_of_the_page_has_its_place() {
-    let page = fs::read_to_string(Path::new(ROOT).join("docs/adding-a-block.md")).unwrap();
+    let pages = PAGES.map(|page| fs::read_to_string(Path::new(ROOT).join(page)).unwrap());
     let folder = tempfile::tempdir().unwrap();
-    for piece in pieces(&page) {
+    for piece in pages.iter().flat_map(|page| pieces(page)) {
         let path = folder.path().join(piece.file);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         let original = Path::new(ROOT).join(piece.file);

@@ -67,6 +67,35 @@ fn every_item_has_a_verdict_and_what_is_not_the_same_has_a_reason() {
     assert_eq!(counts.iter().sum::<u64>(), items.len() as u64);
 }
 
+/// Side of a row, in as many digits as any computer gives.
+fn side(side: &Value) -> String {
+    let number = |key: &str| side[key].as_f64().map(|number| format!("{number:.3e}"));
+    match (number("value"), number("standard_error")) {
+        (Some(value), Some(error)) => format!("{value} +- {error}"),
+        (Some(value), None) => value,
+        _ => side.as_str().unwrap_or("-").to_owned(),
+    }
+}
+
+#[test]
+fn every_row_is_what_it_was() {
+    let mut lines = Vec::new();
+    for item in QUICK.object["items"].as_array().unwrap() {
+        lines.push(format!(
+            "{}: {}",
+            item["id"].as_str().unwrap(),
+            item["verdict"].as_str().unwrap()
+        ));
+        for row in item["rows"].as_array().unwrap() {
+            let [what, unit] = ["what", "unit"].map(|key| row[key].as_str().unwrap());
+            let verdict = row["verdict"].as_str().unwrap_or("-");
+            let [thesis, ours] = ["thesis", "ours"].map(|key| side(&row[key]));
+            lines.push(format!("    {what} [{unit}] | {thesis} | {ours} | {verdict}"));
+        }
+    }
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
 #[test]
 fn numbers_that_are_known_come_out() {
     let all = &QUICK.object;
@@ -103,7 +132,7 @@ fn named_items_are_made_alone_with_their_rows_within_80_columns() {
     let text =
         stdout(empty().path(), &["reproduce", "table-6.3", "fig-6.21", "table-5.5", "--quick"]);
     for words in
-        ["table-6.3: ", "N for 4 ns", "01013c199", "0.502412 m", "tofsim reproduce table-6.3"]
+        ["table-6.3: ", "N for 4 ns", "01013c199", "0.502412", "tofsim reproduce table-6.3"]
     {
         assert!(text.contains(words), "{words}: {text}");
     }

@@ -50,7 +50,7 @@ impl Column {
 type Expected = (&'static str, &'static str, &'static str, fn(&Setup) -> Result<Option<f64>>);
 
 /// Columns of expected values.
-const EXPECTED: [Expected; 16] = [
+const EXPECTED: &[Expected] = &[
     ("signal_per_shot", "1", "Detected laser photons of a shot, S_p of eq. 3.14", |setup| {
         Ok(Some(setup.budget.signal_per_shot))
     }),
@@ -123,7 +123,7 @@ const EXPECTED: [Expected; 16] = [
 ];
 
 /// Columns of simulated frames: name, unit, meaning, origin.
-const OF_FRAMES: [(&str, &str, &str, Quantity); 6] = [
+const OF_FRAMES: &[(&str, &str, &str, Quantity)] = &[
     (
         "hits_per_frame",
         "hits",
@@ -161,7 +161,7 @@ const OF_FRAMES: [(&str, &str, &str, Quantity); 6] = [
 type OfErrors = (&'static str, &'static str, &'static str, fn(&Errors) -> Figure);
 
 /// Columns of an estimator.
-const OF_ERRORS: [OfErrors; 6] = [
+const OF_ERRORS: &[OfErrors] = &[
     ("bias_mm", "mm", "Mean error of the depths, b of eq. 4.1", Errors::bias),
     ("sd_mm", "mm", "Standard deviation of the depths, sigma of eq. 4.1", Errors::sd),
     ("two_sd_mm", "mm", "Twice that", Errors::two_sd),

@@ -25,8 +25,6 @@ pub enum Shape {
     Line,
     Dashes,
     Dots,
-    /// Lines, each from a point to the one after it.
-    Whiskers,
 }
 
 /// Points of one kind.
@@ -104,10 +102,6 @@ impl Plot<'_> {
                 }
                 Shape::Line => chart.draw_series(LineSeries::new(points, thick))?,
                 Shape::Dashes => chart.draw_series(DashedLineSeries::new(points, 7, 4, thick))?,
-                Shape::Whiskers => {
-                    let ends = layer.points.chunks_exact(2);
-                    chart.draw_series(ends.map(|ends| PathElement::new(ends.to_vec(), colour)))?
-                }
                 Shape::Dots => {
                     chart.draw_series(points.map(|point| Circle::new(point, 3, colour.filled())))?
                 }
@@ -150,18 +144,6 @@ mod tests {
         }
         assert_eq!(plot.svg().unwrap(), svg);
         assert_eq!(Plot { layers: Vec::new(), ..plot }.svg().unwrap(), "");
-    }
-
-    #[test]
-    fn each_two_points_of_whiskers_are_a_line_of_their_own() {
-        let ends = [(0.0, 1.0), (0.0, 2.0), (1.0, 1.5), (1.0, 3.0)];
-        let layers = vec![Layer::new("", GREY, Shape::Whiskers, ends)];
-        let svg = |layers| Plot { title: "", axes: ["", ""], layers }.svg().unwrap();
-        let lines = |svg: &str| svg.matches("<polyline").count();
-        assert_eq!(
-            lines(&svg(layers)) - lines(&svg(vec![Layer::new("", GREY, Shape::Dots, ends)])),
-            2
-        );
     }
 
     #[test]

@@ -128,8 +128,8 @@ impl Finding {
             figures: Vec::new(),
             traces: Vec::new(),
         };
-        for (picture, drawing) in item.pictures.iter().flat_map(Picture::all).zip(drawings) {
-            finding.show(&picture, drawing, &values)?;
+        for (picture, drawing) in item.pictures.iter().zip(drawings) {
+            finding.show(picture, drawing, &values)?;
         }
         let plots = sweeps.pictures()?.into_iter();
         finding.figures.extend(plots.map(|(svg, words)| Figure { svg, words, is_wide: true }));
@@ -142,7 +142,7 @@ impl Finding {
             Drawing::Layers(layers) => {
                 let title = values.fill(&picture.title)?;
                 let plot = Plot { title: &title, axes: [&picture.x, &picture.y], layers };
-                let svg = plot.svg().map_err(|fault| Input::new(&title, fault))?;
+                let svg = plot.svg()?;
                 self.figures.push(Figure { svg, words, is_wide: false });
             }
             Drawing::Svg(svg) => self.figures.push(Figure { svg, words, is_wide: true }),
@@ -185,14 +185,8 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Evaluates a row, or all rows of a group.
+    /// Evaluates a row, or one for each point of its line.
     fn add(&mut self, spec: &RowSpec) -> Result<()> {
-        for (place, label) in spec.each.iter().enumerate() {
-            spec.rows.iter().try_for_each(|row| self.add(&row.at(place, label)))?;
-        }
-        if !spec.each.is_empty() {
-            return Ok(());
-        }
         let mut values = self.values.clone();
         let Some(at) = &spec.line else {
             self.rows.push(row(spec, &values)?);
@@ -251,7 +245,7 @@ fn row(spec: &RowSpec, values: &Values) -> Result<Row> {
             }
         })
     };
-    let printed = spec.thesis.at(0);
+    let printed = spec.thesis.as_deref();
     // A number that is printed has its own digits.
     let digits = printed.filter(|printed| printed.parse::<f64>().is_ok());
     let digits = digits.map(|printed| printed.split_once('.').map_or(0, |parts| parts.1.len()));

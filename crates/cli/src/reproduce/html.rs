@@ -80,12 +80,9 @@ fn rows(rows: &[Row]) -> String {
         return String::new();
     }
     let row = |row: &Row| {
-        let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
-        let thesis = row.thesis.as_ref().map_or("-".to_owned(), |side| side.words());
-        let judged = row.verdict.map_or(String::new(), verdict);
-        let sides = [thesis, row.ours.words()].map(|words| words.replace("+-", "\u{b1}"));
-        let [thesis, ours] = sides;
-        [format!("{}{unit}", row.what), thesis, ours, judged]
+        let [what, sides @ ..] = row.cells();
+        let [thesis, ours] = sides.map(|words| words.replace("+-", "\u{b1}"));
+        [what, thesis, ours, row.verdict.map_or(String::new(), verdict)]
     };
     comparison(["thesis", "here"], rows.iter().map(row))
 }

@@ -2,9 +2,11 @@
 //!
 //! `stimuli/thesis/` has a file for each chapter, with the items in the thesis's order.
 
-use serde::Deserialize;
+use serde::de::{DeserializeOwned, Error};
+use serde::{Deserialize, Deserializer};
+use toml::{Table, Value};
 
-use tofsim::error::{Input, Result};
+use tofsim::error::{self, Input};
 
 /// The files of the table, a name and a text for each.
 const CHAPTERS: [(&str, &str); 5] = [
@@ -16,6 +18,9 @@ const CHAPTERS: [(&str, &str); 5] = [
 ];
 
 /// A table, a figure or another place of the thesis.
+///
+/// An entry of `row` or `picture` with labels in `each` is there once for each label, or all of its `rows` are; `{each}` stands
+/// for the label in every text, and a list in `thesis` has what is printed for each.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Item {
@@ -27,10 +32,10 @@ pub struct Item {
     #[serde(default)]
     pub plans: Vec<String>,
     /// Rows, in their order.
-    #[serde(default, rename = "row")]
+    #[serde(default, rename = "row", deserialize_with = "expanded")]
     pub rows: Vec<RowSpec>,
     /// Pictures, in their order.
-    #[serde(default, rename = "picture")]
+    #[serde(default, rename = "picture", deserialize_with = "expanded")]
     pub pictures: Vec<Picture>,
     /// Why something differs, and how to read the rest; may have `{values}`.
     #[serde(default)]
@@ -43,23 +48,17 @@ pub struct Item {
     pub cannot_be_reproduced: bool,
 }
 
-/// A row, or a group of rows for each of several labels.
-///
-/// A row compares `thesis` with `ours`, shows `ours` alone, or judges a claim: that all of `holds` hold, or that the
-/// scenario has the key of `sets`. In a group, `{each}` stands for the label.
+/// A row: it compares `thesis` with `ours`, shows `ours` alone, or judges a claim, that all of `holds` hold or that the
+/// scenario has the key of `sets`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RowSpec {
-    /// Labels of a group.
-    pub each: Vec<String>,
-    /// Rows of a group, all of them for the first label, then for the second, and so on.
-    pub rows: Vec<RowSpec>,
     /// What is compared.
     pub what: String,
     /// Unit.
     pub unit: String,
-    /// What the thesis prints: a number, words or a value's name; in a group, one for each label.
-    pub thesis: Printed,
+    /// What the thesis prints: a number, words or a value's name.
+    pub thesis: Option<String>,
     /// What comes out: a formula, or words with `{values}`.
     pub ours: Option<String>,
     /// Digits after the point; without it, as many as the thesis prints.
@@ -78,19 +77,6 @@ pub struct RowSpec {
     pub points: bool,
 }
 
-/// What the thesis prints.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(untagged)]
-pub enum Printed {
-    /// Nothing.
-    #[default]
-    Nothing,
-    /// The same for each label.
-    One(String),
-    /// Something for each label.
-    Each(Vec<String>),
-}
-
 /// A column of a sweep over another.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -107,12 +93,10 @@ pub struct LineSpec {
     pub at: Vec<String>,
 }
 
-/// A picture: words below it, and title and axes of a plot; all may have `{values}`.
+/// A picture: words below it, and title and axes of a plot. Title and words may have `{values}`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Picture {
-    /// Labels, if there is a picture for each.
-    pub each: Vec<String>,
     /// Title of a plot.
     pub title: String,
     /// What is along its horizontal axis, with the unit.
@@ -123,48 +107,41 @@ pub struct Picture {
     pub words: String,
 }
 
-impl Printed {
-    /// Returns what is printed for a label, by its place.
-    pub fn at(&self, place: usize) -> Option<&str> {
-        match self {
-            Printed::Nothing => None,
-            Printed::One(printed) => Some(printed),
-            Printed::Each(all) => all.get(place).map(String::as_str),
-        }
-    }
-}
-
-impl RowSpec {
-    /// Returns the row for a label of its group.
-    pub fn at(&self, place: usize, label: &str) -> RowSpec {
-        let with = |text: &String| text.replace("{each}", label);
-        let line =
-            |line: &LineSpec| LineSpec { at: line.at.iter().map(with).collect(), ..line.clone() };
-        RowSpec {
-            what: with(&self.what),
-            thesis: self
-                .thesis
-                .at(place)
-                .map_or(Printed::Nothing, |printed| Printed::One(printed.replace("{each}", label))),
-            ours: self.ours.as_ref().map(with),
-            holds: self.holds.iter().map(with).collect(),
-            seen: with(&self.seen),
-            line: self.line.as_ref().map(line),
-            other: self.other.as_ref().map(line),
-            ..self.clone()
-        }
-    }
-}
-
-impl Picture {
-    /// Returns the picture for each of its labels, or itself without any.
-    pub fn all(&self) -> Vec<Picture> {
-        let at = |label: &String| {
-            let [title, words] =
-                [&self.title, &self.words].map(|text| text.replace("{each}", label));
-            Picture { title, words, ..self.clone() }
+/// Reads a list whose entries may be groups, each there once for each of its labels.
+fn expanded<'de, D: Deserializer<'de>, T: DeserializeOwned>(file: D) -> Result<Vec<T>, D::Error> {
+    let mut entries = Vec::new();
+    for mut entry in Vec::<Table>::deserialize(file)? {
+        let Some(labels) = entry.remove("each") else {
+            entries.push(Value::Table(entry));
+            continue;
         };
-        if self.each.is_empty() { vec![self.clone()] } else { self.each.iter().map(at).collect() }
+        let rows = match entry.remove("rows") {
+            Some(Value::Array(rows)) => rows,
+            _ => vec![Value::Table(entry)],
+        };
+        let labels: Vec<String> = labels.try_into().map_err(D::Error::custom)?;
+        for (place, label) in labels.iter().enumerate() {
+            entries.extend(rows.iter().map(|row| labelled(row, place, label)));
+        }
+    }
+    entries.into_iter().map(|entry| entry.try_into().map_err(D::Error::custom)).collect()
+}
+
+/// An entry of a group for one of its labels.
+fn labelled(entry: &Value, place: usize, label: &str) -> Value {
+    match entry {
+        Value::String(text) => text.replace("{each}", label).into(),
+        Value::Array(all) => {
+            Value::Array(all.iter().map(|one| labelled(one, place, label)).collect())
+        }
+        Value::Table(table) => {
+            let with = |(key, value): (&String, &Value)| {
+                let value = value.get(place).filter(|_| key == "thesis").unwrap_or(value);
+                (key.clone(), labelled(value, place, label))
+            };
+            Value::Table(table.iter().map(with).collect())
+        }
+        other => other.clone(),
     }
 }
 
@@ -179,12 +156,12 @@ struct Chapter {
 ///
 /// # Errors
 /// When a file of the table is not one.
-pub fn items() -> Result<Vec<Item>> {
+pub fn items() -> error::Result<Vec<Item>> {
     let chapter = |(name, text): &(&str, &str)| {
         let chapter: Chapter = toml::from_str(text).map_err(|fault| Input::new(*name, fault))?;
         Ok(chapter.item)
     };
-    Ok(CHAPTERS.iter().map(chapter).collect::<Result<Vec<_>>>()?.concat())
+    Ok(CHAPTERS.iter().map(chapter).collect::<error::Result<Vec<_>>>()?.concat())
 }
 
 #[cfg(test)]
@@ -228,12 +205,21 @@ mod tests {
 
     #[test]
     fn a_group_has_its_label_wherever_it_is_asked_for() {
-        let text = "each = ['a', 'b']\nrows = [{ what = 'w {each}', ours = 'v.{each}', thesis = ['1', '2'] }]";
-        let group: RowSpec = toml::from_str(text).unwrap();
-        let row = group.rows[0].at(1, "b");
-        assert_eq!(
-            (&*row.what, row.ours.as_deref(), row.thesis.at(0)),
-            ("w b", Some("v.b"), Some("2"))
-        );
+        let text = "id = ''\ntitle = ''\nrow = [{ what = 'first' }, { each = ['a', 'b'], rows = [\
+            { what = 'w {each}', thesis = ['1', '2'], holds = ['v.{each}'] }, { what = 'x' }] }]\n\
+            picture = [{ each = ['c', 'd'], words = '{each}' }]";
+        let item: Item = toml::from_str(text).unwrap();
+        let rows =
+            item.rows.iter().map(|row| (&*row.what, row.thesis.as_deref(), row.holds.concat()));
+        let row = |what, thesis, holds: &str| (what, thesis, holds.to_owned());
+        assert!(rows.eq([
+            row("first", None, ""),
+            row("w a", Some("1"), "v.a"),
+            row("x", None, ""),
+            row("w b", Some("2"), "v.b"),
+            row("x", None, ""),
+        ]));
+        assert!(item.pictures.iter().map(|picture| &*picture.words).eq(["c", "d"]));
+        assert!(toml::from_str::<Item>("id = ''\ntitle = ''\nrow = [{ wat = '' }]").is_err());
     }
 }

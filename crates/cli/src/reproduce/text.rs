@@ -1,14 +1,15 @@
 //! Findings as text for a terminal.
 
+use comfy_table::presets::NOTHING;
+use comfy_table::{ContentArrangement, Table};
+
 use crate::text::table::{plain, table};
 
 use super::finding::{Finding, tally};
-use super::verdict::Verdict;
+use super::verdict::{Row, Verdict};
 
-/// Columns of a line of words.
-const WIDTH: usize = 79;
-/// Columns of what is beside the names of rows, if it is in words.
-const OURS: usize = 26;
+/// Columns of a line.
+const WIDTH: u16 = 79;
 
 /// A line for each item, and how many have which verdict.
 pub fn overview(findings: &[Finding]) -> String {
@@ -30,7 +31,7 @@ pub fn in_full(findings: &[Finding]) -> String {
         let head = format!("{}: {} -- {}\n", one.id, one.title, one.verdict.words());
         let reason = match one.reason.as_str() {
             "" => String::new(),
-            reason => format!("\n{}\n", wrapped(reason, WIDTH)),
+            reason => format!("\n{}\n", wrapped().add_row([reason]).trim_fmt()),
         };
         head + &rows(one) + &reason + &format!("\n{}\n", one.command)
     });
@@ -38,28 +39,27 @@ pub fn in_full(findings: &[Finding]) -> String {
 }
 
 fn rows(finding: &Finding) -> String {
-    let rows: Vec<[String; 4]> = (finding.rows.iter())
-        .map(|row| {
-            let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
-            let thesis = row.thesis.as_ref().map_or("-".to_owned(), |side| side.words());
-            let verdict = row.verdict.map_or("", Verdict::words);
-            let ours = wrapped(&row.ours.words(), OURS);
-            [format!("{}{unit}", row.what), wrapped(&thesis, OURS), ours, verdict.to_owned()]
-        })
-        .collect();
-    if rows.is_empty() {
-        return String::new();
+    let row = |row: &Row| {
+        let [what, thesis, ours] = row.cells();
+        [what, thesis, ours, row.verdict.map_or("", Verdict::words).to_owned()]
+    };
+    match finding.rows.as_slice() {
+        [] => String::new(),
+        rows => format!(
+            "{}\n",
+            wrapped()
+                .set_header(["", "thesis", "here", ""])
+                .add_rows(rows.iter().map(row))
+                .trim_fmt()
+        ),
     }
-    let longest = |cell: &String| cell.lines().map(|line| line.chars().count()).max().unwrap_or(0);
-    let width = |column: usize| rows.iter().map(|row| longest(&row[column])).max().unwrap_or(0);
-    // Two blanks after each column, and one before the first.
-    let left = WIDTH.saturating_sub((1..4).map(width).sum::<usize>() + 8).max(OURS);
-    let rows = rows.iter().map(|row| {
-        let [what, rest @ ..] = row.clone();
-        let [thesis, ours, verdict] = rest;
-        [wrapped(&what, left), thesis, ours, verdict]
-    });
-    format!("{}\n", table(["", "thesis", "here", ""], rows, ..0))
+}
+
+/// An empty table whose cells are wrapped, so that a terminal shows it whole.
+fn wrapped() -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
+    table
 }
 
 /// How many items have each verdict.
@@ -78,33 +78,15 @@ fn shortened(title: &str) -> String {
     }
 }
 
-/// In lines that a terminal shows whole.
-fn wrapped(words: &str, width: usize) -> String {
-    let mut lines = vec![String::new()];
-    for word in words.split_whitespace() {
-        let last = lines.last().map_or(0, |line| line.chars().count());
-        if last > 0 && last + 1 + word.chars().count() > width {
-            lines.push(String::new());
-        }
-        if let Some(line) = lines.last_mut() {
-            *line += if line.is_empty() { "" } else { " " };
-            *line += word;
-        }
-    }
-    lines.join("\n")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn long_words_are_broken_into_lines() {
-        let text = wrapped(&"word ".repeat(40), WIDTH);
-        assert!(
-            text.lines().count() == 3 && text.lines().all(|line| line.len() <= WIDTH),
-            "{text}"
-        );
+        let text = wrapped().add_row(["word ".repeat(40)]).trim_fmt();
+        let fits = text.lines().all(|line| line.len() <= usize::from(WIDTH));
+        assert!(text.lines().count() == 3 && fits, "{text}");
         assert_eq!(shortened("short"), "short");
         assert!(shortened(&"x".repeat(60)).ends_with("x..."));
     }

@@ -108,6 +108,13 @@ impl Row {
         Row { what, unit: unit.to_owned(), thesis, ours, verdict: is_same.map(Verdict::of) }
     }
 
+    /// Returns what is compared, with its unit, and both sides as they are written.
+    pub fn cells(&self) -> [String; 3] {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
+        let thesis = self.thesis.as_ref().map_or("-".to_owned(), Side::words);
+        [format!("{}{unit}", self.what), thesis, self.ours.words()]
+    }
+
     /// Judges a claim: whether it holds here, and by what one sees that.
     pub fn claim(what: String, holds: bool, seen: String) -> Self {
         let (thesis, ours) = (Some(Side::Words("so it says".to_owned())), Side::Words(seen));
