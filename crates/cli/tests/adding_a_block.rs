@@ -129,8 +129,8 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
         run(&mut cargo);
     };
     cargo(&["fmt", "--check"]);
-    // What is built once and runs for seconds is not optimised; the libraries are those that tests have.
-    let slow = OURS.map(|package| format!("--config=profile.test.package.{package}.opt-level=0"));
+    // What is built once and runs for seconds is hardly optimised; the libraries are those that tests have.
+    let slow = OURS.map(|package| format!("--config=profile.test.package.{package}.opt-level=1"));
     let slow = slow.each_ref().map(String::as_str);
     let simulator = ["--offline", "--workspace", "--test", "simulator"];
     let program = ["--profile", "test", "--bin", "tofsim"];
