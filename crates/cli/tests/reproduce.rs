@@ -132,7 +132,7 @@ fn named_items_are_made_alone_with_their_rows_within_80_columns() {
     let text =
         stdout(empty().path(), &["reproduce", "table-6.3", "fig-6.21", "table-5.5", "--quick"]);
     for words in
-        ["table-6.3: ", "N for 4 ns", "01013c199", "0.502412 m", "tofsim reproduce table-6.3"]
+        ["table-6.3: ", "N for 4 ns", "01013c199", "0.502412", "tofsim reproduce table-6.3"]
     {
         assert!(text.contains(words), "{words}: {text}");
     }

@@ -142,7 +142,7 @@ impl Finding {
             Drawing::Layers(layers) => {
                 let title = values.fill(&picture.title)?;
                 let plot = Plot { title: &title, axes: [&picture.x, &picture.y], layers };
-                let svg = plot.svg().map_err(|fault| Input::new(&title, fault))?;
+                let svg = plot.svg()?;
                 self.figures.push(Figure { svg, words, is_wide: false });
             }
             Drawing::Svg(svg) => self.figures.push(Figure { svg, words, is_wide: true }),

@@ -1,6 +1,6 @@
 //! Histograms of the model, and what they show: Fig. 3.3, 4.1 and 5.1.
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::sim::Run;
 use tofsim::sim::run::Observers;
 use tofsim::sim::shot_recorder::Shot;
@@ -103,5 +103,5 @@ pub(super) fn by_cause(study: &Study) -> Result<Measured> {
     values.put("ambient", f64::from(ambient.iter().sum::<u32>()));
     let title = "0.3 m, 34 %, 0.2 W/m^2/nm, through every register";
     let svg = histogram_svg::svg(title, &causes, &setup.scenario.tdc, setup.true_depth_m(), None);
-    Ok(Measured::from(values).svg(svg.map_err(|fault| Input::new("fig-5.1", fault))?))
+    Ok(Measured::from(values).svg(svg?))
 }

@@ -2,7 +2,7 @@
 
 use plotters::style::BLACK;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::evaluation::thesis::{DISTANCES_M, FIXED, FLOAT, Published, allowed_error_mm};
 use tofsim_learn::evaluation::{Figures, Group};
@@ -92,7 +92,7 @@ fn boxes(title: &str, figures: &Figures) -> Result<String> {
     let groups: Vec<_> = groups.map(normalised).collect();
     let series = [Series { name: figures.name, groups: &groups }];
     let plot = BoxPlot { title, quantity: "distance [m]", series: &series, limits: &[ALLOWED] };
-    plot.svg().map_err(|fault| Input::new(title, fault).into())
+    plot.svg()
 }
 
 /// A group whose median is at 0, as the thesis's "improved box-plot" has it.
