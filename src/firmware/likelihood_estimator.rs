@@ -333,7 +333,7 @@ impl SlotEstimator for LikelihoodEstimator {
 }
 
 impl LikelihoodEstimator {
-    /// What it does.
+    /// Returns the state.
     pub fn state(&self) -> State {
         self.registers.state
     }

@@ -47,11 +47,11 @@ pub struct DepthSpread {
 pub struct FrameLog {
     /// The first frames, [`ROWS`] at most.
     pub rows: Vec<Frame>,
-    /// What other estimators say of those.
+    /// Results of other estimators for these frames.
     pub readings: Vec<Vec<Estimate>>,
     /// Second opinions on those.
     pub opinions: Vec<Option<Estimate>>,
-    /// How many frames.
+    /// Number of frames.
     pub count: u64,
     /// The pairs that the frames make, if they make pairs.
     pub pairs: Option<PairLog>,

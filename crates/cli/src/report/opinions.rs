@@ -43,7 +43,7 @@ impl Opinions {
         Opinions { second, ..Opinions::default() }
     }
 
-    /// What it says of a frame.
+    /// Returns the second opinion on a frame.
     pub fn of(&self, frame: &Frame) -> Option<Estimate> {
         self.second.as_ref()?.of(frame)
     }

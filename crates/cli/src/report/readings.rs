@@ -8,7 +8,7 @@ use crate::text::table::{number_or_dash, table};
 use super::frame_log::FrameLog;
 use super::statistics::EstimatorStatistics;
 
-/// What each estimator says of the only frame or pair, with its error.
+/// Returns a row for each estimator's result of the only frame or pair, with its error.
 pub fn rows(setup: &Setup, readings: &[Estimate]) -> impl Iterator<Item = (&'static str, String)> {
     readings.iter().map(|reading| {
         let error = |depth_m: f64, truth| format!("  {:+.2} mm", 1e3 * (depth_m - truth));

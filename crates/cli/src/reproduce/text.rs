@@ -62,7 +62,7 @@ fn wrapped() -> Table {
     table
 }
 
-/// How many items have each verdict.
+/// Formats the number of items of each verdict.
 fn counts(findings: &[Finding]) -> String {
     let counts =
         tally(findings).map(|(verdict, count)| [count.to_string(), verdict.words().to_owned()]);

@@ -56,7 +56,7 @@ pub struct ExplainedLikelihood {
     pub status: StatusSet,
     /// The same in double precision.
     pub status_float: StatusSet,
-    /// What the stages come to, in their order.
+    /// Values of the stages, in order.
     pub values: Vec<StageValue>,
 }
 
