@@ -59,9 +59,10 @@ impl Setup {
             },
             tdc: converter.tdc,
             tdc_calibration: converter.tdc_calibration,
-            depth_estimator: match network.fits(&histogram) {
-                true => network.params(&histogram),
-                false => network::blank(&histogram),
+            depth_estimator: if network.fits(&histogram) {
+                network.params(&histogram)
+            } else {
+                network::blank(&histogram)
             },
             centroid_estimator: centroid(&scenario.estimator, histogram),
             likelihood_estimator: Arc::new(likelihood_estimator::params::Params::stand_in(

@@ -59,9 +59,10 @@ impl Setup {
     pub fn eye_safety_note(&self, what: &str, exposure: &Exposure) -> Option<Note> {
         let laser = &self.scenario.laser;
         let &Exposure { exposure_s, average_w, limit_w } = exposure;
-        let length = match exposure_s < 1.0 {
-            true => format!("{:.3} ms", exposure_s * 1e3),
-            false => format!("{exposure_s} s"),
+        let length = if exposure_s < 1.0 {
+            format!("{:.3} ms", exposure_s * 1e3)
+        } else {
+            format!("{exposure_s} s")
         };
         if !C4_NM.contains(&laser.wavelength_nm) {
             let expected = format!("{} to {}", C4_NM.start(), C4_NM.end());

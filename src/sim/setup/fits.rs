@@ -69,11 +69,10 @@ pub(super) fn check_pulses(scenario: &str, keys: &Scenario, longest: Time) -> Re
     if spad.dead_time_ns.max(shaped_ns) >= least_ns {
         return Ok(());
     }
-    let (key, value, what) = match spad.pulse_ns > 0.0 {
-        true => {
-            ("spad.pulse_ns", spad.pulse_ns, " with spad.pulse_gap_ns, or such a spad.dead_time_ns")
-        }
-        false => ("spad.dead_time_ns", spad.dead_time_ns, ""),
+    let (key, value, what) = if spad.pulse_ns > 0.0 {
+        ("spad.pulse_ns", spad.pulse_ns, " with spad.pulse_gap_ns, or such a spad.dead_time_ns")
+    } else {
+        ("spad.dead_time_ns", spad.dead_time_ns, "")
     };
     let expected = format!(
         "expected {least_ns} ns or more{what}: a chain of {} ns shows {MAX_TRANSITIONS} changes at once",

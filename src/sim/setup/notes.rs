@@ -104,9 +104,10 @@ impl Setup {
         ];
         let by_c = tdc.delay_per_c * (tdc.temperature_c - then_c);
         let by_mv = tdc.delay_per_mv * (tdc.supply_mv - then_mv);
-        let (key, value, then) = match by_mv.abs() > by_c.abs() {
-            true => ("tdc.supply_mv", tdc.supply_mv, then_mv),
-            false => ("tdc.temperature_c", tdc.temperature_c, then_c),
+        let (key, value, then) = if by_mv.abs() > by_c.abs() {
+            ("tdc.supply_mv", tdc.supply_mv, then_mv)
+        } else {
+            ("tdc.temperature_c", tdc.temperature_c, then_c)
         };
         let [known, now] =
             [known, &self.params.tdc.delays].map(|delays| delays.longest().seconds());
@@ -224,11 +225,10 @@ impl Setup {
                 ("laser.delay_ps", self.scenario.laser.delay_ps, format!("below {below_ps}"))
             }
         };
-        let text = match arrival.seconds() < self.laser_period_s() {
-            true => "the echo comes after the last bin, so the depth is not the target's",
-            false => {
-                "the echo comes after the next pulse and is not simulated, so the depth is not the target's"
-            }
+        let text = if arrival.seconds() < self.laser_period_s() {
+            "the echo comes after the last bin, so the depth is not the target's"
+        } else {
+            "the echo comes after the next pulse and is not simulated, so the depth is not the target's"
         };
         Some(Note::new(NoteCode::EchoPastHistogram, key, value, expected, text))
     }

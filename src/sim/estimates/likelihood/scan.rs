@@ -49,10 +49,7 @@ pub fn scan(p: &Params, shots: &Shots, ambient: i64, blanked: Range<usize>) -> B
         let until = (place + p.box_bins - half).min(bins);
         let sum = |which: usize| before[until][which] - before[from][which];
         let (excess, expected) = (sum(0), sum(1).max(1));
-        let score = match excess > 0 {
-            true => 2 * log2_64(excess) - log2_64(expected) - 512,
-            false => NONE,
-        };
+        let score = if excess > 0 { 2 * log2_64(excess) - log2_64(expected) - 512 } else { NONE };
         if score > best.score {
             best = Best { score, bins: (from, until), excess, waiting: sum(2) };
         }
