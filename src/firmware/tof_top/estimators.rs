@@ -99,7 +99,7 @@ impl FirmwareEstimator {
         self as u64
     }
 
-    /// Whether it states a sigma, a status and `valid` beside the depth.
+    /// Whether the estimator outputs a sigma, a status and `valid` beside the depth.
     pub fn states_sigma(self) -> bool {
         in_slot!(self, E => E::STATES_SIGMA)
     }

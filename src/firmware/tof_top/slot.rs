@@ -77,9 +77,9 @@ impl EstimateWords {
 pub trait SlotEstimator: Default {
     /// Its input ports.
     type In: From<SlotIn>;
-    /// What elaboration fixes.
+    /// Parameters fixed by elaboration.
     type Params;
-    /// Whether it states a sigma, a status and `valid` beside the depth.
+    /// Whether the estimator outputs a sigma, a status and `valid` beside the depth.
     const STATES_SIGMA: bool = false;
 
     /// The rising edge of `clk_sys`.

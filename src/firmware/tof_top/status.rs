@@ -18,14 +18,14 @@ macro_rules! statuses {
             /// Every reason, in the order of its bits.
             pub const ALL: &[Self] = &[$(Self::$Name),+];
 
-            /// What results and messages call it.
+            /// Returns its name in results and messages.
             pub fn word(self) -> &'static str {
                 match self {
                     $(Self::$Name => $word,)+
                 }
             }
 
-            /// What it means.
+            /// Returns its meaning.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $(Self::$Name => concat!($($meaning),+).trim_ascii(),)+

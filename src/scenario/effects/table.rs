@@ -24,11 +24,11 @@ const SHORT_TAIL: f64 = 0.02 * 137.0;
 
 /// A row of the table.
 pub(super) struct Row {
-    /// What the effect is, as a sentence.
+    /// Description of the effect in a sentence.
     pub meaning: &'static str,
     /// The keys that switch the effect on.
     pub keys: &'static [Key],
-    /// What has to hold besides for the effect to be there.
+    /// Additional condition for the presence of the effect.
     pub when: fn(&Scenario) -> bool,
     /// The methods that it invalidates.
     pub breaks: &'static [&'static [Method]],

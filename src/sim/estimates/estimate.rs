@@ -7,7 +7,7 @@ use crate::firmware::tof_top::FirmwareEstimator;
 use crate::firmware::tof_top::slot::{DepthM, EstimateWords};
 use crate::firmware::tof_top::status::StatusSet;
 
-/// What an estimator makes of a histogram.
+/// Result of an estimator for a histogram.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Name of the estimator on the command line.

@@ -16,7 +16,7 @@ use super::table::{Item, LineSpec, Picture, RowSpec};
 use super::values::{Value, Values};
 use super::verdict::{Number, Row, Side, Verdict};
 
-/// What the measurement of an item gives: values by name, and pictures in the order of the item's.
+/// Result of an item's measurement: values by name, and pictures in the order of the item's.
 #[derive(Default)]
 pub struct Measured {
     /// Values that rows, pictures and the reason name.
@@ -65,18 +65,18 @@ pub enum Drawing {
 pub struct Figure {
     /// The picture.
     pub svg: String,
-    /// What it shows.
+    /// Text below the picture.
     pub words: String,
-    /// Whether it is drawn for a wide page.
+    /// Whether the picture is drawn for a wide page.
     pub is_wide: bool,
 }
 
-/// What was found of an item.
+/// Finding of an item.
 #[derive(Serialize)]
 pub struct Finding {
     /// Name on the command line.
     pub id: String,
-    /// What it shows.
+    /// Title of the item.
     pub title: String,
     /// Verdict of all rows.
     pub verdict: Verdict,

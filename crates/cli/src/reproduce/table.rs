@@ -26,7 +26,7 @@ const CHAPTERS: [(&str, &str); 5] = [
 pub struct Item {
     /// Name on the command line: `table-4.3`, `fig-6.21`.
     pub id: String,
-    /// What it shows.
+    /// Title of the item.
     pub title: String,
     /// Built-in plans of `tofsim sweep` whose points the rows compare and whose plots are shown.
     #[serde(default)]
@@ -53,19 +53,19 @@ pub struct Item {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RowSpec {
-    /// What is compared.
+    /// Quantity that is compared.
     pub what: String,
     /// Unit.
     pub unit: String,
-    /// What the thesis prints: a number, words or a value's name.
+    /// Value printed in the thesis: a number, words or a value's name.
     pub thesis: Option<String>,
-    /// What comes out: a formula, or words with `{values}`.
+    /// Value obtained here: a formula, or words with `{values}`.
     pub ours: Option<String>,
     /// Digits after the point; without it, as many as the thesis prints.
     pub decimals: Option<usize>,
     /// Conditions of a claim.
     pub holds: Vec<String>,
-    /// What one sees a claim by, with `{values}`.
+    /// Evidence for a claim, with `{values}`.
     pub seen: String,
     /// An assignment that the scenario has to accept.
     pub sets: Option<String>,
@@ -88,7 +88,7 @@ pub struct LineSpec {
     pub x: String,
     /// The column of the values.
     pub y: String,
-    /// What other columns have to be, as `key=value`.
+    /// Required values of other columns, as `key=value`.
     #[serde(default)]
     pub at: Vec<String>,
 }
@@ -99,11 +99,11 @@ pub struct LineSpec {
 pub struct Picture {
     /// Title of a plot.
     pub title: String,
-    /// What is along its horizontal axis, with the unit.
+    /// Quantity along the horizontal axis, with the unit.
     pub x: String,
-    /// What is along its vertical axis, with the unit.
+    /// Quantity along the vertical axis, with the unit.
     pub y: String,
-    /// What it shows.
+    /// Text below the picture.
     pub words: String,
 }
 

@@ -22,19 +22,19 @@ use super::subtraction::{self, Subtraction};
 struct Registered {
     /// Name on the command line.
     name: &'static str,
-    /// What it does, for help.
+    /// Description of the estimator for help.
     about: &'static str,
     /// Its block, where the firmware computes the same bits.
     firmware: Option<FirmwareEstimator>,
-    /// What it needs beside histograms.
+    /// Inputs that it needs besides histograms.
     needs: Needs,
     make: fn(&EstimatorInputs) -> Result<Box<dyn Estimator>, Input>,
 }
 
-/// What an estimator needs beside the histograms of lit frames.
+/// Inputs that an estimator needs besides the histograms of lit frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Needs {
-    /// What it knows of the instrument.
+    /// No further inputs; the model of the instrument is sufficient.
     Model,
     /// A network for such histograms, which knows what it was trained for.
     Network,
@@ -147,7 +147,7 @@ registry! {
     );
 }
 
-/// What there is to make an estimator of.
+/// Inputs from which an estimator is made.
 #[derive(Clone, Copy, Debug)]
 pub struct EstimatorInputs<'a> {
     /// The histograms.
@@ -185,17 +185,17 @@ impl EstimatorKind {
         self.registered().name
     }
 
-    /// What it needs beside the histograms of lit frames.
+    /// Returns the inputs that it needs besides the histograms of lit frames.
     pub fn needs(self) -> Needs {
         self.registered().needs
     }
 
-    /// Whether it is a network, which knows what it was trained for.
+    /// Returns whether it is a network, which has limits of its training.
     pub fn is_network(self) -> bool {
         self.needs() == Needs::Network
     }
 
-    /// Whether it computes in integers, bit for bit as a block of the firmware.
+    /// Returns whether it computes in integers, bit for bit like a block of the firmware.
     pub fn is_in_firmware(self) -> bool {
         self.registered().firmware.is_some()
     }
