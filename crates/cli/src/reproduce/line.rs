@@ -114,7 +114,11 @@ mod tests {
             assert!(values.holds(condition).unwrap(), "{condition}");
         }
         assert!(!values.holds("rises").unwrap() && !values.holds("falls").unwrap());
-        assert!(line([3.0, 2.0, 1.0], None).values().holds("falls").unwrap());
+        let trends = |values| {
+            ["rises", "falls"].map(|trend| line(values, None).values().holds(trend).unwrap())
+        };
+        assert_eq!(trends([3.0, 2.0, 1.0]), [false, true]);
+        assert_eq!(trends([1.0, 2.0, 3.0]), [true, false]);
     }
 
     #[test]
