@@ -102,7 +102,7 @@ pub fn line(of: &OpinionStatistics) -> String {
         text += &format!(", error {:+.3} mm", 1e3 * error_m);
     }
     if let Some(two_sd_m) = of.two_sd_m {
-        text += &format!(", 2 sd {two_sd_m:.6} m");
+        text += &format!(", 2σ {two_sd_m:.6} m");
     }
     let OpinionStatistics { frames, parted, unbelieved, .. } = of;
     text + &format!(

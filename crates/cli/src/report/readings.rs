@@ -42,7 +42,7 @@ pub fn many<'a>(
     table(header, rows.chain(left).chain(below), ..)
 }
 
-/// Of each estimator over all frames or pairs: mean, 2 sd, mean error [mm], outliers, failures.
+/// Of each estimator over all frames or pairs: mean, 2σ, mean error [mm], outliers, failures.
 pub fn below(log: &FrameLog) -> Vec<[String; 5]> {
     let metres = |m: Option<f64>| number_or_dash(m, 6);
     let cells = |one: EstimatorStatistics| {
@@ -66,7 +66,7 @@ pub fn below_pairs(log: &FrameLog, cells: usize) -> Vec<Vec<String>> {
         row.extend(others.iter().map(|five| five[k].clone()));
         row
     };
-    ["mean", "2 sd", "error [mm]", "outliers", "failures"]
+    ["mean", "2σ", "error [mm]", "outliers", "failures"]
         .into_iter()
         .enumerate()
         .map(row)
