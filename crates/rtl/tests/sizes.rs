@@ -92,6 +92,7 @@ fn bench(setup: &Setup, parameters: &Parameters) -> String {
 
 #[test]
 fn every_signal_has_the_width_of_the_table_in_designs_of_many_sizes() {
+    let mut wrong = Vec::new();
     for (scenario, set) in DESIGNS {
         let (setup, folder) = (common::setup(scenario, set), common::empty());
         let parameters = parameters::tof_top(&setup);
@@ -108,11 +109,9 @@ fn every_signal_has_the_width_of_the_table_in_designs_of_many_sizes() {
         let printed = compiled.unwrap().run(&[], &limits).unwrap().output;
         let entries = hierarchy::entries(&setup.params);
         let widths = entries.iter().map(|entry| format!("{} {}", entry.path(), entry.signal.width));
-        let wrong: Vec<_> = widths.filter(|own| !printed.lines().any(|line| line == own)).collect();
-        assert!(
-            wrong.is_empty(),
-            "widths in Rust that the Verilog of {scenario} {set:?} lacks: {wrong:#?}"
-        );
+        let missing = widths.filter(|own| !printed.lines().any(|line| line == own));
+        wrong.extend(missing.map(|own| format!("{scenario} {set:?}: {own}")));
         assert!(entries.iter().any(|entry| entry.kind == Kind::Internal));
     }
+    assert!(wrong.is_empty(), "widths in Rust that the Verilog does not have: {wrong:#?}");
 }
