@@ -29,6 +29,27 @@ fn untouched_it_gives_the_frames_of_a_run() {
 }
 
 #[test]
+fn pauses_after_every_edge_change_nothing() {
+    let setup = setup(&["firmware.shots_per_frame=20"]);
+    let frames = crate::Run::new(&setup).frames(2).unwrap();
+    let mut shots = Vec::new();
+    let mut live = Live::new(setup, Stepping::EveryCycle);
+    let mut found = Vec::new();
+    while found.len() < 2 {
+        let mut keep = |shot: &Shot| {
+            shots.push((shot.frame, shot.shot));
+            Ok(())
+        };
+        if let Progress::Frame(frame, _) = live.advance(1, &mut Off, Some(&mut keep)).unwrap() {
+            found.push(frame);
+        }
+    }
+    assert_eq!(found, frames);
+    let all: Vec<_> = (0..2).flat_map(|frame| (0..20).map(move |shot| (frame, shot))).collect();
+    assert_eq!(shots, all);
+}
+
+#[test]
 fn a_change_on_the_way_is_a_change_of_the_scenario() {
     let no_light = "ambient.irradiance_w_m2_nm=0";
     let setup = setup(&[no_light]);
