@@ -1,5 +1,5 @@
-//! Rust and Verilog do the same, clock by clock: each block alone, the whole with short frames at every laser
-//! rate and under random control, and a full frame.
+//! Rust and Verilog do the same, clock by clock: each block alone, the whole with short frames and
+//! under random control, and full frames at every laser rate.
 
 use serde_json::Value;
 
@@ -176,10 +176,12 @@ fn each_calibration_of_a_silicon_chain_passes_in_icarus() {
 
 #[test]
 #[ignore = "long: ./check --full"]
-fn a_full_frame_passes_in_verilator() {
-    // At the shortest period: counts of shots and words are those of every rate, and short frames have the others.
-    let blocks = verified(&["--top", "--simulator", "verilator", "-s", "firmware.laser_freq=3"]);
-    let frame = 30_000 * 6 + 541;
-    let cycles = blocks[0]["cycles"].as_u64().unwrap();
-    assert!((frame..frame + 8).contains(&cycles), "{cycles} cycles");
+fn full_frames_at_every_rate_pass_in_verilator() {
+    for (rate, period) in [(0, 25), (1, 13), (2, 8), (3, 6)] {
+        let rate = format!("firmware.laser_freq={rate}");
+        let blocks = verified(&["--top", "--simulator", "verilator", "-s", &rate]);
+        let frame = 30_000 * period + 541;
+        let cycles = blocks[0]["cycles"].as_u64().unwrap();
+        assert!((frame..frame + 8).contains(&cycles), "{cycles} cycles");
+    }
 }
