@@ -4,6 +4,7 @@ pub mod finding;
 pub mod html;
 pub mod json;
 mod line;
+mod measured;
 mod measures;
 mod networks;
 mod peaks;

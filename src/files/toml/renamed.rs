@@ -3,7 +3,7 @@
 //! The present key's schema holds its former name in the attribute `formerly`.
 
 use schemars::JsonSchema;
-use serde_json::{Map, Value as Json};
+use serde_json::Value as Json;
 use toml_edit::{Table, TableLike};
 
 use crate::error::{Input, Result};
@@ -19,11 +19,6 @@ pub struct RenamedKey {
     pub present: String,
     /// Value of the key, as a message shows it.
     pub value: String,
-}
-
-/// Returns the schema of the property whose former name is `key`.
-pub(super) fn by_former_name<'a>(key: &str, known: &'a Map<String, Json>) -> Option<&'a Json> {
-    known.values().find(|schema| schema["formerly"] == key)
 }
 
 /// Replaces former names of keys in a table of type `T` by the present ones, and returns those that it replaced.

@@ -7,8 +7,6 @@ use toml_edit::{Item, TableLike, Value};
 
 use crate::error::{Input, line_and_column, nearest};
 
-use super::renamed::by_former_name;
-
 /// Recursive check of a document against its schema.
 pub(super) struct Walk<'a> {
     /// Root of the schema, to which its references are relative.
@@ -136,6 +134,11 @@ pub(super) fn resolve<'a>(root: &'a Json, schema: &'a Json) -> &'a Json {
     let reference = schema.get("$ref").and_then(Json::as_str);
     let target = reference.and_then(|path| root.pointer(path.trim_start_matches('#')));
     target.unwrap_or(schema)
+}
+
+/// Returns the schema of the property whose former name is `key`.
+fn by_former_name<'a>(key: &str, known: &'a Map<String, Json>) -> Option<&'a Json> {
+    known.values().find(|schema| schema["formerly"] == key)
 }
 
 fn kind(schema: &Json) -> &str {

@@ -1,5 +1,6 @@
 //! An error budget: tables, JSON, CSV and a picture.
 
+mod budgets;
 mod csv;
 mod json;
 mod picture;
@@ -8,18 +9,11 @@ mod text;
 use serde_json::Value;
 
 use tofsim::error::Result;
-use tofsim_learn::error_budget::DepthBudget;
 
 use super::sheet::NamedText;
 use super::writer::Findings;
 
-/// The budgets of a scenario at the values of one of its keys, or of the scenario alone.
-pub struct DepthBudgets<'a> {
-    /// The key, if there is one.
-    pub key: Option<&'a str>,
-    /// The value of the key, or else the distance, and the budget there.
-    pub points: &'a [(f64, DepthBudget)],
-}
+pub use budgets::DepthBudgets;
 
 impl Findings for DepthBudgets<'_> {
     const SCHEMA: &'static str = "tofsim.errors/1";

@@ -66,11 +66,7 @@ pub fn below_pairs(log: &FrameLog, cells: usize) -> Vec<Vec<String>> {
         row.extend(others.iter().map(|five| five[k].clone()));
         row
     };
-    ["mean", "2σ", "error [mm]", "outliers", "failures"]
-        .into_iter()
-        .enumerate()
-        .map(row)
-        .collect()
+    ["mean", "2σ", "error [mm]", "outliers", "failures"].into_iter().enumerate().map(row).collect()
 }
 
 /// A depth, and that of a second echo, or why there is none.

@@ -100,7 +100,7 @@ impl Findings for Characterisation<'_> {
     }
 
     fn plots(&self) -> Result<Vec<NamedText>> {
-        pictures::svg(self)
+        pictures::svg(self.spad.dead_time_ns, &self.points, self.afterpulses.as_ref())
     }
 }
 

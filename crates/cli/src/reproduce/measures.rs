@@ -16,7 +16,7 @@ mod tdc;
 
 use tofsim::error::Result;
 
-use super::finding::Measured;
+use super::measured::Measured;
 use super::study::Study;
 
 /// A measurement.

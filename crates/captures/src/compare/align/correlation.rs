@@ -1,5 +1,6 @@
 //! Alignment for best agreement, over all offsets at once by Fourier transforms.
 
+mod candidate;
 mod matcher;
 
 use vcd::Value;
@@ -15,41 +16,16 @@ use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
 use super::survey::survey;
 use crate::words::Bits;
+use candidate::Rows;
+pub(super) use candidate::{Candidate, KEPT};
 use matcher::Matcher;
 
 /// Longest sequence that is searched for [samples].
 pub(super) const LONGEST: u64 = 1 << 17;
 /// Largest number of bits per sample that are correlated.
 const BITS: usize = 256;
-/// Number of candidates that are kept.
-pub(super) const KEPT: usize = 8;
 /// Number of candidates that an error lists.
 const LISTED: usize = 4;
-
-/// An offset with its number of differences.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Candidate {
-    /// Sample of the longer side that corresponds to the first of the shorter side.
-    pub(super) offset: i64,
-    /// Number of bits that differ.
-    pub(super) differing: u64,
-    /// Number of bits compared.
-    pub(super) compared: u64,
-}
-
-impl Candidate {
-    /// Returns the delay of the second side, given that `side` is the shorter one [samples].
-    fn later(&self, side: usize) -> i64 {
-        if side == 0 { self.offset } else { -self.offset }
-    }
-
-    fn rate(&self) -> f64 {
-        self.differing as f64 / self.compared.max(1) as f64
-    }
-}
-
-/// Bits of some pairs at consecutive samples: 1, -1, or 0 if unknown.
-type Rows = Vec<Vec<i8>>;
 
 /// Concatenated bits of some pairs.
 pub(super) struct PairBits<'a> {

@@ -7,7 +7,7 @@ use tofsim_studies::table::Cell;
 use crate::report::sheet::Digits::Shortest;
 use crate::report::sheet::Sheet;
 
-use super::DepthBudgets;
+use super::budgets::DepthBudgets;
 use super::json::words;
 
 /// Names and values of a group of columns.

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use tofsim_learn::error_budget::state::EffectState;
 use tofsim_learn::error_budget::{DepthBudget, EffectErrors};
 
-use super::DepthBudgets;
+use super::budgets::DepthBudgets;
 
 /// Returns the points with the effects of each.
 pub fn json(of: &DepthBudgets) -> Value {

@@ -4,10 +4,10 @@ use plotters::prelude::*;
 
 use tofsim::error::Result;
 use tofsim::sim::free_running::afterpulses::Afterpulses;
+use tofsim::sim::free_running::rates::Point;
 
+use crate::report::sheet::NamedText;
 use crate::text::svg::{COLOURS, chart, legend, picture};
-
-use super::{Characterisation, NamedText};
 
 /// Points of a line.
 const POINTS: usize = 200;
@@ -18,20 +18,24 @@ const GREY: f64 = 0.6;
 ///
 /// # Errors
 /// When the plotting library fails.
-pub fn svg(found: &Characterisation) -> Result<Vec<NamedText>> {
-    let mut all = vec![("rates.svg".to_owned(), rates(found)?)];
-    if let Some(seen) = &found.afterpulses {
+pub fn svg(
+    dead_time_ns: f64,
+    points: &[Point],
+    afterpulses: Option<&Afterpulses>,
+) -> Result<Vec<NamedText>> {
+    let mut all = vec![("rates.svg".to_owned(), rates(dead_time_ns, points)?)];
+    if let Some(seen) = afterpulses {
         all.push(("intervals.svg".to_owned(), intervals(seen)?));
         all.push(("autocorrelation.svg".to_owned(), autocorrelation(seen)?));
     }
     Ok(all)
 }
 
-fn rates(found: &Characterisation) -> Result<String> {
-    let incident = |k: usize| found.points[k].incident_hz;
-    let (first, last) = (incident(0), incident(found.points.len() - 1));
-    let dead_s = found.spad.dead_time_ns * 1e-9;
-    let title = format!("Count rate, dead time {} ns", found.spad.dead_time_ns);
+fn rates(dead_time_ns: f64, points: &[Point]) -> Result<String> {
+    let incident = |k: usize| points[k].incident_hz;
+    let (first, last) = (incident(0), incident(points.len() - 1));
+    let dead_s = dead_time_ns * 1e-9;
+    let title = format!("Count rate, dead time {} ns", dead_time_ns);
     let form = |kind: usize, part: f64| if kind == 0 { 1.0 / (1.0 + part) } else { (-part).exp() };
     picture(|canvas| {
         let x = (first / 1.3..last * 1.3).log_scale();
@@ -50,12 +54,12 @@ fn rates(found: &Characterisation) -> Result<String> {
                 .draw_series(LineSeries::new(line, colour.stroke_width(2)))?
                 .label(name)
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour));
-            let points = found.points.iter();
-            let dots = points.map(|point| (point.incident_hz, point.counted_hz[kind].value));
+            let dots = points.iter();
+            let dots = dots.map(|point| (point.incident_hz, point.counted_hz[kind].value));
             let dots = dots.filter(|dot| dot.1 > 0.0);
             chart.draw_series(dots.map(|dot| Circle::new(dot, 4, colour.filled())))?;
         }
-        let own = found.points.iter().filter_map(|p| Some((p.incident_hz, p.own_hz?.value)));
+        let own = points.iter().filter_map(|p| Some((p.incident_hz, p.own_hz?.value)));
         let own: Vec<_> = own.filter(|dot| dot.1 > 0.0).collect();
         if !own.is_empty() {
             let style = BLACK.mix(GREY).stroke_width(2);

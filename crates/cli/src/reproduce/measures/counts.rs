@@ -5,7 +5,7 @@ use tofsim::sim::Run;
 
 use crate::page::plot::{BLUE, Layer, ORANGE, Shape};
 use crate::page::trace::Trace;
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::peaks::SHOTS;
 use crate::reproduce::scenes::View;
 use crate::reproduce::scopes::{captured, of_trace};

@@ -4,7 +4,7 @@ use tofsim::error::Result;
 use tofsim::sim::Run;
 
 use crate::page::trace::Trace;
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::scopes::{captured, of_trace};
 use crate::reproduce::study::Study;
 use crate::reproduce::values::Values;

@@ -3,7 +3,7 @@
 use tofsim::error::Result;
 use tofsim_learn::evaluation::thesis::{DISTANCES_M, PEAK_FAILURES, PEAK_TRIALS};
 
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::peaks::{Peaks, SHOTS};
 use crate::reproduce::scenes::{View, bars, counts, curve, detection, upright};
 use crate::reproduce::study::Study;

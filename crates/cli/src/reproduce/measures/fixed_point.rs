@@ -4,7 +4,7 @@ use tofsim::error::Result;
 use tofsim::network::float::Float;
 
 use crate::page::plot::{BLUE, Layer, ORANGE, Shape};
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::study::Study;
 use crate::reproduce::values::Values;
 

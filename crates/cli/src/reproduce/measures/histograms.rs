@@ -7,7 +7,7 @@ use tofsim::sim::shot_recorder::Shot;
 
 use crate::page::plot::{BLUE, Layer, Shape};
 use crate::report::{causes, histogram_svg};
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::peaks::{Peaks, SHOTS};
 use crate::reproduce::scenes::{BIN_NS, View, bars, counts, detection, mean, upright};
 use crate::reproduce::study::Study;

@@ -3,7 +3,7 @@
 use tofsim::error::Result;
 
 use crate::page::trace::Trace;
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::scopes::{captured, captured_by};
 use crate::reproduce::study::Study;
 use crate::reproduce::values::Values;

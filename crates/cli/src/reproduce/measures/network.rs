@@ -9,7 +9,7 @@ use tofsim_learn::evaluation::{Figures, Group};
 
 use crate::page::plot::{BLUE, GREY, Layer, ORANGE, Shape};
 use crate::report::box_plot::{BoxPlot, Limit, Series};
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::networks::{Networks, PATTERNS};
 use crate::reproduce::published::{Sample, compared};
 use crate::reproduce::study::Study;

@@ -3,7 +3,7 @@
 use tofsim::error::Result;
 use tofsim::optics::eye_safety::accessible_emission_limit_j;
 
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::study::Study;
 use crate::reproduce::values::Values;
 

@@ -8,7 +8,7 @@ use tofsim::sim::run::Observers;
 use tofsim::sim::shot_recorder::Shot;
 
 use crate::page::plot::{BLUE, GREY, Layer, Shape};
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::study::Study;
 use crate::reproduce::values::Values;
 

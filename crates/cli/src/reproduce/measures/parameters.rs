@@ -6,7 +6,7 @@ use tofsim_learn::estimation::findpeaks::{self, Criteria};
 use tofsim_learn::training::features::InputScale;
 use tofsim_learn::training::recipe::Recipe;
 
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::scenes::detection;
 use crate::reproduce::study::Study;
 use crate::reproduce::values::Values;

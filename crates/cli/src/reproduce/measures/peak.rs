@@ -4,7 +4,7 @@ use tofsim::error::Result;
 use tofsim_learn::evaluation::thesis::{DISTANCES_M, PEAK, allowed_error_mm};
 
 use crate::page::plot::{BLUE, GREY, Layer, Shape};
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::peaks::{Peaks, SHOTS};
 use crate::reproduce::published::{Sample, compared};
 use crate::reproduce::scenes::{View, bars, counts, curve, detection, features, upright};

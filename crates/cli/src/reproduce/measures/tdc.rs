@@ -6,7 +6,7 @@ use tofsim::sim::run::Observers;
 use tofsim::sim::shot_recorder::Shot;
 
 use crate::page::trace::Trace;
-use crate::reproduce::finding::Measured;
+use crate::reproduce::measured::Measured;
 use crate::reproduce::scopes::captured_by;
 use crate::reproduce::study::Study;
 use crate::reproduce::values::Values;

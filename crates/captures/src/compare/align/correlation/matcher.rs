@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
-use super::{Candidate, KEPT, Rows};
+use super::candidate::{Candidate, KEPT, Rows};
 
 /// Searches chunks of one sequence for another.
 pub(super) struct Matcher {
