@@ -68,7 +68,7 @@ fn conditions_that_are_none_are_refused_by_line_or_key() {
         (
             changing,
             &["--fidelity", "histogram"],
-            "tdc.conditions = c.csv: --fidelity histogram draws",
+            "tdc.conditions = c.csv: expected none for --fidelity histogram: the delays of the chain",
         ),
         (
             "0,25,0\n1e-3,0,30\n",

@@ -145,7 +145,7 @@ fn what_cannot_be_drawn_is_refused_and_leaves_nothing() {
         error
     };
     let error = refused(&["-s", "firmware.mode=1"]);
-    assert!(error.contains("firmware.mode = 1: a dataset draws"), "{error}");
+    assert!(error.contains("firmware.mode = 1: expected 0 for a dataset: in MODE 1"), "{error}");
     assert!(refused(&["tdc_validation"]).contains("stimulus"));
     assert!(refused(&["--profile", "unifrom"]).contains("uniform, table6_3, ideal"));
     assert!(refused(&["--rows", "0"]).contains("--rows"));

@@ -150,7 +150,7 @@ fn what_is_no_grid_is_refused() {
         ("target.distance_m=0.1..0.5", "expected FROM..TO:STEP"),
         ("target.distance_m=0.1..0.5:1e-9", "no more than 1000000 values"),
         ("target.distanse_m=0.1", "did you mean `distance_m`?"),
-        ("firmware.mode=0,1", "firmware.mode = 1: a dataset draws"),
+        ("firmware.mode=0,1", "firmware.mode = 1: expected 0 for a dataset: in MODE 1"),
         ("firmware.laser_en=0", "expected true or false"),
         ("none.toml", "none.toml"),
     ] {
