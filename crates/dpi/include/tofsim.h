@@ -29,7 +29,9 @@ void *tofsim_new(const char *version,
 //
 // # Safety
 // The string is null or ends with a zero.
-int tofsim_port(void *handle, const char *name, int bits);
+int tofsim_port(void *handle,
+                const char *name,
+                int bits);
 
 // Enables comparison from power-up on. By default, outputs are compared after the first reset or, for a block
 // without reset, once its registers have taken their first values.
@@ -72,7 +74,8 @@ int tofsim_get_num_errors(void *handle);
 
 // Returns the text of an error, numbered from 0; empty if there are fewer errors. The text is valid until the errors
 // are cleared.
-const char *tofsim_get_error(void *handle, int number);
+const char *tofsim_get_error(void *handle,
+                             int number);
 
 // Clears the errors of a handle.
 void tofsim_clear_errors(void *handle);
@@ -85,7 +88,8 @@ void tofsim_delete(void *handle);
 //
 // # Safety
 // The strings are null or end with a zero.
-void *tofsim_photons_new(const char *version, const char *scenario);
+void *tofsim_photons_new(const char *version,
+                         const char *scenario);
 
 // Processes an edge of clk_sys, with the state of the firmware after it: whether a shot begins, the laser was
 // enabled at that edge, `spad_rst` is high, MODE 1 is selected, the ring oscillator drives `tdc_stop`, and a frame
