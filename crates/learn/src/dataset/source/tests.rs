@@ -133,7 +133,10 @@ fn each_setting_has_its_own_optics_chain_and_shots() {
 fn what_has_no_closed_form_is_refused() {
     let refused = |set: &str| source(&[set]).unwrap_err().to_string();
     let error = refused("firmware.mode=1");
-    assert!(error.starts_with("scenario kc705: firmware.mode = 1: expected 0 for a dataset"), "{error}");
+    assert!(
+        error.starts_with("scenario kc705: firmware.mode = 1: expected 0 for a dataset"),
+        "{error}"
+    );
     assert!(refused("pll.jitter_rms_ps=7.7").contains("pll.jitter_rms_ps = 7.7"));
     assert!(refused("firmware.rst=true").contains("firmware.rst = true"));
 }
