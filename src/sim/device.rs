@@ -170,7 +170,7 @@ impl Device {
 
     /// Samples the taps of the delay line at the edge at `now`.
     #[inline(always)]
-    pub(super) fn sample_taps(&mut self, p: &Params, now: Time) -> Taps {
+    fn sample_taps(&mut self, p: &Params, now: Time) -> Taps {
         let (level, delays) = (self.top.pins.tdc_stop, &p.tdc.delays);
         match &mut self.disturbance {
             None => self.transitions.sample(level, now, delays),

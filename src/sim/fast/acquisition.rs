@@ -48,7 +48,9 @@ pub fn acquire(
         let emits = emitter_wakes <= device.cycle;
         if converter_wakes <= device.cycle {
             hits.skip(&mut device.top, p, device.cycle - converter_at);
-            let taps = device.sample_taps(p, now);
+            // No fast way is taken where the chain differs from edge to edge.
+            let level = device.top.pins.tdc_stop;
+            let taps = device.transitions.sample(level, now, &p.tdc.delays);
             hits.convert(&mut device.top, p, taps, device.cycle);
             frames.count_hit(&device.top);
             let quiet = converter_quiet(device, p);
