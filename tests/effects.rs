@@ -26,34 +26,16 @@ const PAIRS: usize = 80;
 /// Frames whose histograms are compared in distribution.
 const FRAMES: u64 = 400;
 
-/// Keys that switch an effect on so far that it is seen; files are in `folder`.
+/// Keys that show an effect; files are in `folder`.
 fn switched_on(effect: Effect, folder: &Path) -> Vec<String> {
-    let file =
-        |key: &str, name: &str| format!("{key}={:?}", folder.join(name).display().to_string());
-    let keys: &[&str] = match effect {
-        Effect::HeldFrame => &["firmware.dsp_en=false"],
-        Effect::FreeRunning => &["firmware.mode=1"],
-        Effect::SharedTdc => &["firmware.mode=1", "spad.on_tdc=4"],
-        Effect::PassiveRecharge => &["firmware.mode=1", "spad.dead_time_kind=paralysable"],
-        Effect::ControlChanges => &["control=[{at_us=12.3,laser_en=false}]"],
-        Effect::ClockJitter => &["pll.jitter_rms_ps=95"],
-        Effect::Metastability => &["tdc.setup_window_ps=40"],
-        Effect::LaserTiming => &["laser.timing_jitter_ps=200"],
-        Effect::LaserEnergy => &["laser.energy_jitter=0.6"],
-        Effect::Target => &["target.shape=step", "target.second_distance_m=0.5"],
-        Effect::Air => &["atmosphere.visibility_m=10"],
-        Effect::PulseTail => &["laser.pulse_tail_ps=150"],
-        Effect::LaserDelay => &["laser.delay_ps=900"],
-        Effect::Afterpulses => &["spad.afterpulse_probability=0.6", "spad.afterpulse_ns=9000"],
-        Effect::Crosstalk => &["spad.crosstalk_probability=0.4", "spad.row_outputs=30"],
-        Effect::PulseShaping => &["spad.pulse_ns=30", "spad.pulse_gap_ns=6000"],
-        Effect::Recalibration => &["tdc.recalibrate_frames=1", "tdc.calibration_hits_log2=10"],
-        Effect::ChangingConditions => return vec![file("tdc.conditions", "conditions.csv")],
-        Effect::MeasuredPulse => return vec![file("laser.pulse_file", "pulse.csv")],
-        Effect::ListedShots => return vec![file("stimulus.photons", "photons.csv")],
-        Effect::ListedHistogram => return vec![file("stimulus.histogram", "histogram.csv")],
+    let in_folder = |key: &&str| match key.strip_suffix(".csv").and_then(|of| of.split_once('=')) {
+        Some((key, file)) => {
+            let path = folder.join(file).with_extension("csv");
+            format!("{key}={:?}", path.display().to_string())
+        }
+        None => key.to_string(),
     };
-    keys.iter().map(|&key| key.to_owned()).collect()
+    effect.example().iter().map(in_folder).collect()
 }
 
 /// Writes the files that keys name.

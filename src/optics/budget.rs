@@ -108,10 +108,7 @@ impl Budget {
             mean_arrival: delay + flight,
             delay,
             pulse,
-            variation: Variation {
-                timing_ps: scenario.laser.timing_jitter_ps,
-                energy: scenario.laser.energy_jitter,
-            },
+            variation: Variation::of(&scenario.laser),
             ..Budget::default()
         };
         match &scene {

@@ -1,5 +1,7 @@
 //! Variation of the laser pulse from shot to shot.
 
+use crate::scenario::Laser;
+
 /// Standard deviations of the laser pulse from shot to shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Variation {
@@ -10,6 +12,11 @@ pub struct Variation {
 }
 
 impl Variation {
+    /// Returns the variation of a scenario's laser.
+    pub fn of(laser: &Laser) -> Self {
+        Variation { timing_ps: laser.timing_jitter_ps, energy: laser.energy_jitter }
+    }
+
     /// Returns whether all shots are equal.
     pub fn is_none(&self) -> bool {
         self.timing_ps == 0.0 && self.energy == 0.0

@@ -48,6 +48,11 @@ impl Effect {
         self.row().why
     }
 
+    /// Returns settings of keys that show the effect, as of `-s`; a file is one that its reader has to lay there.
+    pub fn example(self) -> &'static [&'static str] {
+        self.row().example
+    }
+
     /// Returns the first of the effect's keys that does not have its usual value, if the scenario has the effect.
     pub fn occurrence(self, scenario: &Scenario) -> Option<Occurrence> {
         let key = self.keys().iter().find(|key| !key.is_usual(scenario))?;

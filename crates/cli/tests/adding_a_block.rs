@@ -8,7 +8,13 @@ use std::process::Command;
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 /// Pages whose pieces are applied, all to the same copy.
-const PAGES: [&str; 2] = ["docs/adding-a-block.md", "docs/adding-a-column.md"];
+const PAGES: [&str; 5] = [
+    "docs/adding-a-block.md",
+    "docs/adding-a-column.md",
+    "docs/adding-a-key.md",
+    "docs/adding-a-noise-source.md",
+    "docs/adding-a-verb.md",
+];
 
 /// A piece of the example, and the file it goes into.
 struct Piece<'a> {
@@ -17,11 +23,12 @@ struct Piece<'a> {
     text: String,
 }
 
-/// Where in a file: all of a new one, or beside the one line that reads so.
+/// Where in a file: all of a new one, or at the one line that reads so.
 enum Place<'a> {
     New,
     Before(&'a str),
     After(&'a str),
+    Instead(&'a str),
 }
 
 /// The pieces: each block of code with what the line before it says.
@@ -37,6 +44,7 @@ fn pieces(page: &str) -> Vec<Piece<'_>> {
                 ["", file, ", a new file:"] => (file, Place::New),
                 ["In ", file, ", before ", line, ":"] => (file, Place::Before(line)),
                 ["In ", file, ", after ", line, ":"] => (file, Place::After(line)),
+                ["In ", file, ", in place of ", line, ":"] => (file, Place::Instead(line)),
                 _ => panic!("where does the code after this line go? {said}"),
             };
             pieces.push(Piece { file, place, text });
@@ -50,23 +58,20 @@ fn pieces(page: &str) -> Vec<Piece<'_>> {
 impl Piece<'_> {
     fn apply(&self, root: &Path) {
         let path = root.join(self.file);
-        let (line, is_after) = match self.place {
-            Place::New => {
-                assert!(!path.exists(), "{} is there already", self.file);
-                return fs::write(path, &self.text).unwrap();
-            }
-            Place::Before(line) => (line, false),
-            Place::After(line) => (line, true),
+        let (Place::Before(line) | Place::After(line) | Place::Instead(line)) = self.place else {
+            assert!(!path.exists(), "{} is there already", self.file);
+            return fs::write(path, &self.text).unwrap();
         };
         let old = fs::read_to_string(&path).unwrap();
         let found = old.lines().filter(|other| other.trim() == line).count();
         assert_eq!(found, 1, "lines in {} that read {line}", self.file);
-        let insert = |other: &str| match (other.trim() == line, is_after) {
-            (false, _) => format!("{other}\n"),
-            (true, true) => format!("{other}\n{}", self.text),
-            (true, false) => format!("{}{other}\n", self.text),
+        let changed = |other: &str| match self.place {
+            _ if other.trim() != line => format!("{other}\n"),
+            Place::Before(_) => format!("{}{other}\n", self.text),
+            Place::After(_) => format!("{other}\n{}", self.text),
+            Place::Instead(_) | Place::New => self.text.clone(),
         };
-        fs::write(path, old.lines().map(insert).collect::<String>()).unwrap();
+        fs::write(path, old.lines().map(changed).collect::<String>()).unwrap();
     }
 }
 
@@ -101,9 +106,15 @@ fn run(command: &mut Command) -> String {
 const OURS: [&str; 6] =
     ["tofsim", "tofsim-captures", "tofsim-rtl", "tofsim-learn", "tofsim-studies", "tofsim-cli"];
 
-/// The tests that see a new block: port tables, imports, documentation, and the fast ways past it.
-const SEE_A_BLOCK: [&str; 5] =
-    ["docs", "layers", "public_face", "fast_ways::nothing_reads", "fast_ways::clear_and"];
+/// The tests that see a new block or effect: port tables, imports, documentation, and what the fast ways give.
+const SEE_THEM: [&str; 6] = [
+    "docs",
+    "effects",
+    "layers",
+    "public_face",
+    "fast_ways::nothing_reads",
+    "fast_ways::clear_and",
+];
 
 #[test]
 #[ignore = "long: ./check --full"]
@@ -135,7 +146,7 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
     let simulator = ["--offline", "--workspace", "--test", "simulator"];
     let program = ["--profile", "test", "--bin", "tofsim"];
     cargo(&[&["build"], &simulator[..], &program, &slow].concat());
-    cargo(&[&["test"], &simulator[..], &slow, &["--"], &SEE_A_BLOCK].concat());
+    cargo(&[&["test"], &simulator[..], &slow, &["--"], &SEE_THEM].concat());
     let model = fs::read_to_string(root.join("docs/model.md")).unwrap();
     assert!(model.contains("`miss_counter`: counts the shots of a frame that end without a code."));
     assert!(model.contains("| `misses` | 16 | out | Shots without a code in this frame. |"));
@@ -160,6 +171,21 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
     fs::write(root.join("plan.toml"), plan).unwrap();
     let table = tofsim(&["sweep", "plan.toml"]);
     assert!(table.contains("fullest_bin_hits") && table.contains("+-"), "{table}");
+
+    let signal = |set: &str| {
+        let found = tofsim(&["budget", "--json", "-s", set]);
+        let found: serde_json::Value = serde_json::from_str(&found).unwrap();
+        found["signal_per_shot"].as_f64().unwrap()
+    };
+    assert_eq!(signal("spad.microlens_gain=2"), 2.0 * signal("spad.microlens_gain=1"));
+    let accuracy = fs::read_to_string(root.join("docs/accuracy.md")).unwrap();
+    assert!(accuracy.contains("| `laser.misfire_probability` | "));
+    let chance = "laser.misfire_probability=0.4";
+    let shots = ["--waves", "none", "--fidelity", "shot", "--json", "-s", chance];
+    let found = tofsim(&[&["run", "--estimator", "likelihood"], &shots[..]].concat());
+    assert!(found.contains("pile-up differs from shot to shot"), "{found}");
+    let table = tofsim(&["rates"]);
+    assert!(table.contains("rate [MHz]") && table.contains("20.833"), "{table}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Tests of the hazard and its inverse against the exact functions.
 
 use crate::kernel::pulse::{Pulse, Samples, normal_cdf};
+use crate::scenario::Laser;
 
 use super::*;
 
@@ -108,7 +109,8 @@ fn what_would_come_before_the_laser_edge_arrives_at_it() {
 
 #[test]
 fn a_delayed_pulse_is_the_same_pulse_later_in_the_same_background() {
-    let variation = Variation { timing_ps: 80.0, energy: 0.2 };
+    let laser = Laser { timing_jitter_ps: 80.0, energy_jitter: 0.2, ..Laser::default() };
+    let variation = Variation::of(&laser);
     let later = Time::from_fs(2_345_678);
     for variation in [Variation::default(), variation] {
         let own = Budget { variation, ..budget(0.27e9, 3.0, 3336, 137.0) };

@@ -36,11 +36,20 @@ pub(super) struct Row {
     pub above: (f64, &'static [Method]),
     /// Why, as a clause.
     pub why: &'static str,
+    /// Settings that show the effect.
+    pub example: &'static [&'static str],
 }
 
 impl Row {
-    const EMPTY: Row =
-        Row { meaning: "", keys: &[], when: |_| true, breaks: &[], above: (0.0, &[]), why: "" };
+    const EMPTY: Row = Row {
+        meaning: "",
+        keys: &[],
+        when: |_| true,
+        breaks: &[],
+        above: (0.0, &[]),
+        why: "",
+        example: &[],
+    };
 }
 
 /// Declares the effects, their list and their rows.
@@ -53,6 +62,7 @@ macro_rules! effects {
             breaks: [$($breaks:expr),* $(,)?],
             $(above: $above:expr,)?
             why: $why:literal,
+            example: [$($example:literal),* $(,)?],
         }
     )*) => {
         /// An effect that invalidates a method of simulation or estimation.
@@ -77,6 +87,7 @@ macro_rules! effects {
             breaks: &[$($breaks),*],
             $(above: $above,)?
             why: $why,
+            example: &[$($example),*],
             ..Row::EMPTY
         }),*];
     };
@@ -96,12 +107,14 @@ effects! {
         keys: [key!(firmware.rst), key!(firmware.dsp_rst), key!(firmware.dsp_en)],
         breaks: [&[HistogramDraw]],
         why: "no frame would end",
+        example: ["firmware.dsp_en=false"],
     }
     /// The SPAD is armed again after its dead time, and not by a reset before each shot (MODE 1).
     FreeRunning {
         keys: [key!(firmware.mode)],
         breaks: [&[SeparateFrames, IndependentShots], MODE_0_MODELS, SEARCHES],
         why: "in MODE 1 a shot may have several avalanches, and may begin with a dead SPAD or a pulse in the chain",
+        example: ["firmware.mode=1"],
     }
     /// Several SPADs drive the TDC in MODE 1.
     SharedTdc {
@@ -109,6 +122,7 @@ effects! {
         when: is_free_running,
         breaks: [&[Likelihood, TwoEchoes]],
         why: "in MODE 1 the SPADs on the TDC come back one by one",
+        example: ["firmware.mode=1", "spad.on_tdc=4"],
     }
     /// A photon within the dead time of MODE 1 starts it again.
     PassiveRecharge {
@@ -116,12 +130,14 @@ effects! {
         when: is_free_running,
         breaks: [&[Likelihood]],
         why: "the dead time differs from avalanche to avalanche",
+        example: ["firmware.mode=1", "spad.dead_time_kind=paralysable"],
     }
     /// Control signals change during the run.
     ControlChanges {
         keys: [key!(control)],
         breaks: [&[SeparateFrames, IndependentShots], MODELS],
         why: "the shots of a frame differ",
+        example: ["control=[{at_us=12.3,laser_en=false}]"],
     }
     /// Clock edges jitter.
     ClockJitter {
@@ -129,18 +145,21 @@ effects! {
         breaks: [&[HistogramDraw, VerilogBench, LikelihoodEstimator, Matched]],
         above: (SMALL_JITTER, SEARCHES),
         why: "jitter blurs the histogram after pile-up has shaped it",
+        example: ["pll.jitter_rms_ps=95"],
     }
     /// Temperature or supply change during the run, and the chain's delays with them.
     ChangingConditions {
         keys: [key!(tdc.conditions)],
         breaks: [&[FastForward, SeparateFrames, IndependentShots, VerilogBench, SecondOpinion]],
         why: "the delays of the chain change during the run",
+        example: ["tdc.conditions=conditions.csv"],
     }
     /// Registers of the chain sample within a set-up window about the edge.
     Metastability {
         keys: [key!(tdc.setup_window_ps)],
         breaks: [&[FastForward, IndependentShots, VerilogBench], MODELS],
         why: "each edge draws when its registers sample, which blurs the borders of bins",
+        example: ["tdc.setup_window_ps=40"],
     }
     /// Pulses leave the laser early or late.
     LaserTiming {
@@ -148,12 +167,14 @@ effects! {
         breaks: [&[CramerRaoBound], MODELS],
         above: (SMALL_JITTER, SEARCHES),
         why: "the delay of the laser differs from shot to shot",
+        example: ["laser.timing_jitter_ps=200"],
     }
     /// Pulses differ in energy.
     LaserEnergy {
         keys: [key!(laser.energy_jitter)],
         breaks: [&[CramerRaoBound], MODELS],
         why: "the pulse energy differs from shot to shot",
+        example: ["laser.energy_jitter=0.8"],
     }
     /// The target is not the plain rectangle of eq. 3.23.
     Target {
@@ -168,18 +189,21 @@ effects! {
         ],
         breaks: [&[CramerRaoBound], MODELS, SEARCHES],
         why: "the light of a shot is not one echo of the laser's pulse from the axis",
+        example: ["target.shape=step", "target.second_distance_m=0.33"],
     }
     /// The air scatters light.
     Air {
         keys: [key!(atmosphere.visibility_m), key!(atmosphere.rain_mm_h)],
         breaks: [&[CramerRaoBound], MODELS, SEARCHES],
         why: "the light of a shot is not one echo of the laser's pulse: the air sends some back",
+        example: ["atmosphere.visibility_m=2"],
     }
     /// The pulse is a measured one.
     MeasuredPulse {
         keys: [key!(laser.pulse_file)],
         breaks: [&[Peak]],
         why: "K_d and B_d of eq. 5.2 are fitted to the thesis's pulse",
+        example: ["laser.pulse_file=pulse.csv"],
     }
     /// The pulse has an exponential tail.
     PulseTail {
@@ -187,12 +211,14 @@ effects! {
         breaks: [],
         above: (SHORT_TAIL, &[Peak]),
         why: "K_d and B_d of eq. 5.2 are fitted to the thesis's pulse",
+        example: ["laser.pulse_tail_ps=150"],
     }
     /// Light leaves some time after the laser edge.
     LaserDelay {
         keys: [key!(laser.delay_ps)],
         breaks: [&[Peak]],
         why: "times count from the laser edge, so that the delay is taken for distance",
+        example: ["laser.delay_ps=600"],
     }
     /// Carriers in traps fire a SPAD again.
     Afterpulses {
@@ -200,6 +226,7 @@ effects! {
         breaks: [&[SeparateFrames, IndependentShots, CramerRaoBound], MODELS],
         above: (FEW_AFTERPULSES, SEARCHES),
         why: "an afterpulse of one shot may be the first hit of the next",
+        example: ["spad.afterpulse_probability=0.6", "spad.afterpulse_ns=9000"],
     }
     /// SPADs that are not on the TDC set off those that are.
     Crosstalk {
@@ -207,29 +234,34 @@ effects! {
         when: has_unwired_outputs,
         breaks: [&[IndependentShots], MODELS],
         why: "SPADs that are not on the TDC set off those that are (spad.row_outputs)",
+        example: ["spad.crosstalk_probability=0.4", "spad.row_outputs=30"],
     }
     /// A monostable or a recovery time shapes the pulses on `tdc_stop`.
     PulseShaping {
         keys: [key!(spad.pulse_ns), key!(spad.pulse_gap_ns)],
         breaks: [&[FastForward, SeparateFrames, IndependentShots], MODELS, SEARCHES],
         why: "the TDC misses avalanches within a pulse or gap, and a pulse may outlast its shot",
+        example: ["spad.pulse_ns=30", "spad.pulse_gap_ns=6000"],
     }
     /// The firmware calibrates its TDC between frames.
     Recalibration {
         keys: [key!(tdc.recalibrate_frames)],
         breaks: [&[FastForward, SeparateFrames, IndependentShots]],
         why: "the ages in the decoder are those of the last calibration",
+        example: ["tdc.recalibrate_frames=1", "tdc.calibration_hits_log2=10"],
     }
     /// Photons or codes of a list stand in for light.
     ListedShots {
         keys: [key!(stimulus.photons), key!(stimulus.codes)],
         breaks: [&[SeparateFrames, IndependentShots]],
         why: "its shots are those of a list, not of the link budget",
+        example: ["stimulus.photons=photons.csv"],
     }
     /// A histogram of a file stands in for shots.
     ListedHistogram {
         keys: [key!(stimulus.histogram)],
         breaks: [&[IndependentShots]],
         why: "its histogram is that of a file, not of the link budget",
+        example: ["stimulus.histogram=histogram.csv"],
     }
 }

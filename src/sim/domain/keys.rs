@@ -47,7 +47,7 @@ pub const NAMED: [&str; 25] = [
     "firmware.shots_per_frame",
 ];
 /// Keys that a file may be silent of, because they had their defaults when it was written or are newer than it.
-const SILENT: [&str; 17] = [
+const SILENT: &[&str] = &[
     CALIBRATION,
     "tdc.decoder",
     "spad.dark_file",
@@ -67,19 +67,16 @@ const SILENT: [&str; 17] = [
     // What the dividers come to, which no key of a scenario's file says [MHz].
     "pll.clk_sys_mhz",
 ];
-/// Effects whose keys are of that kind, too.
-const EFFECTS: [Effect; 11] = [
-    Effect::Target,
-    Effect::Air,
-    Effect::MeasuredPulse,
-    Effect::PulseTail,
-    Effect::LaserDelay,
-    Effect::LaserTiming,
-    Effect::LaserEnergy,
-    Effect::Afterpulses,
-    Effect::PulseShaping,
-    Effect::Recalibration,
-    Effect::Metastability,
+/// Effects that move no histogram of a network's domain, beside those whose keys are named above: its frames are whole,
+/// in MODE 0, under one scene.
+const OTHER_EFFECTS: [Effect; 7] = [
+    Effect::HeldFrame,
+    Effect::PassiveRecharge,
+    Effect::ControlChanges,
+    Effect::ChangingConditions,
+    Effect::Crosstalk,
+    Effect::ListedShots,
+    Effect::ListedHistogram,
 ];
 /// Keys by which a chain drifts from its calibration.
 pub const DRIFT: [&str; 6] = [DIE, SUPPLY, DIE_THEN, SUPPLY_THEN, PER_C, PER_MV];
@@ -94,5 +91,8 @@ pub const DEPENDENT: [(&str, &[&str], f64); 4] = [
 
 /// Returns the keys that a file may be silent of; it means their defaults then.
 pub fn silent() -> impl Iterator<Item = &'static str> {
-    SILENT.into_iter().chain(EFFECTS.into_iter().flat_map(Effect::keys).map(|key| key.name))
+    let effects = Effect::ALL.into_iter().filter(|effect| !OTHER_EFFECTS.contains(effect));
+    let of_effects = effects.flat_map(Effect::keys).map(|key| key.name);
+    let named = |key: &&str| NAMED.contains(key) || SILENT.contains(key);
+    SILENT.iter().copied().chain(of_effects.filter(move |key| !named(key)))
 }

@@ -117,7 +117,6 @@ impl Clockwork {
         device.rest_stop();
         frames.done = frame;
         frames.clear_at += cycles;
-        frames.start_at += cycles;
     }
 }
 

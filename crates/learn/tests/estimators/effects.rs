@@ -17,31 +17,16 @@ const MODELS: [EstimatorKind; 4] = [
     EstimatorKind::Matched,
 ];
 
-/// Keys that switch an effect on so far that it moves a depth; `None` for those of files.
+/// Keys that show an effect; `None` if they name a file or no frame ends.
 fn switched_on(effect: Effect) -> Option<&'static [&'static str]> {
-    Some(match effect {
-        Effect::FreeRunning => &["firmware.mode=1"],
-        Effect::SharedTdc => &["firmware.mode=1", "spad.on_tdc=4"],
-        Effect::PassiveRecharge => &["firmware.mode=1", "spad.dead_time_kind=paralysable"],
-        Effect::ControlChanges => &["control=[{at_us=500,laser_en=false}]"],
-        Effect::ClockJitter => &["pll.jitter_rms_ps=80"],
-        Effect::Metastability => &["tdc.setup_window_ps=40"],
-        Effect::LaserTiming => &["laser.timing_jitter_ps=200"],
-        Effect::LaserEnergy => &["laser.energy_jitter=0.8"],
-        Effect::Target => &["target.shape=step", "target.second_distance_m=0.33"],
-        Effect::Air => &["atmosphere.visibility_m=2"],
-        Effect::PulseTail => &["laser.pulse_tail_ps=150"],
-        Effect::LaserDelay => &["laser.delay_ps=600"],
-        Effect::Afterpulses => &["spad.afterpulse_probability=0.6"],
-        Effect::Crosstalk => &["spad.crosstalk_probability=0.4", "spad.row_outputs=30"],
-        Effect::PulseShaping => &["spad.pulse_gap_ns=40"],
-        Effect::Recalibration => &["tdc.recalibrate_frames=9", "tdc.calibration_hits_log2=19"],
-        Effect::HeldFrame
-        | Effect::ChangingConditions
-        | Effect::MeasuredPulse
-        | Effect::ListedShots
-        | Effect::ListedHistogram => return None,
-    })
+    match effect {
+        Effect::HeldFrame => None,
+        // As many hits as `likelihood_estimator` needs, which come in before the next calibration.
+        Effect::Recalibration => {
+            Some(&["tdc.recalibrate_frames=9", "tdc.calibration_hits_log2=19"])
+        }
+        _ => Some(effect.example()).filter(|keys| !keys.iter().any(|key| key.ends_with(".csv"))),
+    }
 }
 
 /// Each effect that keys switch on, and these keys with those of the scene.

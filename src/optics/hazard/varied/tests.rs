@@ -4,6 +4,11 @@ use crate::optics::Budget;
 
 use super::*;
 use crate::kernel::pulse::normal_cdf;
+use crate::scenario::Laser;
+
+fn varying(timing_jitter_ps: f64, energy_jitter: f64) -> Variation {
+    Variation::of(&Laser { timing_jitter_ps, energy_jitter, ..Laser::default() })
+}
 
 fn budget(background_hz: f64, signal: f64, mean_ps: u64) -> Budget {
     Budget {
@@ -88,7 +93,7 @@ fn a_shot_of_the_mean_is_the_plain_one() {
 #[test]
 fn a_late_or_strong_shot_is_a_plain_one_of_another_scene() {
     for (background_hz, signal, mean_ps) in SCENES {
-        let variation = Variation { timing_ps: 50.0, energy: 0.2 };
+        let variation = varying(50.0, 0.2);
         let hazard = Hazard::new(&Budget { variation, ..budget(background_hz, signal, mean_ps) });
         let other = Hazard::new(&budget(background_hz, 1.3 * signal, mean_ps + 100));
         let shot = hazard.varied([2.0, 1.5]);
@@ -108,7 +113,7 @@ fn a_late_or_strong_shot_is_a_plain_one_of_another_scene() {
 
 #[test]
 fn a_mean_over_shots_is_that_of_normal_numbers() {
-    let variation = Variation { timing_ps: 300.0, energy: 0.1 };
+    let variation = varying(300.0, 0.1);
     let hazard = Hazard::new(&Budget { variation, ..budget(0.0, 2.0, 3336) });
     let moments = [1, 2, 4].map(|power| {
         hazard.mean(|shot| ((shot.time(0) - hazard.first.time) * 1e-3 / 300.0).powi(power))
