@@ -59,7 +59,7 @@ pub struct Frames {
     pub(super) shots: u64,
     pub(super) tdc_hits: u64,
     pub(super) clear_at: u64,
-    pub(super) start_at: u64,
+    start_at: u64,
 }
 
 impl Frames {
