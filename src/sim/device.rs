@@ -340,6 +340,12 @@ impl Device {
             self.front_end.switch_ring(ring_on, now);
             self.drive_stop(now);
         }
+        self.react_to_shot(now, laser);
+    }
+
+    /// Passes start, laser and SPAD reset of the edge at `now` to detector and light; mode and ring hold.
+    #[inline(always)]
+    pub(super) fn react_to_shot(&mut self, now: Time, laser: bool) {
         let start = self.top.vcsel_driver.registers.start;
         let hold = self.top.spad_control.spad_rst;
         if start || laser {

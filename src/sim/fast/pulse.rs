@@ -42,7 +42,7 @@ impl Pulse {
         }
         emit(&mut device.top, p);
         let cycle = device.cycle - 1;
-        device.react(now, self.fired.is_some_and(|fired| fired + FLIGHT == cycle));
+        device.react_to_shot(now, self.fired.is_some_and(|fired| fired + FLIGHT == cycle));
         if device.top.vcsel_driver.registers.fire {
             self.fired = Some(cycle);
         }
