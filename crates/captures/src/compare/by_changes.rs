@@ -10,7 +10,7 @@ use super::plan::Plan;
 use super::result::Comparison;
 
 /// One side, in the common unit of time.
-struct Side {
+struct ChangeStream {
     cursor: Cursor,
     tick: Tick,
     coarse: Tick,
@@ -21,11 +21,16 @@ struct Side {
     last: u64,
 }
 
-impl Side {
+impl ChangeStream {
     /// Opens a side with its own and the common unit of time.
-    fn open(plan: &Plan, side: usize, [tick, coarse]: [Tick; 2], late: i128) -> Result<Side> {
+    fn open(
+        plan: &Plan,
+        side: usize,
+        [tick, coarse]: [Tick; 2],
+        late: i128,
+    ) -> Result<ChangeStream> {
         let cursor = plan.sources[side].read(&plan.matching.slots[side].ids)?;
-        Ok(Side { cursor, tick, coarse, late, end: plan.sources[side].end, last: 0 })
+        Ok(ChangeStream { cursor, tick, coarse, late, end: plan.sources[side].end, last: 0 })
     }
 
     fn common(&self, at: u64) -> i128 {
@@ -84,7 +89,7 @@ pub(super) fn compare(
     let ticks = plan.sources.map(tick);
     let coarse = ticks[0].max(ticks[1]);
     let late = |side: usize| if side == 0 { 0 } else { signed(coarse, late_fs) };
-    let open = |side: usize| Side::open(plan, side, [ticks[side], coarse], late(side));
+    let open = |side: usize| ChangeStream::open(plan, side, [ticks[side], coarse], late(side));
     let mut sides = [open(0)?, open(1)?];
     let times = [plan.terms.after.fs() as u128, plan.terms.until_fs];
     let [from, until] = times.map(|fs| coarse.count_up(fs) as i128);
@@ -140,7 +145,7 @@ pub(super) fn compare(
 }
 
 /// Records a difference if the sides end at different times before `until`.
-fn compare_ends(sides: &mut [Side; 2], until: i128, result: &mut Comparison) -> Result<()> {
+fn compare_ends(sides: &mut [ChangeStream; 2], until: i128, result: &mut Comparison) -> Result<()> {
     let [a, b] = [sides[0].whole()?, sides[1].whole()?];
     if sides[0].common(a).min(until) != sides[1].common(b).min(until) {
         let [a, b] = [result.sides[0].place(a), result.sides[1].place(b)];

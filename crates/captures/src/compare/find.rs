@@ -4,6 +4,7 @@ use tofsim::error::{Input, Result, nearest};
 
 use crate::condition::slice;
 use crate::source::{Name, Signal, SignalKind, Source};
+use crate::words::listed;
 
 use super::parts::{Part, Slots};
 
@@ -34,10 +35,10 @@ pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
     match found.first() {
         Some(&first) if found.iter().all(|k| id(k) == id(&first)) => Ok(first),
         Some(_) => {
-            let names: Vec<_> = (found.iter().take(OFFERED))
-                .map(|&k| source.signals[k].name.text.as_str())
-                .collect();
-            let expected = format!("several signals are called so: {}", names.join(", "));
+            let names: Vec<_> =
+                found.iter().map(|&k| source.signals[k].name.text.clone()).collect();
+            let names = listed(&names, OFFERED, "");
+            let expected = format!("several signals are called so: {names}");
             Err(Input::new(&source.name, expected).field(text).into())
         }
         None => {

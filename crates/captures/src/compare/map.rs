@@ -11,9 +11,10 @@ use tofsim::error::{Result, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::hierarchy::TOP;
 
-use crate::ila::AnalyserSetup;
 use crate::ila::probes::below;
+use crate::ila::read::digits;
 use crate::ila::setup::ProbeEntry;
+use crate::ila::{AnalyserSetup, Radix};
 
 /// A map file. Its sides `a` and `b` are those of `tofsim compare A B`, or swapped if more names match that way.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
@@ -213,15 +214,9 @@ fn shown(probe: &ProbeEntry) -> String {
 
 /// Parses the bits of a mask, least significant word first.
 pub(super) fn parse_mask(text: &str) -> Option<Vec<u64>> {
-    let digits = text.strip_prefix("0x")?.replace('_', "");
-    if digits.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
-        return None;
-    }
-    let words = digits.as_bytes().rchunks(16).map(|word| {
-        let word = std::str::from_utf8(word).ok()?;
-        u64::from_str_radix(word, 16).ok()
-    });
-    words.collect()
+    let text = text.strip_prefix("0x")?.replace('_', "");
+    let bits = digits::read(text.as_bytes(), Radix::Hex, 4 * text.len() as u32).ok()?;
+    bits.is_known().then_some(bits.value)
 }
 
 #[cfg(test)]

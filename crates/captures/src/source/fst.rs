@@ -18,7 +18,7 @@ use names::Packed;
 use unpack::{gzip_prefix, most};
 
 use super::bytes::Bytes;
-use super::span::{Checked, Fault, Span, at_most, word};
+use super::span::{Checked, Fault, Span, at_most};
 
 /// First byte of a file that begins with its header.
 pub(super) const HEADER: u8 = 0;
@@ -55,7 +55,7 @@ pub(super) fn open(path: &Path) -> Result<Bytes> {
 fn unwrapped(file: &mut Bytes) -> Checked<Vec<u8>> {
     let head = file.range(1, 2 * LENGTH)?;
     let mut span = Span::new(&head, "packed file");
-    let (length, size) = (word(span.take(LENGTH)?), word(span.take(LENGTH)?));
+    let (length, size) = (span.word(LENGTH)?, span.word(LENGTH)?);
     if length == 0 {
         return Err(Fault::of("packed file", "was not packed to its end"));
     }
@@ -76,7 +76,7 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
         let head = file.range(place, 1 + LENGTH)?;
         let mut span = Span::new(&head, "length");
         let kind = span.byte()?;
-        let length = word(span.take(LENGTH).map_err(within)?);
+        let length = span.word(LENGTH).map_err(within)?;
         if kind == 255 && length == 0 {
             // A file that was not finished; what follows are changes on their way.
             break;
@@ -126,5 +126,5 @@ fn header(body: &[u8]) -> Checked<u64> {
         let expected = format!("expected 10 to the -21 to 2 seconds, not to the {exponent}");
         return Err(Fault::value("timescale", body[TIMESCALE].into(), expected));
     }
-    Ok(word(&body[END..]))
+    Span::new(&body[END..], "end").word(8)
 }

@@ -15,7 +15,7 @@ use super::super::samples::Sample;
 use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
 use super::survey::survey;
-use crate::words::Bits;
+use crate::words::{Bits, listed};
 use candidate::Rows;
 pub(super) use candidate::{Candidate, KEPT};
 use matcher::Matcher;
@@ -139,8 +139,8 @@ fn template(plan: &Plan, search: &Search, probe: &mut PairBits) -> Result<Rows> 
         template.push(probe.row(search.side, &selected.samples.state));
     }
     if template.len() < 2 {
-        let source = &plan.sources[search.side].name;
-        return Err(Input::new(source, "expected at least two samples to align by").into());
+        let expected = "expected at least two samples to align by";
+        return Err(plan.fault(search.side, expected).into());
     }
     Ok(template)
 }
@@ -193,12 +193,11 @@ pub(super) fn decide(
     };
     let near: Vec<_> = candidates.iter().filter(|c| c.rate() <= 2.0 * best.rate()).collect();
     if near.len() > 1 {
-        let list: Vec<_> = near.iter().take(LISTED).map(|candidate| describe(candidate)).collect();
-        let more = if near.len() > LISTED { " and more" } else { "" };
+        let near: Vec<_> = near.into_iter().map(describe).collect();
         let expected = format!(
-            "ambiguous, {what} fits at several offsets: {}{more}; align by trigger, an edge or an \
+            "ambiguous, {what} fits at several offsets: {}; align by trigger, an edge or an \
             offset, or by other signals",
-            list.join(", ")
+            listed(&near, LISTED, " and more")
         );
         return Err(Input::new("--align", expected).into());
     }

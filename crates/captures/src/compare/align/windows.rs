@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use tofsim::error::{Input, Result};
 
+use super::super::parts::ordered;
 use super::super::plan::Plan;
 use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
@@ -54,10 +55,7 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
         let more = found.split_off(LISTED - 1).len();
         found.push(format!("... and {more} more windows"));
     }
-    let mut pieces = [capture, waveform];
-    if side == 1 {
-        pieces.swap(0, 1);
-    }
+    let pieces = ordered(side, capture, waveform);
     Ok(Alignment { pieces, found: found.join("\n"), ..Alignment::default() })
 }
 
@@ -80,9 +78,8 @@ fn templates(
             count += 1;
         }
         if count < 2 {
-            let source = &plan.sources[side].name;
             let expected = "expected at least two samples of each window to align by";
-            return Err(Input::new(source, expected).into());
+            return Err(plan.fault(side, expected).into());
         }
         templates.push(Template::new(rows, stride));
         if !selected.next_piece() {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 
 use crate::words::Bits;
 
@@ -11,7 +11,7 @@ use super::super::align::SearchEnd;
 use super::super::operands::SideCondition;
 use super::super::pair::Pair;
 use super::super::plan::Plan;
-use super::super::samples::{Sample, Samples};
+use super::super::samples::Samples;
 
 /// Largest number of beats of a side.
 const MOST_BEATS: usize = 1 << 22;
@@ -103,14 +103,9 @@ pub(super) fn stream(
     let mut holds = condition.clone();
     let mut samples = plan.samples(side)?;
     let mut end = SearchEnd::new(plan, side, more)?;
-    let source = plan.sources[side];
-    let is_late = |sample: Sample| {
-        let time = source.axis.femtoseconds(sample.at);
-        time.is_some_and(|time| time >= plan.terms.until_fs)
-    };
     while let Some(sample) = samples.next()?
         && !sample.is_extended
-        && !is_late(sample)
+        && plan.is_reached(side, sample) != Some(true)
         && end.takes(sample)
     {
         let count = stream.beats.len();
@@ -125,7 +120,7 @@ pub(super) fn stream(
         }
         if count == MOST_BEATS {
             let expected = format!("has more than {MOST_BEATS} beats; take part of it (--until)");
-            return Err(Input::new(&source.name, expected).into());
+            return Err(plan.fault(side, expected).into());
         }
         stream.beats.push(Beat { sample: sample.index, at: sample.at });
         stream.words.push(words.number(pairs, side, &samples));

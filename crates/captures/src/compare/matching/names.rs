@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use crate::source::{Name, Source};
 
 use super::super::pair::{MatchedBy, Pair};
+use super::super::parts::ordered;
 use super::matched::{Matching, Unmatched, UnmatchedReason};
 use super::tails::{by_tail, ends};
 
@@ -94,7 +95,7 @@ fn best(
             // Names that are the same are found from the first side.
             for end in ends(&text).skip(side) {
                 for &other in whole[1 - side].get(end).into_iter().flatten() {
-                    let (a, b) = if side == 0 { (own, other) } else { (other, own) };
+                    let [a, b] = ordered(side, own, other);
                     let score = score(&names[0][a], &names[1][b]);
                     best[0][a].take(score, b);
                     best[1][b].take(score, a);

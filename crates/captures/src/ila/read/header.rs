@@ -124,11 +124,7 @@ fn check_radices(radices: &Row, expected: usize) -> Result<()> {
 
 /// Parses a radix; columns of words have none.
 fn radix(word: &[u8]) -> Option<Option<Radix>> {
-    match Radix::ALL.into_iter().find(|radix| radix.word().as_bytes() == word) {
-        None if word == b"ASCII" => Some(None),
-        None => None,
-        found => Some(found),
-    }
+    if word == b"ASCII" { Some(None) } else { str::from_utf8(word).ok()?.parse().ok().map(Some) }
 }
 
 /// Parses name and range of a column head.

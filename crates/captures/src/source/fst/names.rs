@@ -1,13 +1,13 @@
 //! Check of the names and widths of an FST file's signals.
 
 use super::super::signals::WIDEST;
-use super::super::span::{Checked, Fault, Span, at_most, word};
+use super::super::span::{Checked, Fault, Span, at_most};
 use super::unpack::{gzip, lz4, zlib};
 
 /// Parses the width of each signal's initial value in the geometry block [bytes].
 pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
     let mut span = Span::new(body, "geometry");
-    let (size, count) = (word(span.take(8)?), word(span.take(8)?));
+    let (size, count) = (span.word(8)?, span.word(8)?);
     let bytes = zlib(span.take(span.left())?, size, "geometry's size")?;
     let count = at_most("geometry's signals", count, bytes.len() as u64)?;
     let mut span = Span::new(&bytes, "geometry");
@@ -31,7 +31,7 @@ pub(super) enum Packed {
 pub(super) fn check(body: &[u8], packed: Packed, signals: u64) -> Checked<()> {
     const SIZE: &str = "names' size";
     let mut span = Span::new(body, "names");
-    let size = word(span.take(8)?);
+    let size = span.word(8)?;
     let bytes = match packed {
         Packed::Gzip => gzip(span.take(span.left())?, size, SIZE)?,
         Packed::Lz4 => lz4(span.take(span.left())?, size, SIZE)?,
