@@ -174,20 +174,20 @@ fn by_beats(
 /// # Errors
 /// The first such option.
 fn without_order(options: &Options) -> Result<()> {
-    let meant = |option: &str, reason: &str| {
-        Err(Input::new(option, format!("cannot go with --beats: {reason}")).into())
-    };
     let in_order = "the words themselves say what belongs together";
-    match options {
-        Options { align: Some(_), .. } => meant("--align", in_order),
-        Options { trigger: Some(_), .. } => meant("--trigger", in_order),
-        Options { time_from: Some(_), .. } => meant("--time-from", in_order),
-        Options { qualified_by: Some(_), .. } => meant("--qualified-by", in_order),
-        Options { waves: Some(_), .. } => meant("--waves", "the sides have no time in common"),
-        Options { unknowns: Unknowns::Any, .. } => {
-            meant("--x any", "words are looked for as they are")
+    let given = [
+        ("--align", options.align.is_some(), in_order),
+        ("--trigger", options.trigger.is_some(), in_order),
+        ("--time-from", options.time_from.is_some(), in_order),
+        ("--qualified-by", options.qualified_by.is_some(), in_order),
+        ("--waves", options.waves.is_some(), "the sides have no time in common"),
+        ("--x any", options.unknowns == Unknowns::Any, "words are looked for as they are"),
+    ];
+    match given.into_iter().find(|(_, is_given, _)| *is_given) {
+        Some((option, _, reason)) => {
+            Err(Input::new(option, format!("cannot go with --beats: {reason}")).into())
         }
-        _ => Ok(()),
+        None => Ok(()),
     }
 }
 

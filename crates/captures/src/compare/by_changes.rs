@@ -6,6 +6,7 @@ use crate::source::{Axis, Cursor, Source, Tick};
 
 use super::align::{self, Align};
 use super::differences::{Differences, Spot};
+use super::pair::Pair;
 use super::plan::Plan;
 use super::result::Comparison;
 
@@ -71,6 +72,13 @@ impl ChangeStream {
     }
 }
 
+/// Checks that no pair has a latency.
+fn check_latencies(pairs: &[Pair]) -> Result<()> {
+    let Some(pair) = pairs.iter().find(|pair| pair.latency != 0) else { return Ok(()) };
+    let expected = "a latency is in samples; say which clock they are taken by with --clock";
+    Err(Input::new("map", expected).field(&pair.name).into())
+}
+
 /// Compares until either side ends.
 ///
 /// The last time of a side counts only if both have changes there: a simulator may stop before it has written the
@@ -80,10 +88,7 @@ pub(super) fn compare(
     align: &Align,
     differences: &mut Differences,
 ) -> Result<Comparison> {
-    if let Some(pair) = plan.matching.pairs.iter().find(|pair| pair.latency != 0) {
-        let expected = "a latency is in samples; say which clock they are taken by with --clock";
-        return Err(Input::new("map", expected).field(&pair.name).into());
-    }
+    check_latencies(&plan.matching.pairs)?;
     let (late_fs, found) = align::shift(plan, align)?;
     let mut result = Comparison::new(plan.sources, "changes", found);
     let ticks = plan.sources.map(tick);
@@ -129,15 +134,7 @@ pub(super) fn compare(
         if let Some(both) = &mut differences.both {
             both.at(coarse.femtoseconds(now.max(0) as u64) / 1000)?;
         }
-        for pair in touched {
-            if plan.matching.pairs[pair].is_off(states[0]) {
-                continue;
-            }
-            differences.counts[pair].compared += 1;
-            if differences.differs(pair, states)? {
-                differences.count(pair, spot, states);
-            }
-        }
+        differences.compare(touched, spot, states)?;
         result.compared += 1;
     }
     compare_ends(&mut sides, until, &mut result)?;

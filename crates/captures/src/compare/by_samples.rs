@@ -69,11 +69,10 @@ pub(super) fn compare(
             break;
         }
     }
-    for (pair, count) in pairs.iter().zip(&mut differences.counts) {
-        if pair.is_plain() {
-            count.compared = result.compared;
-        }
-    }
+    let counts = pairs.iter().zip(&mut differences.counts);
+    counts
+        .filter(|(pair, _)| pair.is_plain())
+        .for_each(|(_, count)| count.compared = result.compared);
     Ok(result)
 }
 
@@ -135,8 +134,7 @@ fn short(
     let window = place.piece;
     let text = format!("window {window}: {name} ends after {count} samples, before {longer} does");
     match plan.capture() {
-        _ if is_wanted => result.differences.push(text),
-        Some(capture) if capture == other => result.differences.push(text),
+        capture if is_wanted || capture == Some(other) => result.differences.push(text),
         Some(_) => {}
         None if *align == Align::Start => {
             result.differences.push(format!("{text} (--until ends earlier)"));

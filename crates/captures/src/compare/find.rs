@@ -63,20 +63,21 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
         Ok(found) => return bits(source, found, None, slots, text),
         Err(error) => error,
     };
-    if let Some(found) = widest(source, text) {
+    let slice = slice(text);
+    let column = || {
+        let (name, high, low) = slice?;
+        let wanted = Name::new(name);
+        source.called(wanted.last()).iter().copied().find(|&k| {
+            let signal = &source.signals[k];
+            signal.lsb == i64::from(low)
+                && i64::from(high) == signal.lsb + i64::from(signal.width) - 1
+                && signal.name.common(&wanted) == Some(wanted.depth())
+        })
+    };
+    if let Some(found) = widest(source, text).or_else(column) {
         return bits(source, found, None, slots, text);
     }
-    let Some((name, high, low)) = slice(text) else { return Err(whole) };
-    let wanted = Name::new(name);
-    let column = source.called(wanted.last()).iter().copied().find(|&k| {
-        let signal = &source.signals[k];
-        signal.lsb == i64::from(low)
-            && i64::from(high) == signal.lsb + i64::from(signal.width) - 1
-            && signal.name.common(&wanted) == Some(wanted.depth())
-    });
-    if let Some(found) = column {
-        return bits(source, found, None, slots, text);
-    }
+    let Some((name, high, low)) = slice else { return Err(whole) };
     let Ok(found) = signal(source, name) else { return Err(whole) };
     bits(source, found, Some((high, low)), slots, text)
 }

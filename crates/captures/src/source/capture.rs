@@ -44,11 +44,7 @@ fn signal(column: &Column, id: usize) -> Signal {
 impl signals::Origin for CaptureOrigin {
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
         let mut opened = open(&self.path, self.radix)?;
-        let mut places = Vec::new();
-        for &id in ids {
-            let column = &opened.columns[id];
-            places.push(column.place());
-        }
+        let places: Vec<_> = ids.iter().map(|&id| opened.columns[id].place()).collect();
         Ok(Cursor::spawn(widths, move |feed| {
             let (mut row, mut before) = (CaptureRow::default(), CaptureRow::default());
             while opened.rows.next(&mut row)? {

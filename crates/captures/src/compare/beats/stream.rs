@@ -11,24 +11,16 @@ use super::super::align::SearchEnd;
 use super::super::operands::SideCondition;
 use super::super::pair::Pair;
 use super::super::plan::Plan;
+use super::super::result::BeatPlace;
 use super::super::samples::Samples;
 
 /// Largest number of beats of a side.
 const MOST_BEATS: usize = 1 << 22;
 
-/// An accepted word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Beat {
-    /// Number of the sample.
-    pub(super) sample: u64,
-    /// Place in the source.
-    pub(super) at: u64,
-}
-
 /// Beats of a side.
 #[derive(Debug, Default)]
 pub(super) struct Stream {
-    pub(super) beats: Vec<Beat>,
+    pub(super) beats: Vec<BeatPlace>,
     /// Number of each beat's word in [`BeatWords`].
     pub(super) words: Vec<u32>,
     /// Beats of each window.
@@ -122,7 +114,8 @@ pub(super) fn stream(
             let expected = format!("has more than {MOST_BEATS} beats; take part of it (--until)");
             return Err(plan.fault(side, expected).into());
         }
-        stream.beats.push(Beat { sample: sample.index, at: sample.at });
+        let place = BeatPlace { beat: count as u64, sample: sample.index, at: sample.at };
+        stream.beats.push(place);
         stream.words.push(words.number(pairs, side, &samples));
         if let Some(window) = stream.windows.last_mut() {
             window.end = count + 1;
