@@ -4,18 +4,12 @@
 //! rounded down. What a file contains follows from the hierarchy ([`crate::hierarchy`]):
 //! ports that pass a signal on are aliases, written once.
 
-#[cfg(test)]
-mod bench;
 mod body;
 mod digits;
-#[cfg(test)]
-mod file_tests;
 mod fst;
 mod gtkwave;
 mod layout;
 pub(crate) mod marks;
-#[cfg(test)]
-mod readback;
 mod scopes;
 mod select;
 pub mod side_by_side;

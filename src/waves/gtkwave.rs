@@ -7,6 +7,7 @@ use crate::kernel::signals::SignalFormat;
 
 use super::layout::{Group, ShownSignal};
 use super::marks::Marks;
+use super::side_by_side::range;
 
 /// Trace flags, which a save file holds in hexadecimal.
 mod flag {
@@ -144,10 +145,7 @@ impl Lines<'_> {
 
 /// Returns GTKWave's name of a signal.
 fn full_name(entry: &Entry) -> String {
-    match entry.signal.width {
-        1 => entry.path(),
-        width => format!("{}[{}:0]", entry.path(), width - 1),
-    }
+    entry.path() + &range(entry.signal.width)
 }
 
 /// Computes GTKWave's zoom value that shows `span` units of time in `pixels`.

@@ -96,7 +96,7 @@ fn matches(name: &str, pattern: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::bench::params;
+    use super::super::tests::bench::params;
     use super::*;
     use crate::hierarchy::{entries, every_entry, ram_entries, row_entries};
 

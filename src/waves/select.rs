@@ -89,7 +89,7 @@ fn nearest(glob: &str, candidates: &[Entry]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::bench::params;
+    use super::super::tests::bench::params;
     use super::*;
     use crate::hierarchy::{entries, ram_entries};
     use crate::kernel::U;

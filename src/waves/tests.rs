@@ -1,5 +1,9 @@
 //! Tests of the contents of waveforms: every signal, with the values of the firmware.
 
+pub(super) mod bench;
+mod files;
+pub(super) mod readback;
+
 use std::collections::BTreeSet;
 use std::fs;
 
@@ -11,11 +15,9 @@ use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Thermometer;
 use crate::kernel::Time;
 
-use super::bench::{Bench, SHOTS, params, with_delays};
-use super::readback::{
-    DerefIn, FORMATS, FRAME, assert_same, at, contents, create, extension, record,
-};
 use super::writer::WaveFormat;
+use bench::{Bench, SHOTS, params, with_delays};
+use readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create, extension, record};
 
 #[test]
 fn vcd_and_fst_hold_every_entry_and_the_same_changes() {

@@ -29,14 +29,14 @@ pub(super) struct Vcd {
     /// Text that has not been written to the file yet.
     text: Text,
     /// Signal of each id; one that is not selected has width 0 and an empty tail.
-    signals: Box<[Signal; IDS]>,
+    signals: Box<[VcdSignal; IDS]>,
     taps: TapDigits,
     /// Last time written; at first a time that never occurs [ps].
     stamped: u64,
 }
 
 #[derive(Clone, Copy, Default)]
-struct Signal {
+struct VcdSignal {
     /// End of a value line: a space if the signal is a vector, the identifier code, and a line feed.
     tail: Tail,
     /// Width [bits].
@@ -50,7 +50,7 @@ impl Vcd {
         encoder: &Encoder,
         provenance: &[String],
     ) -> Result<Self> {
-        let mut signals = Box::new([Signal::default(); IDS]);
+        let mut signals = Box::new([VcdSignal::default(); IDS]);
         let mut file = OutputFile::create(path)?;
         let date = date::fixed()?;
         header(&mut file, entries, &mut signals[..], provenance, date)
@@ -131,7 +131,7 @@ impl Body for Vcd {
 fn header(
     file: &mut OutputFile,
     entries: &[Entry],
-    signals: &mut [Signal],
+    signals: &mut [VcdSignal],
     provenance: &[String],
     date: Option<String>,
 ) -> io::Result<()> {
@@ -183,7 +183,7 @@ fn header(
         let range = (width > 1).then(|| ReferenceIndex::Range(width as i32 - 1, 0));
         vcd.var_def(kind, width, code, &entry.signal.name, range)?;
         let tail = Tail::new(&format!("{}{code}\n", if width > 1 { " " } else { "" }));
-        signals[entry.id] = Signal { tail, width };
+        signals[entry.id] = VcdSignal { tail, width };
     }
     vcd.enddefinitions()
 }

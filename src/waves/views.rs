@@ -71,8 +71,8 @@ fn text(part: Option<&std::ffi::OsStr>) -> Option<String> {
 mod tests {
     use std::collections::BTreeSet;
 
-    use super::super::bench::params;
-    use super::super::readback::extension;
+    use super::super::tests::bench::params;
+    use super::super::tests::readback::extension;
     use super::*;
     use crate::hierarchy::{entries, ram_entries};
     use crate::kernel::Time;

@@ -27,10 +27,10 @@ pub enum WaveFormat {
 pub struct Waves {
     path: PathBuf,
     writer: Writer,
-    state: State,
+    state: WindowState,
     /// Signals in the file, with their last written values, from the first window on.
     shown: Box<Part>,
-    row: Row,
+    row: SpadOutputs,
     /// Time of the last call [ps].
     last: u64,
     /// First write error.
@@ -43,7 +43,7 @@ enum Writer {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum State {
+enum WindowState {
     /// Before the first window.
     Blank,
     /// Within a window.
@@ -77,7 +77,7 @@ impl Waves {
             }
         };
         let shown = Box::new(Part::of(entries.iter().map(|entry| entry.id)));
-        let (path, state, row) = (path.to_owned(), State::Blank, Row::of(entries));
+        let (path, state, row) = (path.to_owned(), WindowState::Blank, SpadOutputs::of(entries));
         Ok(Waves { path, writer, state, shown, row, last: 0, failed: None })
     }
 
@@ -87,17 +87,17 @@ impl Waves {
     pub(crate) fn begin(&mut self, now: Time, top: &TofTop) {
         let at = self.at(now);
         match self.state {
-            State::Open => return self.sample(now, top),
-            State::Ended(end) if end == at => {
-                self.state = State::Open;
+            WindowState::Open => return self.sample(now, top),
+            WindowState::Ended(end) if end == at => {
+                self.state = WindowState::Open;
                 return self.sample(now, top);
             }
-            State::Ended(end) => self.mark(end, Step::Close, None),
-            State::Blank if at > 0 => self.mark(0, Step::Start, None),
-            State::Blank => {}
+            WindowState::Ended(end) => self.mark(end, Step::Close, None),
+            WindowState::Blank if at > 0 => self.mark(0, Step::Start, None),
+            WindowState::Blank => {}
         }
         let step = if at > 0 { Step::Open } else { Step::Start };
-        self.state = State::Open;
+        self.state = WindowState::Open;
         self.mark(at, step, Some(top));
     }
 
@@ -105,7 +105,7 @@ impl Waves {
     /// every edge of `clk_laser` and at every change between edges.
     #[inline]
     pub(crate) fn sample(&mut self, now: Time, top: &TofTop) {
-        if self.state == State::Open {
+        if self.state == WindowState::Open {
             let at = self.at(now);
             self.write(at, Step::Change, Some(top));
         }
@@ -120,7 +120,7 @@ impl Waves {
     /// Writes changes at an instant when only clock levels can change.
     #[inline]
     pub(crate) fn tick(&mut self, now: Time, top: &TofTop) {
-        if self.state == State::Open {
+        if self.state == WindowState::Open {
             let at = self.at(now);
             self.write(at, Step::Clocks, Some(top));
         }
@@ -129,8 +129,8 @@ impl Waves {
     /// Ends a window; every signal becomes unknown.
     pub(crate) fn end(&mut self, now: Time) {
         let at = self.at(now);
-        if self.state == State::Open {
-            self.state = State::Ended(at);
+        if self.state == WindowState::Open {
+            self.state = WindowState::Ended(at);
         }
     }
 
@@ -152,9 +152,9 @@ impl Waves {
     pub(crate) fn finish(mut self, end: Time) -> Result<()> {
         let at = self.at(end);
         match self.state {
-            State::Blank => self.mark(0, Step::Start, None),
-            State::Ended(end) if end < at => self.mark(end, Step::Close, None),
-            State::Ended(_) | State::Open => {}
+            WindowState::Blank => self.mark(0, Step::Start, None),
+            WindowState::Ended(end) if end < at => self.mark(end, Step::Close, None),
+            WindowState::Ended(_) | WindowState::Open => {}
         }
         self.check()?;
         match self.writer {
@@ -193,17 +193,17 @@ impl Waves {
 
 /// Outputs of the SPAD row, one bit each.
 #[derive(Clone, Copy, Default)]
-struct Row {
+struct SpadOutputs {
     /// Mask of the outputs in the file.
     has: u64,
     now: u64,
     shown: u64,
 }
 
-impl Row {
+impl SpadOutputs {
     fn of(entries: &[Entry]) -> Self {
         let places = entries.iter().filter_map(|entry| entry.id.checked_sub(ROW));
-        Row { has: places.fold(0, |has, place| has | 1 << place), ..Row::default() }
+        SpadOutputs { has: places.fold(0, |has, place| has | 1 << place), ..SpadOutputs::default() }
     }
 
     /// Reports the outputs that have changed, or all.
@@ -225,7 +225,7 @@ fn write(
     file: &mut impl Body,
     at: u64,
     step: Step,
-    (shown, row): (&mut Part, &mut Row),
+    (shown, row): (&mut Part, &mut SpadOutputs),
     top: Option<&TofTop>,
 ) -> io::Result<()> {
     let begun = file.begin(at, step);

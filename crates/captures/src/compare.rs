@@ -27,6 +27,7 @@ mod show;
 mod states;
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
@@ -107,7 +108,8 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         return Err(Input::new("--after or --until", expected).into());
     }
     let mut terms = terms(options)?;
-    if let Some(condition) = beats_condition(options)? {
+    let beats = given(&options.beats, &options.map.beats, |text| Condition::parse("beats", text))?;
+    if let Some(condition) = beats {
         return by_beats(sources, matching, terms, &condition, options, resolved.notes);
     }
     let align = align(sources, options, &terms)?;
@@ -145,15 +147,6 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     Ok(result)
 }
 
-/// Returns the condition under which a bus accepts a word, if beats are compared.
-fn beats_condition(options: &Options) -> Result<Option<Condition>> {
-    let text = options.map.beats.as_ref();
-    match &options.beats {
-        Some(condition) => Ok(Some(condition.clone())),
-        None => text.map(|text| Condition::parse("beats", text)).transpose(),
-    }
-}
-
 fn by_beats(
     sources: [&Source; 2],
     matching: matching::Matching,
@@ -181,20 +174,20 @@ fn by_beats(
 /// # Errors
 /// The first such option.
 fn without_order(options: &Options) -> Result<()> {
-    let meant = |option: &str, reason: &str| {
-        Err(Input::new(option, format!("cannot go with --beats: {reason}")).into())
-    };
     let in_order = "the words themselves say what belongs together";
-    match options {
-        Options { align: Some(_), .. } => meant("--align", in_order),
-        Options { trigger: Some(_), .. } => meant("--trigger", in_order),
-        Options { time_from: Some(_), .. } => meant("--time-from", in_order),
-        Options { qualified_by: Some(_), .. } => meant("--qualified-by", in_order),
-        Options { waves: Some(_), .. } => meant("--waves", "the sides have no time in common"),
-        Options { unknowns: Unknowns::Any, .. } => {
-            meant("--x any", "words are looked for as they are")
+    let given = [
+        ("--align", options.align.is_some(), in_order),
+        ("--trigger", options.trigger.is_some(), in_order),
+        ("--time-from", options.time_from.is_some(), in_order),
+        ("--qualified-by", options.qualified_by.is_some(), in_order),
+        ("--waves", options.waves.is_some(), "the sides have no time in common"),
+        ("--x any", options.unknowns == Unknowns::Any, "words are looked for as they are"),
+    ];
+    match given.into_iter().find(|(_, is_given, _)| *is_given) {
+        Some((option, _, reason)) => {
+            Err(Input::new(option, format!("cannot go with --beats: {reason}")).into())
         }
-        _ => Ok(()),
+        None => Ok(()),
     }
 }
 
@@ -204,20 +197,30 @@ fn conclude(plan: &Plan, differences: &Differences, all: bool, result: &mut Comp
     remarks::add(plan, &differences.counts, all, result);
 }
 
+/// Returns an option, or else the parsed value of the map's key.
+fn given<T: Clone>(
+    option: &Option<T>,
+    text: &Option<String>,
+    parse: impl FnOnce(&str) -> Result<T>,
+) -> Result<Option<T>> {
+    match option {
+        Some(option) => Ok(Some(option.clone())),
+        None => text.as_deref().map(parse).transpose(),
+    }
+}
+
+/// Parses the value of a key in the map.
+fn parse<T: FromStr<Err = String>>(key: &str, text: &str) -> Result<T> {
+    Ok(text.parse().map_err(|expected: String| Input::new(key, expected).value(text))?)
+}
+
 fn terms(options: &Options) -> Result<Terms> {
     let map = &options.map;
-    let fault = |key: &str, value: &str, error: String| Input::new(key, error).value(value);
-    let sampling = match (&options.clock, &map.clock) {
-        (Some(clock), _) => Some(clock.clone()),
-        (None, Some(text)) => Some(text.parse().map_err(|e| fault("clock", text, e))?),
-        (None, None) => None,
-    };
-    let condition = |given: &Option<Condition>, key: &str, text: &Option<String>| match given {
-        Some(condition) => Ok(Some(condition.clone())),
-        None => text.as_ref().map(|text| Condition::parse(key, text)).transpose(),
+    let condition = |given: &Option<Condition>, key: &str, text: &Option<String>| {
+        self::given(given, text, |text| Condition::parse(key, text))
     };
     Ok(Terms {
-        sampling,
+        sampling: given(&options.clock, &map.clock, |text| parse("clock", text))?,
         trigger: condition(&options.trigger, "trigger", &map.trigger)?,
         qualifier: condition(&options.qualified_by, "qualified_by", &map.qualified_by)?,
         stages: map.input_stages,
@@ -229,12 +232,8 @@ fn terms(options: &Options) -> Result<Terms> {
 /// Chooses the default alignment: by trigger for two captures; by trigger condition or else by correlation for a
 /// capture and a waveform, per window if there are several; and by time for two waveforms.
 fn align(sources: [&Source; 2], options: &Options, terms: &Terms) -> Result<Align> {
-    if let Some(align) = &options.align {
-        return Ok(align.clone());
-    }
-    if let Some(text) = &options.map.align {
-        let fault = |error: String| Input::new("align", error).value(text);
-        return Ok(text.parse().map_err(fault)?);
+    if let Some(align) = given(&options.align, &options.map.align, |text| parse("align", text))? {
+        return Ok(align);
     }
     match sources.map(Source::is_capture) {
         [true, true] => {

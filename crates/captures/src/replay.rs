@@ -120,9 +120,9 @@ impl Replay {
 pub fn replay(capture: &Source, setup: &Setup, options: &ReplayOptions) -> Result<Replay> {
     if !capture.is_capture() {
         let expected = "expected a capture of a logic analyser";
-        return Err(Input::new(&capture.name, expected).value(capture.format.name()).into());
+        return Err(Input::new(&capture.name, expected).value(capture.format).into());
     }
-    let kinds = options.kind.as_ref().map_or(&ReplayKind::ALL[..], std::slice::from_ref);
+    let kinds = options.kind.as_ref().map_or(ReplayKind::ALL, std::slice::from_ref);
     let mut fault = None;
     for &kind in kinds {
         match of_kind(capture, setup, options, kind) {

@@ -18,7 +18,6 @@ mod signals;
 mod simulation;
 mod span;
 mod state;
-mod stopped;
 mod stream;
 mod tick;
 mod translated;

@@ -1,4 +1,4 @@
-//! Wide values as 64-bit words, least significant first.
+//! Wide values as 64-bit words, least significant first; and lists of names.
 
 use vcd::Value;
 
@@ -10,6 +10,13 @@ pub(crate) struct Bits {
 }
 
 impl Bits {
+    /// Creates a value of 0 with the given width [bits].
+    pub(crate) fn zero(width: u32) -> Bits {
+        let mut bits = Bits::default();
+        bits.clear(width.div_ceil(64) as usize);
+        bits
+    }
+
     /// Sets the value to 0 with the given number of words.
     #[inline]
     pub(crate) fn clear(&mut self, words: usize) {
@@ -60,10 +67,21 @@ pub(crate) fn ones(width: u32, k: usize) -> u64 {
     }
 }
 
+/// Sets the lowest `width` bits, and clears the others.
+pub(crate) fn fill(words: &mut [u64], width: u32) {
+    words.iter_mut().enumerate().for_each(|(k, word)| *word = ones(width, k));
+}
+
 /// Clears the bits above the width.
 #[inline]
 pub(crate) fn trim(words: &mut [u64], width: u32) {
     words.iter_mut().enumerate().for_each(|(k, word)| *word &= ones(width, k));
+}
+
+/// Lists at most `most` names, followed by `more` if there are others.
+pub(crate) fn listed(names: &[String], most: usize, more: &str) -> String {
+    let shown = names[..names.len().min(most)].join(", ");
+    if names.len() > most { shown + more } else { shown }
 }
 
 /// Sign-extends a two's complement number of `width` bits.

@@ -75,7 +75,7 @@ pub fn read_waves(py: Python<'_>, path: PathBuf, names: Vec<String>) -> Result<B
                 changes.unknown.extend_from_slice(cursor.state.unknown(signal));
             }
         }
-        let (format, axis, end) = (source.format.name(), source.axis, source.end);
+        let (format, axis, end) = (source.format.into(), source.axis, source.end);
         Ok(Read { format, axis, end, signals, changes, notes: source.notes })
     })?;
     read.into_dict(py)

@@ -53,10 +53,10 @@ fn an_armed_analyser_captures_what_a_run_of_the_scenario_shows() {
         let mut analyser = Analyser::new(&plan, &setup);
         capture(Run::new(&setup), 5, &mut analyser, None).unwrap();
         assert!(analyser.is_full());
-        let formats = &CaptureFormat::ALL;
+        let formats = CaptureFormat::ALL;
         let paths = export(&analyser.finish(), folder.path(), "own", formats, true).unwrap();
         for (format, path) in formats.iter().zip(paths) {
-            let answer = server.get(&format!("ila.{}", format.ending()));
+            let answer = server.get(&format!("ila.{format}"));
             assert_eq!(answer.status, 200);
             assert!(answer.head.contains("attachment; filename=\"fig_6_"), "{}", answer.head);
             let own = std::fs::read(path).unwrap();

@@ -14,6 +14,7 @@ use super::plan::Plan;
 pub use alignment::Align;
 pub(super) use alignment::Alignment;
 pub(super) use correlation::SearchEnd;
+pub(super) use survey::windows_differ;
 pub use survey::{Survey, survey};
 
 /// Determines the time shift between two waveforms: the delay of the second [fs], and a description of how it was

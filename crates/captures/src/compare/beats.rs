@@ -9,11 +9,14 @@ use std::ops::Range;
 
 use tofsim::error::{Input, Result};
 
+use super::align::windows_differ;
 use super::operands::SideCondition;
 use super::pair::Pair;
+use super::parts::ordered;
 use super::plan::Plan;
 use super::result::{Beats, Comparison};
 use crate::condition::Condition;
+use crate::words::listed;
 
 use classify::Classifier;
 use place::{Placed, place};
@@ -73,7 +76,7 @@ pub(super) fn compare(
         streams[side] = stream(plan, side, &conditions[side], &pairs, &mut words, more)?;
         if streams[side].beats.is_empty() {
             let expected = "has no beat: the condition never holds";
-            return Err(Input::new(&plan.sources[side].name, expected).field("--beats").into());
+            return Err(plan.fault(side, expected).field("--beats").into());
         }
     }
     let alignment = "by the words of the beats".to_owned();
@@ -135,37 +138,18 @@ fn windows(
         let begin = first.1.saturating_sub(lead).max(from);
         let end = (last.1 + range.end - last.0).min(waveform.words.len());
         found_at.push(format!("beat {begin}"));
-        let (same, begin, end) = oriented(side, same, [range.start, begin], [range.end, end]);
+        let same: Vec<_> =
+            same.into_iter().map(|(own, other)| ordered(side, own, other).into()).collect();
+        let begins = ordered(side, range.start, begin);
         let classifier = Classifier { sides: [&streams[0], &streams[1]], words, window };
-        classifier.count(&same, begin, end, beats);
+        classifier.count(&same, begins, ordered(side, range.end, end), beats);
         too_many(found.is_whole, result);
-        let other = 1 - side;
-        (from, covered) = (end[other], covered + end[other] - begin[other]);
+        (from, covered) = (end, covered + end - begin);
     }
-    let shown = found_at[..found_at.len().min(LISTED)].join(", ");
-    let more = if found_at.len() > LISTED { ", ..." } else { "" };
-    let name = &plan.sources[1 - side].name;
-    result.alignment += &format!("; from {shown}{more} of {name}");
+    let (shown, name) = (listed(&found_at, LISTED, ", ..."), &plan.sources[1 - side].name);
+    result.alignment += &format!("; from {shown} of {name}");
     beats.outside[1 - side] = (waveform.words.len() - covered) as u64;
     Ok(())
-}
-
-type Oriented = (Vec<(usize, usize)>, [usize; 2], [usize; 2]);
-
-/// Swaps the matches if necessary, so that the first side comes first.
-fn oriented(
-    side: usize,
-    same: Vec<(usize, usize)>,
-    begin: [usize; 2],
-    end: [usize; 2],
-) -> Oriented {
-    match side {
-        0 => (same, begin, end),
-        _ => {
-            let same = same.into_iter().map(|(own, other)| (other, own)).collect();
-            (same, [begin[1], begin[0]], [end[1], end[0]])
-        }
-    }
 }
 
 /// Compares two captures window by window. Beats of one before the other begins or after it ends are not differences.
@@ -176,11 +160,7 @@ fn captures(
     beats: &mut Beats,
 ) -> Result<()> {
     let [a, b] = streams;
-    let counts = [a.windows.len(), b.windows.len()];
-    if counts[0] != counts[1] {
-        let [a, b] = counts;
-        result.differences.push(format!("the first has {a} windows, the second {b}"));
-    }
+    result.differences.extend(windows_differ(a.windows.len(), b.windows.len()));
     for (window, (own, other)) in a.windows.iter().zip(&b.windows).enumerate() {
         let parts: [&[u32]; 2] = [&a.words[own.clone()], &b.words[other.clone()]];
         let begins: [&Range<usize>; 2] = [own, other];
@@ -213,16 +193,12 @@ fn clear(placed: Placed, window: usize, from: usize) -> Result<script::Script> {
     match placed {
         Placed::Found(found) => Ok(found),
         Placed::Ambiguous(places) => {
-            let list: Vec<_> = places
-                .iter()
-                .take(LISTED)
-                .map(|place| format!("beat {}", place + from as i64))
-                .collect();
-            let more = if places.len() > LISTED { " and more" } else { "" };
+            let places: Vec<_> =
+                places.iter().map(|place| format!("beat {}", place + from as i64)).collect();
             let expected = format!(
-                "window {window} is ambiguous, its words come at several places: {}{more}; compare \
+                "window {window} is ambiguous, its words come at several places: {}; compare \
                  more signals, or less of the waveform (--after, --until)",
-                list.join(", ")
+                listed(&places, LISTED, " and more")
             );
             Err(Input::new("--beats", expected).into())
         }

@@ -137,9 +137,8 @@ fn flat(name: &str) -> String {
 
 /// Returns the initial view of a waveform with the given start and end [ps]; the first signals to differ are on top.
 fn view(result: &Comparison, begin: u64, end: u64) -> View<'static> {
-    let time = |at: u64| result.sides[0].axis.femtoseconds(at).map_or(at, |fs| (fs / 1000) as u64);
     let firsts = result.pairs.iter().filter_map(|pair| pair.first.as_ref());
-    let first = firsts.map(|first| time(first.at[0])).min();
+    let first = firsts.map(|first| result.sides[0].axis.picoseconds(first.at[0]) as u64).min();
     let whole = end.saturating_sub(begin).max(1);
     let (from, span) = match first {
         Some(first) => (first.saturating_sub(whole / PART / 2), (whole / PART).max(1)),

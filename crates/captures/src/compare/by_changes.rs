@@ -6,11 +6,12 @@ use crate::source::{Axis, Cursor, Source, Tick};
 
 use super::align::{self, Align};
 use super::differences::{Differences, Spot};
+use super::pair::Pair;
 use super::plan::Plan;
 use super::result::Comparison;
 
 /// One side, in the common unit of time.
-struct Side {
+struct ChangeStream {
     cursor: Cursor,
     tick: Tick,
     coarse: Tick,
@@ -21,11 +22,16 @@ struct Side {
     last: u64,
 }
 
-impl Side {
+impl ChangeStream {
     /// Opens a side with its own and the common unit of time.
-    fn open(plan: &Plan, side: usize, [tick, coarse]: [Tick; 2], late: i128) -> Result<Side> {
+    fn open(
+        plan: &Plan,
+        side: usize,
+        [tick, coarse]: [Tick; 2],
+        late: i128,
+    ) -> Result<ChangeStream> {
         let cursor = plan.sources[side].read(&plan.matching.slots[side].ids)?;
-        Ok(Side { cursor, tick, coarse, late, end: plan.sources[side].end, last: 0 })
+        Ok(ChangeStream { cursor, tick, coarse, late, end: plan.sources[side].end, last: 0 })
     }
 
     fn common(&self, at: u64) -> i128 {
@@ -66,6 +72,13 @@ impl Side {
     }
 }
 
+/// Checks that no pair has a latency.
+fn check_latencies(pairs: &[Pair]) -> Result<()> {
+    let Some(pair) = pairs.iter().find(|pair| pair.latency != 0) else { return Ok(()) };
+    let expected = "a latency is in samples; say which clock they are taken by with --clock";
+    Err(Input::new("map", expected).field(&pair.name).into())
+}
+
 /// Compares until either side ends.
 ///
 /// The last time of a side counts only if both have changes there: a simulator may stop before it has written the
@@ -75,16 +88,13 @@ pub(super) fn compare(
     align: &Align,
     differences: &mut Differences,
 ) -> Result<Comparison> {
-    if let Some(pair) = plan.matching.pairs.iter().find(|pair| pair.latency != 0) {
-        let expected = "a latency is in samples; say which clock they are taken by with --clock";
-        return Err(Input::new("map", expected).field(&pair.name).into());
-    }
+    check_latencies(&plan.matching.pairs)?;
     let (late_fs, found) = align::shift(plan, align)?;
     let mut result = Comparison::new(plan.sources, "changes", found);
     let ticks = plan.sources.map(tick);
     let coarse = ticks[0].max(ticks[1]);
     let late = |side: usize| if side == 0 { 0 } else { signed(coarse, late_fs) };
-    let open = |side: usize| Side::open(plan, side, [ticks[side], coarse], late(side));
+    let open = |side: usize| ChangeStream::open(plan, side, [ticks[side], coarse], late(side));
     let mut sides = [open(0)?, open(1)?];
     let times = [plan.terms.after.fs() as u128, plan.terms.until_fs];
     let [from, until] = times.map(|fs| coarse.count_up(fs) as i128);
@@ -124,15 +134,7 @@ pub(super) fn compare(
         if let Some(both) = &mut differences.both {
             both.at(coarse.femtoseconds(now.max(0) as u64) / 1000)?;
         }
-        for pair in touched {
-            if plan.matching.pairs[pair].is_off(states[0]) {
-                continue;
-            }
-            differences.counts[pair].compared += 1;
-            if differences.differs(pair, states)? {
-                differences.count(pair, spot, states);
-            }
-        }
+        differences.compare(touched, spot, states)?;
         result.compared += 1;
     }
     compare_ends(&mut sides, until, &mut result)?;
@@ -140,7 +142,7 @@ pub(super) fn compare(
 }
 
 /// Records a difference if the sides end at different times before `until`.
-fn compare_ends(sides: &mut [Side; 2], until: i128, result: &mut Comparison) -> Result<()> {
+fn compare_ends(sides: &mut [ChangeStream; 2], until: i128, result: &mut Comparison) -> Result<()> {
     let [a, b] = [sides[0].whole()?, sides[1].whole()?];
     if sides[0].common(a).min(until) != sides[1].common(b).min(until) {
         let [a, b] = [result.sides[0].place(a), result.sides[1].place(b)];

@@ -52,7 +52,7 @@ pub(super) fn compare(
             let at = [a.sample.at, b.sample.at];
             let spot = Spot { order: result.compared, window: a.piece, at };
             if let Some(both) = &mut differences.both {
-                both.at(place_ps(plan, a))?;
+                both.at(plan.sources[0].axis.picoseconds(a.sample.at))?;
             }
             let gaps = [a.sample.marks.gap, b.sample.marks.gap];
             for delay in &mut delays {
@@ -69,11 +69,10 @@ pub(super) fn compare(
             break;
         }
     }
-    for (pair, count) in pairs.iter().zip(&mut differences.counts) {
-        if pair.is_plain() {
-            count.compared = result.compared;
-        }
-    }
+    let counts = pairs.iter().zip(&mut differences.counts);
+    counts
+        .filter(|(pair, _)| pair.is_plain())
+        .for_each(|(_, count)| count.compared = result.compared);
     Ok(result)
 }
 
@@ -108,19 +107,7 @@ fn is_over(plan: &Plan, a: SamplePlace, b: SamplePlace) -> bool {
 
 /// Returns whether the end of the comparison is reached on the first side that has times.
 fn is_late(plan: &Plan, places: [SamplePlace; 2]) -> bool {
-    (0..2).find_map(|side| is_reached(plan, side, places[side])) == Some(true)
-}
-
-/// Returns whether the end of the comparison is reached on a side, if it has times.
-fn is_reached(plan: &Plan, side: usize, place: SamplePlace) -> Option<bool> {
-    let time = plan.sources[side].axis.femtoseconds(place.sample.at)?;
-    Some(time >= plan.terms.until_fs)
-}
-
-/// Returns the time of a place in the waveform of both sides: that of the first side, or the sample number [ps].
-fn place_ps(plan: &Plan, place: SamplePlace) -> u128 {
-    let time = plan.sources[0].axis.femtoseconds(place.sample.at);
-    time.map_or(place.sample.at.into(), |fs| fs / 1000)
+    (0..2).find_map(|side| plan.is_reached(side, places[side].sample)) == Some(true)
 }
 
 /// Records a difference if one side has ended before its piece or the other side.
@@ -135,7 +122,7 @@ fn short(
     let ended = usize::from(places[0].is_some());
     let other = 1 - ended;
     let Some(place) = places[other] else { return };
-    if place.sample.is_extended || is_reached(plan, other, place) == Some(true) {
+    if place.sample.is_extended || plan.is_reached(other, place.sample) == Some(true) {
         return;
     }
     let wanted = pieces[other].get(place.piece).and_then(|piece| piece.count());
@@ -147,8 +134,7 @@ fn short(
     let window = place.piece;
     let text = format!("window {window}: {name} ends after {count} samples, before {longer} does");
     match plan.capture() {
-        _ if is_wanted => result.differences.push(text),
-        Some(capture) if capture == other => result.differences.push(text),
+        capture if is_wanted || capture == Some(other) => result.differences.push(text),
         Some(_) => {}
         None if *align == Align::Start => {
             result.differences.push(format!("{text} (--until ends earlier)"));

@@ -5,7 +5,7 @@ mod collect;
 mod radix;
 mod rows;
 
-use collect::{Collected, Column, collect};
+use collect::{Collected, DiagnosedSignal, collect};
 
 use tofsim::error::Result;
 
@@ -57,10 +57,11 @@ fn single(result: &Comparison, rest: &[&Compared]) -> Option<Finding> {
 /// Finds signals without a partner that have the same values as a signal of the other side.
 fn renamed(collected: &Collected) -> Vec<Finding> {
     let [own, others] = &collected.unpaired;
-    let fits = |a: &Column, b: &Column| a.width == b.width && a.values == b.values;
+    let fits =
+        |a: &DiagnosedSignal, b: &DiagnosedSignal| a.width == b.width && a.values == b.values;
     let mut findings = Vec::new();
     for a in own {
-        let like: Vec<&Column> = others.iter().filter(|b| fits(a, b)).collect();
+        let like: Vec<&DiagnosedSignal> = others.iter().filter(|b| fits(a, b)).collect();
         let back = own.iter().filter(|other| like.iter().any(|b| fits(other, b))).count();
         if let [b] = like[..]
             && back == 1

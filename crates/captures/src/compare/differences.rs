@@ -102,6 +102,25 @@ impl<'a> Differences<'a> {
         Ok(differs)
     }
 
+    /// Compares pairs at a place, unless they are excluded there.
+    pub(super) fn compare(
+        &mut self,
+        pairs: Vec<usize>,
+        spot: Spot,
+        states: [&SourceState; 2],
+    ) -> Result<()> {
+        for pair in pairs {
+            if self.pairs[pair].is_off(states[0]) {
+                continue;
+            }
+            self.counts[pair].compared += 1;
+            if self.differs(pair, states)? {
+                self.count(pair, spot, states);
+            }
+        }
+        Ok(())
+    }
+
     /// Writes a pair to the waveform.
     pub(super) fn show(
         &mut self,

@@ -4,6 +4,7 @@ use tofsim::error::{Input, Result, nearest};
 
 use crate::condition::slice;
 use crate::source::{Name, Signal, SignalKind, Source};
+use crate::words::listed;
 
 use super::parts::{Part, Slots};
 
@@ -34,10 +35,10 @@ pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
     match found.first() {
         Some(&first) if found.iter().all(|k| id(k) == id(&first)) => Ok(first),
         Some(_) => {
-            let names: Vec<_> = (found.iter().take(OFFERED))
-                .map(|&k| source.signals[k].name.text.as_str())
-                .collect();
-            let expected = format!("several signals are called so: {}", names.join(", "));
+            let names: Vec<_> =
+                found.iter().map(|&k| source.signals[k].name.text.clone()).collect();
+            let names = listed(&names, OFFERED, "");
+            let expected = format!("several signals are called so: {names}");
             Err(Input::new(&source.name, expected).field(text).into())
         }
         None => {
@@ -62,20 +63,21 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
         Ok(found) => return bits(source, found, None, slots, text),
         Err(error) => error,
     };
-    if let Some(found) = widest(source, text) {
+    let slice = slice(text);
+    let column = || {
+        let (name, high, low) = slice?;
+        let wanted = Name::new(name);
+        source.called(wanted.last()).iter().copied().find(|&k| {
+            let signal = &source.signals[k];
+            signal.lsb == i64::from(low)
+                && i64::from(high) == signal.lsb + i64::from(signal.width) - 1
+                && signal.name.common(&wanted) == Some(wanted.depth())
+        })
+    };
+    if let Some(found) = widest(source, text).or_else(column) {
         return bits(source, found, None, slots, text);
     }
-    let Some((name, high, low)) = slice(text) else { return Err(whole) };
-    let wanted = Name::new(name);
-    let column = source.called(wanted.last()).iter().copied().find(|&k| {
-        let signal = &source.signals[k];
-        signal.lsb == i64::from(low)
-            && i64::from(high) == signal.lsb + i64::from(signal.width) - 1
-            && signal.name.common(&wanted) == Some(wanted.depth())
-    });
-    if let Some(found) = column {
-        return bits(source, found, None, slots, text);
-    }
+    let Some((name, high, low)) = slice else { return Err(whole) };
     let Ok(found) = signal(source, name) else { return Err(whole) };
     bits(source, found, Some((high, low)), slots, text)
 }

@@ -11,9 +11,10 @@ use tofsim::error::{Result, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::hierarchy::TOP;
 
-use crate::ila::AnalyserSetup;
 use crate::ila::probes::below;
+use crate::ila::read::digits;
 use crate::ila::setup::ProbeEntry;
+use crate::ila::{AnalyserSetup, Radix};
 
 /// A map file. Its sides `a` and `b` are those of `tofsim compare A B`, or swapped if more names match that way.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
@@ -22,14 +23,11 @@ use crate::ila::setup::ProbeEntry;
 pub struct SignalMap {
     /// Sampling clock of a waveform: a signal, sampled just before its rising edges, or a frequency and the time of
     /// the first edge such as `125MHz` or `125MHz + 2ns`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub clock: Option<String>,
     /// Alignment of the sides: `start`, `trigger`, `edge SIGNAL`, `correlation`, `windows`, `offset N` in samples, or
     /// a time such as `offset 8ns`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub align: Option<String>,
     /// Trigger condition for a waveform.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub trigger: Option<String>,
     /// Time before which a waveform is ignored.
     #[serde(skip_serializing_if = "is_default")]
@@ -40,13 +38,10 @@ pub struct SignalMap {
     #[schemars(range(min = 0, max = 6), extend("unit" = "edges"))]
     pub input_stages: u64,
     /// Condition under which a bus accepts a word: the accepted words are compared, regardless of their times.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub beats: Option<String>,
     /// Condition under which a logic analyser stored a sample.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub qualified_by: Option<String>,
     /// Signal of a capture that counts clock cycles.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub time_from: Option<String>,
     /// Signals to exclude from the comparison, with wildcards * and ?.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -95,14 +90,11 @@ pub struct Rule {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub b: Vec<String>,
     /// Whether the value is in two's complement.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub signed: Option<bool>,
     /// Number of fraction bits.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 1024), extend("unit" = "bits"))]
     pub fraction: Option<u32>,
     /// Bits to exclude from the comparison, such as `0xf0`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub dont_care: Option<String>,
     /// Whether the second side is inverted.
     #[serde(skip_serializing_if = "is_default")]
@@ -116,7 +108,6 @@ pub struct Rule {
     #[schemars(range(min = 0), extend("unit" = "LSB"))]
     pub tolerance: u64,
     /// One-bit signal of the first side; the pair is compared only where it is 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub valid: Option<String>,
     /// Values of words, such as `{ idle = 0, run = 1 }`, if one side has words and the other bits.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -213,15 +204,9 @@ fn shown(probe: &ProbeEntry) -> String {
 
 /// Parses the bits of a mask, least significant word first.
 pub(super) fn parse_mask(text: &str) -> Option<Vec<u64>> {
-    let digits = text.strip_prefix("0x")?.replace('_', "");
-    if digits.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
-        return None;
-    }
-    let words = digits.as_bytes().rchunks(16).map(|word| {
-        let word = std::str::from_utf8(word).ok()?;
-        u64::from_str_radix(word, 16).ok()
-    });
-    words.collect()
+    let text = text.strip_prefix("0x")?.replace('_', "");
+    let bits = digits::read(text.as_bytes(), Radix::Hex, 4 * text.len() as u32).ok()?;
+    bits.is_known().then_some(bits.value)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A pair of signals, and how they are compared.
 
 use serde::Serialize;
+use strum::Display;
 
 use crate::source::{Signal, SourceState};
 use crate::words::{Bits, extend, ones};
@@ -21,8 +22,9 @@ pub enum Unknowns {
 }
 
 /// Rule by which two signals were matched.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Display, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum MatchedBy {
     /// The names are equal.
     #[default]
@@ -155,17 +157,5 @@ impl Pair {
             a.abs_diff(b)
         };
         self.show != Show::Real && apart <= self.tolerance as u128
-    }
-}
-
-impl MatchedBy {
-    /// Returns the name used in outputs.
-    pub const fn word(self) -> &'static str {
-        match self {
-            MatchedBy::Name => "name",
-            MatchedBy::Suffix => "suffix",
-            MatchedBy::Tail => "tail",
-            MatchedBy::Map => "map",
-        }
     }
 }

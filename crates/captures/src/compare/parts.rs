@@ -25,6 +25,11 @@ impl Slots {
     }
 }
 
+/// Orders what belongs to a side and to the other by side.
+pub(super) fn ordered<T>(side: usize, own: T, other: T) -> [T; 2] {
+    if side == 0 { [own, other] } else { [other, own] }
+}
+
 /// A slice of a cursor's signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {

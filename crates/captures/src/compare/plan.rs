@@ -1,6 +1,8 @@
 //! Plan of a comparison: the signals that it reads, and how it samples them.
 
-use tofsim::error::Result;
+use std::fmt::Display;
+
+use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 
 use crate::condition::Condition;
@@ -88,6 +90,16 @@ impl<'a> Plan<'a> {
     pub(super) fn is_looked_at(&self, side: usize, sample: Sample) -> bool {
         let time = self.sources[side].axis.femtoseconds(sample.at);
         time.is_none_or(|fs| fs >= self.terms.after.fs() as u128)
+    }
+
+    /// Returns whether the end of the comparison is reached on a side, if it has times.
+    pub(super) fn is_reached(&self, side: usize, sample: Sample) -> Option<bool> {
+        Some(self.sources[side].axis.femtoseconds(sample.at)? >= self.terms.until_fs)
+    }
+
+    /// Creates an error about a side.
+    pub(super) fn fault(&self, side: usize, expected: impl Display) -> Input {
+        Input::new(&self.sources[side].name, expected)
     }
 
     /// Returns the side that is a capture, if the other is not.

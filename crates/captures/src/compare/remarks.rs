@@ -28,17 +28,13 @@ pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Com
     }
     for unmatched in &plan.matching.unmatched {
         let source = &plan.sources[unmatched.side];
-        if unmatched.reason == UnmatchedReason::Text {
-            if source.is_capture() || all {
-                let (name, reason) = (&unmatched.name, &unmatched.reason);
-                notes.push(format!("{}: {name} is not compared: {reason}", source.name));
-            }
-            continue;
-        }
-        if (all || source.is_capture()) && unmatched.reason != UnmatchedReason::Ignored {
-            let reason = &unmatched.reason;
-            differences
-                .push(format!("{}: {} is not compared: {reason}", source.name, unmatched.name));
+        let (name, reason) = (&unmatched.name, &unmatched.reason);
+        let text = format!("{}: {name} is not compared: {reason}", source.name);
+        match reason {
+            UnmatchedReason::Ignored => {}
+            _ if !all && !source.is_capture() => {}
+            UnmatchedReason::Text => notes.push(text),
+            _ => differences.push(text),
         }
     }
     result.unmatched = plan.matching.unmatched.clone();

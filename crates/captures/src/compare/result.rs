@@ -68,7 +68,7 @@ pub struct Described {
 
 impl Described {
     pub(super) fn new(source: &Source) -> Self {
-        let (name, format) = (source.name.clone(), source.format.name());
+        let (name, format) = (source.name.clone(), source.format.into());
         Described { name, format, axis: source.axis }
     }
 

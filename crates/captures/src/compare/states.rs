@@ -7,6 +7,8 @@ use tofsim::error::Result;
 
 use crate::source::{Name, Signal, SignalKind, Source, Translation};
 
+use crate::words::listed;
+
 use super::map::SignalMap;
 use super::matching::{Matching, SignalChoice, matching};
 use super::pair::Pair;
@@ -135,9 +137,8 @@ fn states(pair: &Pair, map: &SignalMap, bits: Option<&Signal>, width: u32) -> Ha
 
 /// Formats a note on words whose values are unknown.
 fn note(name: &str, side: usize, is_known: bool, missing: &[&str]) -> String {
-    let list: Vec<_> = missing.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
-    let more = missing.len().saturating_sub(LISTED);
-    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let list: Vec<_> = missing.iter().map(|name| format!("`{name}`")).collect();
+    let more = format!(" and {} more", missing.len().saturating_sub(LISTED));
     let first = if missing[0].bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
         missing[0].to_owned()
     } else {
@@ -146,8 +147,8 @@ fn note(name: &str, side: usize, is_known: bool, missing: &[&str]) -> String {
     let [own, other] = if side == 0 { ["first", "second"] } else { ["second", "first"] };
     let what = if is_known { "where the words are" } else { "because its words are" };
     format!(
-        "{name} is not compared {what} {}{more}: the {own} side has words, the {other} bits; a map \
+        "{name} is not compared {what} {}: the {own} side has words, the {other} bits; a map \
          says what they stand for: [[signal]] a = [{name:?}], states = {{ {first} = 0 }}",
-        list.join(", "),
+        listed(&list, LISTED, &more),
     )
 }

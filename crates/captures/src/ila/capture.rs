@@ -3,9 +3,13 @@
 use std::ops::Range;
 
 use bitvec::prelude::*;
+use strum::{Display, EnumString, IntoStaticStr, VariantArray};
 
-/// Radix in which values are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// Radix in which values are written. Its text is Vivado's name of it.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, Display, EnumString, IntoStaticStr, VariantArray,
+)]
+#[strum(serialize_all = "UPPERCASE")]
 pub enum Radix {
     /// Hexadecimal, lower case, all digits
     Hex,
@@ -21,19 +25,7 @@ pub enum Radix {
 
 impl Radix {
     /// All radices.
-    pub const ALL: [Radix; 5] =
-        [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
-
-    /// Returns Vivado's name of the radix.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Radix::Hex => "HEX",
-            Radix::Signed => "SIGNED",
-            Radix::Unsigned => "UNSIGNED",
-            Radix::Binary => "BINARY",
-            Radix::Octal => "OCTAL",
-        }
-    }
+    pub const ALL: &[Radix] = Radix::VARIANTS;
 }
 
 /// An input of the logic analyser.

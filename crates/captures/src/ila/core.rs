@@ -14,7 +14,7 @@ pub struct Shape {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
+enum Phase {
     /// Stores the samples before the trigger; triggers are ignored.
     Filling,
     /// Waits for a trigger.
@@ -37,7 +37,7 @@ pub struct Core {
     stride: usize,
     /// Words of the stored samples.
     words: Vec<u64>,
-    state: State,
+    state: Phase,
     /// Number of samples stored in the present window before its trigger.
     before: usize,
     /// Ring index of the next sample before the trigger.
@@ -59,7 +59,7 @@ impl Core {
             shape,
             stride,
             words: Vec::new(),
-            state: State::Waiting,
+            state: Phase::Waiting,
             before: 0,
             next: 0,
             after: 0,
@@ -74,9 +74,9 @@ impl Core {
     fn begin(&mut self) {
         (self.before, self.next, self.after) = (0, 0, 0);
         self.state = match self.shape.position {
-            _ if self.full.len() == self.shape.windows => State::Full,
-            0 => State::Waiting,
-            _ => State::Filling,
+            _ if self.full.len() == self.shape.windows => Phase::Full,
+            0 => Phase::Waiting,
+            _ => Phase::Filling,
         };
     }
 
@@ -84,12 +84,12 @@ impl Core {
     #[inline]
     pub fn sample(&mut self, row: &[u64], triggers: bool, qualifies: bool) {
         let slot = match self.state {
-            State::Waiting if triggers => {
+            Phase::Waiting if triggers => {
                 self.triggers.push(self.number);
                 Some(self.follow())
             }
-            State::Triggered if qualifies => Some(self.follow()),
-            State::Filling | State::Waiting if qualifies && self.shape.position > 0 => {
+            Phase::Triggered if qualifies => Some(self.follow()),
+            Phase::Filling | Phase::Waiting if qualifies && self.shape.position > 0 => {
                 Some(self.lead())
             }
             _ => None,
@@ -110,10 +110,10 @@ impl Core {
     fn lead(&mut self) -> usize {
         let slot = self.full.len() * self.shape.depth + self.next;
         self.next = if self.next + 1 == self.shape.position { 0 } else { self.next + 1 };
-        if self.state == State::Filling {
+        if self.state == Phase::Filling {
             self.before += 1;
             if self.before == self.shape.position {
-                self.state = State::Waiting;
+                self.state = Phase::Waiting;
             }
         }
         slot
@@ -124,7 +124,7 @@ impl Core {
     fn follow(&mut self) -> usize {
         let Shape { depth, position, .. } = self.shape;
         let slot = self.full.len() * depth + position + self.after;
-        self.state = State::Triggered;
+        self.state = Phase::Triggered;
         self.after += 1;
         if position + self.after == depth {
             self.full.push(self.next);
@@ -136,13 +136,13 @@ impl Core {
     /// Returns whether all windows are complete.
     #[inline]
     pub fn is_full(&self) -> bool {
-        self.state == State::Full
+        self.state == Phase::Full
     }
 
     /// Returns whether the present window still lacks samples before its trigger, so that triggers are ignored.
     #[inline]
     pub fn is_filling(&self) -> bool {
-        self.state == State::Filling
+        self.state == Phase::Filling
     }
 
     /// Returns whether the present or a later window still needs a trigger.
@@ -167,7 +167,7 @@ impl Core {
         let Core { stride, mut words, .. } = self;
         let Shape { depth, position, .. } = self.shape;
         let full = self.full.iter().map(|&turn| (position, turn, depth - position));
-        let turn = if self.state == State::Filling { 0 } else { self.next };
+        let turn = if self.state == Phase::Filling { 0 } else { self.next };
         let partial = (self.before + self.after > 0).then_some((self.before, turn, self.after));
         let (mut windows, mut triggers, mut samples) = (Vec::new(), Vec::new(), 0);
         for (before, turn, after) in full.chain(partial) {

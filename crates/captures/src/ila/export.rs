@@ -3,14 +3,17 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use strum::{Display, VariantArray};
+
 use tofsim::error::Result;
 use tofsim::files::output::{create_directory, write_file};
 
 use super::capture::Capture;
 use super::write;
 
-/// A file format of Vivado's `write_hw_ila_data`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A file format of Vivado's `write_hw_ila_data`. Its text is the file name extension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display, VariantArray)]
+#[strum(serialize_all = "lowercase")]
 pub enum CaptureFormat {
     /// One row per sample
     Csv,
@@ -22,17 +25,7 @@ pub enum CaptureFormat {
 
 impl CaptureFormat {
     /// All formats.
-    pub const ALL: [CaptureFormat; 3] =
-        [CaptureFormat::Csv, CaptureFormat::Vcd, CaptureFormat::Ila];
-
-    /// Returns the file name extension.
-    pub const fn ending(self) -> &'static str {
-        match self {
-            CaptureFormat::Csv => "csv",
-            CaptureFormat::Vcd => "vcd",
-            CaptureFormat::Ila => "ila",
-        }
-    }
+    pub const ALL: &[CaptureFormat] = CaptureFormat::VARIANTS;
 }
 
 /// Writes a capture to `folder` in each of the formats, as `stem` with the format's extension, and returns the paths.
@@ -49,8 +42,8 @@ pub fn export(
 ) -> Result<Vec<PathBuf>> {
     create_directory(folder)?;
     let mut paths = Vec::new();
-    for format in CaptureFormat::ALL.into_iter().filter(|format| formats.contains(format)) {
-        let path = folder.join(format!("{stem}.{}", format.ending()));
+    for format in CaptureFormat::ALL.iter().filter(|format| formats.contains(format)) {
+        let path = folder.join(format!("{stem}.{format}"));
         write_file(&path, |out| -> io::Result<()> {
             match format {
                 CaptureFormat::Csv => write::csv(out, capture, radix_row),

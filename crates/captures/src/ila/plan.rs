@@ -11,7 +11,7 @@ use crate::condition::{Bound, Condition, Operand};
 use super::capture::Probe;
 use super::clock::AnalyserClock;
 use super::core::Shape;
-use super::probes::{Bits, Design};
+use super::probes::{Design, SignalSlice};
 use super::setup::AnalyserSetup;
 
 /// Largest number of bits per sample.
@@ -26,7 +26,7 @@ pub struct AnalyserPlan {
     /// The probes.
     pub probes: Vec<Probe>,
     /// Signal bits of each probe.
-    pub bits: Vec<Bits>,
+    pub bits: Vec<SignalSlice>,
     /// Dimensions of the capture.
     pub shape: Shape,
     /// Sampling clock.
@@ -36,7 +36,7 @@ pub struct AnalyserPlan {
     /// Storage qualifier over `operands`; without one, all samples are stored.
     pub qualifier: Option<Bound>,
     /// Bits that the conditions use.
-    pub operands: Vec<Bits>,
+    pub operands: Vec<SignalSlice>,
     /// Time at which the analyser is armed.
     pub arm_at: Time,
     /// Number of registers between the signals and the analyser [edges].
@@ -92,7 +92,7 @@ impl AnalyserPlan {
     }
 }
 
-fn probes(set_up: &AnalyserSetup, design: &Design) -> Result<(Vec<Probe>, Vec<Bits>)> {
+fn probes(set_up: &AnalyserSetup, design: &Design) -> Result<(Vec<Probe>, Vec<SignalSlice>)> {
     let (mut probes, mut all_bits) = (Vec::<Probe>::new(), Vec::new());
     let (mut heads, mut width) = (HashMap::new(), 0);
     for (index, entry) in set_up.file.probe.iter().enumerate() {
@@ -149,8 +149,8 @@ fn condition(
     key: &str,
     text: &str,
     design: &Design,
-    (probes, bits): (&[Probe], &[Bits]),
-    operands: &mut Vec<Bits>,
+    (probes, bits): (&[Probe], &[SignalSlice]),
+    operands: &mut Vec<SignalSlice>,
 ) -> Result<Bound> {
     let mut find = |name: &str| {
         let probe = probes.iter().position(|probe| probe.name == name || probe.head() == name);

@@ -11,7 +11,7 @@ use tofsim::waves::TapDigits;
 
 use crate::condition::WIDEST;
 
-use super::probes::Bits;
+use super::probes::SignalSlice;
 
 /// Bits of a signal within one word.
 #[derive(Clone, Copy, Debug)]
@@ -49,8 +49,8 @@ struct Packed {
 impl ProbeValues {
     /// Creates values for probes, concatenated in a sample of `stride` words, and for operands.
     pub(super) fn new(
-        probes: &[Bits],
-        operands: &[Bits],
+        probes: &[SignalSlice],
+        operands: &[SignalSlice],
         stride: usize,
         encoder: &Encoder,
     ) -> Self {
@@ -67,7 +67,7 @@ impl ProbeValues {
             begin += bits.width as usize;
         }
         for (operand, &bits) in operands.iter().enumerate() {
-            let bits = Bits { width: bits.width.min(WIDEST), ..bits };
+            let bits = SignalSlice { width: bits.width.min(WIDEST), ..bits };
             present.insert(bits, 64 * (stride + 2 * operand));
         }
         let ids = probes.iter().chain(operands).map(|bits| bits.id);
@@ -103,7 +103,7 @@ impl ProbeValues {
 
 impl Packed {
     /// Maps bits of a signal to the bits from `begin` on of all words.
-    fn insert(&mut self, Bits { id, mut low, width, .. }: Bits, begin: usize) {
+    fn insert(&mut self, SignalSlice { id, mut low, width, .. }: SignalSlice, begin: usize) {
         let end = begin + width as usize;
         for word in begin / 64..end.div_ceil(64) {
             let (from, to) = (begin.max(64 * word), end.min(64 * (word + 1)));
@@ -176,15 +176,21 @@ mod tests {
     fn every_signal_stands_at_its_place_after_every_edge() {
         let setup = Setup::new(scenario::load("bright", &[]).unwrap()).unwrap();
         let order = setup.params.tdc.delays.order();
-        let mut bits: Vec<Bits> = entries(&setup.params)
+        let mut bits: Vec<SignalSlice> = entries(&setup.params)
             .into_iter()
             .chain(ram_entries(&setup.params.histogram).into_iter().take(40))
-            .map(|entry| Bits { id: entry.id, low: 0, width: entry.signal.width, signed: false })
+            .map(|entry| SignalSlice {
+                id: entry.id,
+                low: 0,
+                width: entry.signal.width,
+                signed: false,
+            })
             .collect();
         let slices = bits.iter().filter(|bits| bits.width > 4).copied();
-        let slices = slices.map(|bits| Bits { low: 3, width: bits.width - 4, ..bits });
+        let slices = slices.map(|bits| SignalSlice { low: 3, width: bits.width - 4, ..bits });
         bits.extend(slices.collect::<Vec<_>>());
-        let operands: Vec<Bits> = bits.iter().copied().filter(|bits| bits.width <= 128).collect();
+        let operands: Vec<SignalSlice> =
+            bits.iter().copied().filter(|bits| bits.width <= 128).collect();
         let stride = bits.iter().map(|bits| bits.width as usize).sum::<usize>().div_ceil(64);
         let mut look =
             ProbeValues::new(&bits, &operands, stride, &setup.params.tdc.decoder.encoder);
@@ -196,7 +202,8 @@ mod tests {
             let mut collect = Collect(vec![BitVec::new(); IDS], order);
             hierarchy::changes(&device.top, None, &mut collect);
             let (row, mut begin) = (look.row().view_bits::<Lsb0>(), 0);
-            let value = |b: &Bits| &collect.0[b.id][b.low as usize..(b.low + b.width) as usize];
+            let value =
+                |b: &SignalSlice| &collect.0[b.id][b.low as usize..(b.low + b.width) as usize];
             for bits in &bits {
                 let end = begin + bits.width as usize;
                 assert_eq!(row[begin..end], value(bits), "cycle {cycle}, {bits:?}");

@@ -13,7 +13,7 @@ use super::capture::{Probe, Radix};
 
 /// A slice of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Bits {
+pub struct SignalSlice {
     /// Id of the signal in the hierarchy.
     pub id: usize,
     /// Lowest bit.
@@ -51,10 +51,10 @@ impl Design {
     ///
     /// # Errors
     /// Description of what was expected.
-    pub fn signal(&self, path: &str) -> Result<Bits, String> {
+    pub fn signal(&self, path: &str) -> Result<SignalSlice, String> {
         let (id, signal) = self.look_up(path)?;
         let signed = matches!(signal.format, SignalFormat::Signed { .. });
-        Ok(Bits { id, low: 0, width: signal.width, signed })
+        Ok(SignalSlice { id, low: 0, width: signal.width, signed })
     }
 
     /// Creates a probe on a signal or a slice of it, and returns it with its bits. The default name is the path with
@@ -67,7 +67,7 @@ impl Design {
         text: &str,
         name: Option<&str>,
         radix: Option<Radix>,
-    ) -> Result<(Probe, Bits), String> {
+    ) -> Result<(Probe, SignalSlice), String> {
         let (path, range) = match (self.look_up(text), slice(text)) {
             (Err(_), Some((path, high, low))) => (path, Some((high, low))),
             _ => (text, None),
@@ -80,7 +80,8 @@ impl Design {
             return Err(format!("`{path}` has {width} bits; expected [high:low] within"));
         }
         let whole = high - low + 1 == bits.width;
-        bits = Bits { id: bits.id, low, width: high - low + 1, signed: bits.signed && whole };
+        bits =
+            SignalSlice { id: bits.id, low, width: high - low + 1, signed: bits.signed && whole };
         let single = range.is_some() && bits.width == 1;
         let own = |path: &str| if single { format!("{path}[{low}]") } else { path.to_owned() };
         let probe = Probe {

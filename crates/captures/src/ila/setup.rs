@@ -5,6 +5,7 @@ use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use strum::IntoStaticStr;
 
 use tofsim::error::{Error, Input, Result, hint, read_text};
 use tofsim::files::toml::Checked;
@@ -91,8 +92,9 @@ pub struct ProbeEntry {
 }
 
 /// Radix of a probe's values, as a configuration states it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, IntoStaticStr, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "UPPERCASE")]
 pub enum RadixWord {
     /// The radix that suits the signal.
     #[default]
@@ -110,16 +112,9 @@ pub enum RadixWord {
 }
 
 impl RadixWord {
-    /// Returns the radix, unless it is to suit the signal.
+    /// Returns the radix of this name, unless it is to suit the signal.
     pub fn radix(self) -> Option<Radix> {
-        match self {
-            RadixWord::Auto => None,
-            RadixWord::Hex => Some(Radix::Hex),
-            RadixWord::Signed => Some(Radix::Signed),
-            RadixWord::Unsigned => Some(Radix::Unsigned),
-            RadixWord::Octal => Some(Radix::Octal),
-            RadixWord::Binary => Some(Radix::Binary),
-        }
+        <&str>::from(self).parse().ok()
     }
 }
 

@@ -1,13 +1,16 @@
 //! Kinds of stimulus in a replay.
 
+use strum::{Display, IntoStaticStr, VariantArray};
+
 use tofsim::firmware::tof_top::{CodeSource, HistogramSource};
 use tofsim::kernel::U;
 use tofsim::sim::setup::Setup;
 
 use crate::source::Source;
 
-/// Stimulus that replaces the light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Stimulus that replaces the light. Its text is its key in the scenario's table `stimulus`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display, IntoStaticStr, VariantArray)]
+#[strum(serialize_all = "lowercase")]
 pub enum ReplayKind {
     /// Arrival time of a photon in each shot
     Photons,
@@ -19,17 +22,7 @@ pub enum ReplayKind {
 
 impl ReplayKind {
     /// All kinds, most accurate first.
-    pub const ALL: [ReplayKind; 3] =
-        [ReplayKind::Photons, ReplayKind::Codes, ReplayKind::Histogram];
-
-    /// Returns its key in the scenario's table `stimulus`.
-    pub const fn key(self) -> &'static str {
-        match self {
-            ReplayKind::Photons => "photons",
-            ReplayKind::Codes => "codes",
-            ReplayKind::Histogram => "histogram",
-        }
-    }
+    pub const ALL: &[ReplayKind] = ReplayKind::VARIANTS;
 
     /// Returns the signals to probe for it.
     pub(super) const fn probes(self) -> &'static str {

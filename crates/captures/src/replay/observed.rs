@@ -94,17 +94,7 @@ pub(super) fn observe(
         return Err(Input::new(&capture.name, expected).into());
     }
     let mut numbers = Numbers::new(shots_per_frame);
-    let mut observed = Observed {
-        timebase,
-        shots: Vec::new(),
-        has_codes: probes.code.is_some(),
-        per_frame: None,
-        period: None,
-        windows: Vec::new(),
-        pins: Pins::new(probed),
-        samples: 0,
-        notes: Vec::new(),
-    };
+    let mut observed = Observed::new(timebase, probes.code.is_some(), Pins::new(probed));
     let mut is_early = false;
     while let Some(sample) = probed.next()? {
         observed.samples += 1;
@@ -177,6 +167,12 @@ impl Pace<'_> {
 }
 
 impl Observed {
+    fn new(timebase: Timebase, has_codes: bool, pins: Pins) -> Observed {
+        let (shots, windows, notes) = (Vec::new(), Vec::new(), Vec::new());
+        let (per_frame, period, samples) = (None, None, 0);
+        Observed { timebase, shots, has_codes, per_frame, period, windows, pins, samples, notes }
+    }
+
     /// Adds notes on information that the capture does not show.
     fn add_notes(&mut self, is_placed: bool, is_early: bool) {
         let first = self.shots[0].number;

@@ -5,15 +5,28 @@ use tofsim::scenario::{Control, QuenchMode};
 
 use crate::compare::Probed;
 
-/// Names of the control signals.
-const NAMES: [&str; 6] = ["laser_freq", "mode", "laser_en", "dsp_en", "dsp_rst", "rst"];
+/// Assignment of a control signal's value.
+type Setter = fn(&mut Control, u64);
+
+/// Names of the control signals, and how they are set.
+const PINS: [(&str, Setter); 6] = [
+    ("laser_freq", |control, value| control.laser_freq = Some(value)),
+    ("mode", |control, value| {
+        let is_free = value != 0;
+        control.mode = Some(if is_free { QuenchMode::FreeRunning } else { QuenchMode::EachShot });
+    }),
+    ("laser_en", |control, value| control.laser_en = Some(value != 0)),
+    ("dsp_en", |control, value| control.dsp_en = Some(value != 0)),
+    ("dsp_rst", |control, value| control.dsp_rst = Some(value != 0)),
+    ("rst", |control, value| control.rst = Some(value != 0)),
+];
 /// Latency of `control_sync` [cycles of clk_sys].
 const SYNCHRONISERS: u64 = 2;
 
 /// A control signal.
 #[derive(Clone, Debug)]
 struct Pin {
-    name: &'static str,
+    set: Setter,
     probe: usize,
     /// Delay of the probe relative to the pin [cycles].
     late: u64,
@@ -31,14 +44,14 @@ pub(super) struct Pins {
 
 impl Pins {
     pub(super) fn new(probed: &Probed) -> Self {
-        let pin = |name: &'static str| {
+        let pin = |(name, set): (&str, Setter)| {
             let at = |text: String, late: u64| Some((probed.probe(&text)?, late));
             // Behind the synchroniser there is no doubt which edge took a change.
             let behind = at(format!("{TOP}.{name}_sync"), SYNCHRONISERS);
             let (probe, late) = behind.or_else(|| at(format!("{TOP}.{name}"), 0))?;
-            Some(Pin { name, probe, late, first: None, now: None })
+            Some(Pin { set, probe, late, first: None, now: None })
         };
-        Pins { pins: NAMES.into_iter().filter_map(pin).collect(), changes: Vec::new() }
+        Pins { pins: PINS.into_iter().filter_map(pin).collect(), changes: Vec::new() }
     }
 
     /// Processes a sample.
@@ -47,7 +60,7 @@ impl Pins {
             let Some(value) = probed.value(pin.probe) else { continue };
             if pin.now.is_some_and(|now| now != value) {
                 let mut change = Control::default();
-                set(&mut change, pin.name, value);
+                (pin.set)(&mut change, value);
                 self.changes.push((index, pin.late, change));
             }
             pin.first.get_or_insert(value);
@@ -60,24 +73,9 @@ impl Pins {
         let mut begin = Control::default();
         for pin in &self.pins {
             if let Some(first) = pin.first {
-                set(&mut begin, pin.name, first);
+                (pin.set)(&mut begin, first);
             }
         }
         begin
-    }
-}
-
-fn set(control: &mut Control, name: &str, value: u64) {
-    let high = Some(value != 0);
-    match name {
-        "laser_freq" => control.laser_freq = Some(value),
-        "mode" => {
-            control.mode =
-                Some(if value == 0 { QuenchMode::EachShot } else { QuenchMode::FreeRunning });
-        }
-        "laser_en" => control.laser_en = high,
-        "dsp_en" => control.dsp_en = high,
-        "dsp_rst" => control.dsp_rst = high,
-        _ => control.rst = high,
     }
 }

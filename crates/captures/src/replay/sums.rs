@@ -7,6 +7,7 @@ use tofsim::hierarchy::TOP;
 
 use crate::compare::Probed;
 use crate::source::Source;
+use crate::words::extend;
 
 use super::histogram::Words;
 
@@ -50,9 +51,8 @@ pub(super) fn words(
         }
         let now: Option<Vec<u64>> = neurons.iter().map(|&(_, probe)| probed.value(probe)).collect();
         let added = now.as_ref().map(|now| {
-            let added =
-                now.iter().zip(&sums).map(|(now, sum)| signed(now.wrapping_sub(*sum), width));
-            added.collect::<Vec<_>>()
+            let added = now.iter().zip(&sums).map(|(now, sum)| now.wrapping_sub(*sum));
+            added.map(|added| extend(added.into(), width) as i64).collect::<Vec<_>>()
         });
         let weights = neurons.iter().map(|&(neuron, _)| rom.w1[row as usize][neuron].get());
         let Some(count) = added.and_then(|added| word(added.into_iter().zip(weights), largest))
@@ -67,11 +67,6 @@ pub(super) fn words(
         sums = now.unwrap_or_default();
     }
     Ok(Some(words))
-}
-
-/// Sign-extends the difference of two sums of `width` bits.
-fn signed(difference: u64, width: u32) -> i64 {
-    ((difference << (64 - width)) as i64) >> (64 - width)
 }
 
 /// Returns the bin count, up to `largest`, whose products with some weights were added; 0 if all weights are zero.
@@ -93,6 +88,5 @@ mod tests {
         assert_eq!(word([(-21, -3), (15, 2)].into_iter(), 65_535), None);
         assert_eq!(word([(-21, 3)].into_iter(), 65_535), None);
         assert_eq!(word([(0, 0)].into_iter(), 65_535), Some(0));
-        assert_eq!(signed((1 << 36) - 5, 36), -5);
     }
 }

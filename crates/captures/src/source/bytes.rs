@@ -1,49 +1,36 @@
 //! Buffered reader with fast access to single bytes.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Result, Seek, SeekFrom};
 
 /// Buffer size [bytes].
 const CHUNK: usize = 1 << 17;
 
 /// Buffered file whose byte access is inlined: the waveform library reads a VCD byte by byte, and seeks within an FST
 /// by few bytes.
-#[derive(Debug)]
 pub(super) struct Bytes(BufReader<Placed>);
 
+/// A file, or bytes in memory.
+pub(super) trait Store: Read + Seek + Send + Sync {}
+
+impl<T: Read + Seek + Send + Sync> Store for T {}
+
 /// Origin of the bytes, and the position of the next read.
-#[derive(Debug)]
 struct Placed {
-    store: Store,
+    store: Box<dyn Store>,
     place: u64,
 }
 
-#[derive(Debug)]
-enum Store {
-    File(File),
-    Memory(Cursor<Vec<u8>>),
-}
-
 impl Bytes {
-    pub(super) fn new(file: File) -> Bytes {
-        Bytes::of(Store::File(file))
-    }
-
-    /// Creates a reader of bytes in memory.
-    pub(super) fn loaded(bytes: Vec<u8>) -> Bytes {
-        Bytes::of(Store::Memory(Cursor::new(bytes)))
-    }
-
-    fn of(store: Store) -> Bytes {
-        Bytes(BufReader::with_capacity(CHUNK, Placed { store, place: 0 }))
+    pub(super) fn new(store: impl Store + 'static) -> Bytes {
+        Bytes(BufReader::with_capacity(CHUNK, Placed { store: Box::new(store), place: 0 }))
     }
 
     /// Returns the number of bytes.
-    pub(super) fn length(&self) -> Result<u64> {
-        match &self.0.get_ref().store {
-            Store::File(file) => Ok(file.metadata()?.len()),
-            Store::Memory(bytes) => Ok(bytes.get_ref().len() as u64),
-        }
+    pub(super) fn length(&mut self) -> Result<u64> {
+        let Placed { store, place } = self.0.get_mut();
+        let length = store.seek(SeekFrom::End(0))?;
+        store.seek(SeekFrom::Start(*place))?;
+        Ok(length)
     }
 
     /// Reads `count` bytes from a position on.
@@ -57,10 +44,7 @@ impl Bytes {
 
 impl Read for Placed {
     fn read(&mut self, into: &mut [u8]) -> Result<usize> {
-        let count = match &mut self.store {
-            Store::File(file) => file.read(into)?,
-            Store::Memory(bytes) => bytes.read(into)?,
-        };
+        let count = self.store.read(into)?;
         self.place += count as u64;
         Ok(count)
     }
@@ -68,10 +52,7 @@ impl Read for Placed {
 
 impl Seek for Placed {
     fn seek(&mut self, to: SeekFrom) -> Result<u64> {
-        self.place = match &mut self.store {
-            Store::File(file) => file.seek(to)?,
-            Store::Memory(bytes) => bytes.seek(to)?,
-        };
+        self.place = self.store.seek(to)?;
         Ok(self.place)
     }
 }
@@ -124,7 +105,7 @@ impl Seek for Bytes {
 
 #[cfg(test)]
 mod tests {
-    use std::io::Write;
+    use std::io::{Cursor, Write};
 
     use super::*;
 
@@ -134,7 +115,7 @@ mod tests {
         let mut file = tempfile::tempfile().unwrap();
         file.write_all(&whole).unwrap();
         file.rewind().unwrap();
-        for mut bytes in [Bytes::new(file), Bytes::loaded(whole.clone())] {
+        for mut bytes in [Bytes::new(file), Bytes::new(Cursor::new(whole.clone()))] {
             let last = whole.len() as u64 - 1;
             for place in [0, 5, 3, CHUNK as u64 + 7, CHUNK as u64, 1, last, 2] {
                 assert_eq!(bytes.seek(SeekFrom::Start(place)).unwrap(), place);

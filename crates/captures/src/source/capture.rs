@@ -1,7 +1,6 @@
 //! A logic analyser's CSV files and archives as sources.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
 
 use tofsim::error::Result;
 
@@ -14,7 +13,7 @@ use super::stream::Cursor;
 
 /// Path and radix of a capture.
 #[derive(Clone, Debug)]
-struct Origin {
+struct CaptureOrigin {
     path: PathBuf,
     radix: Option<Radix>,
 }
@@ -28,17 +27,10 @@ pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
         CaptureForm::Archive => SourceFormat::Ila,
     };
     let columns = opened.columns.iter().enumerate();
-    Ok(Source {
-        name: path.display().to_string(),
-        format,
-        axis: Axis::Samples,
-        signals: columns.map(|(id, column)| signal(column, id)).collect(),
-        end: None,
-        radix_stated: opened.radix_stated,
-        notes: opened.notes,
-        origin: Arc::new(Origin { path: path.to_owned(), radix }),
-        by_last: OnceLock::new(),
-    })
+    let signals = columns.map(|(id, column)| signal(column, id)).collect();
+    let origin = CaptureOrigin { path: path.to_owned(), radix };
+    let source = Source::new(path.display().to_string(), format, Axis::Samples, signals, origin);
+    Ok(Source { radix_stated: opened.radix_stated, notes: opened.notes, ..source })
 }
 
 fn signal(column: &Column, id: usize) -> Signal {
@@ -49,14 +41,10 @@ fn signal(column: &Column, id: usize) -> Signal {
     Signal { name: Name::new(&column.name), width, lsb, kind, radix, shape: None, words, id }
 }
 
-impl signals::Origin for Origin {
+impl signals::Origin for CaptureOrigin {
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
         let mut opened = open(&self.path, self.radix)?;
-        let mut places = Vec::new();
-        for &id in ids {
-            let column = &opened.columns[id];
-            places.push(column.place());
-        }
+        let places: Vec<_> = ids.iter().map(|&id| opened.columns[id].place()).collect();
         Ok(Cursor::spawn(widths, move |feed| {
             let (mut row, mut before) = (CaptureRow::default(), CaptureRow::default());
             while opened.rows.next(&mut row)? {

@@ -21,7 +21,7 @@ pub(super) fn end(path: &Path) -> Result<Option<u64>> {
 ///
 /// The library assumes that times are in order: otherwise it prints a line on standard output and omits changes.
 fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
-    let mut words = Words { line: 1, ..Words::default() };
+    let mut words = StampParser { line: 1, ..StampParser::default() };
     let fault = |(line, expected)| Input::new(path.display(), expected).at(line, 1);
     loop {
         let block = file.fill_buf().map_err(|error| Error::io(path, "read")(error))?;
@@ -41,7 +41,7 @@ type Fault = (usize, String);
 
 /// Parser of a VCD's words, which receives the text in blocks of any length.
 #[derive(Debug, Default)]
-struct Words {
+struct StampParser {
     /// Line number, from 1.
     line: usize,
     word: Word,
@@ -64,7 +64,7 @@ enum Word {
     StampOrCommand(Vec<u8>),
 }
 
-impl Words {
+impl StampParser {
     fn take(&mut self, block: &[u8]) -> std::result::Result<(), Fault> {
         let mut rest = block;
         loop {

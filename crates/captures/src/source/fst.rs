@@ -8,17 +8,16 @@ mod names;
 mod unpack;
 
 use std::fs::File;
-use std::io::Seek;
+use std::io::{Cursor, Seek};
 use std::path::Path;
 
 use tofsim::error::{Error, Result};
 
 use changes::Section;
-use names::Packed;
 use unpack::{gzip_prefix, most};
 
 use super::bytes::Bytes;
-use super::span::{Checked, Fault, Span, at_most, word};
+use super::span::{Checked, Fault, Span, at_most};
 
 /// First byte of a file that begins with its header.
 pub(super) const HEADER: u8 = 0;
@@ -38,24 +37,19 @@ const LENGTH: u64 = 8;
 pub(super) fn open(path: &Path) -> Result<Bytes> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     let mut bytes = Bytes::new(file);
-    let unpacked = match bytes.range(0, 1).map_err(Error::io(path, "read"))?[..] {
-        [WRAPPED] => Some(unwrapped(&mut bytes).map_err(|fault| fault.of_file(path))?),
-        _ => None,
-    };
-    match unpacked {
-        Some(unpacked) => Ok(Bytes::loaded(unpacked)),
-        None => {
-            bytes.rewind().map_err(Error::io(path, "read"))?;
-            Ok(bytes)
-        }
+    if bytes.range(0, 1).map_err(Error::io(path, "read"))? == [WRAPPED] {
+        let unpacked = unwrapped(&mut bytes).map_err(|fault| fault.of_file(path))?;
+        return Ok(Bytes::new(Cursor::new(unpacked)));
     }
+    bytes.rewind().map_err(Error::io(path, "read"))?;
+    Ok(bytes)
 }
 
 /// Decompresses a file that is compressed as a whole.
 fn unwrapped(file: &mut Bytes) -> Checked<Vec<u8>> {
     let head = file.range(1, 2 * LENGTH)?;
     let mut span = Span::new(&head, "packed file");
-    let (length, size) = (word(span.take(LENGTH)?), word(span.take(LENGTH)?));
+    let (length, size) = (span.word(LENGTH)?, span.word(LENGTH)?);
     if length == 0 {
         return Err(Fault::of("packed file", "was not packed to its end"));
     }
@@ -76,7 +70,7 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
         let head = file.range(place, 1 + LENGTH)?;
         let mut span = Span::new(&head, "length");
         let kind = span.byte()?;
-        let length = word(span.take(LENGTH).map_err(within)?);
+        let length = span.word(LENGTH).map_err(within)?;
         if kind == 255 && length == 0 {
             // A file that was not finished; what follows are changes on their way.
             break;
@@ -93,9 +87,7 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
             1 | 5 | 8 => sections.push(Section { kind, begin, length }),
             2 => drop(Span::new(&body()?, "pauses").count("number").map_err(within)?),
             3 => signals = Some(names::widths(&body()?).map_err(within)?.len() as u64),
-            4 => hierarchies.push((body()?, Packed::Gzip, block)),
-            6 => hierarchies.push((body()?, Packed::Lz4, block)),
-            7 => hierarchies.push((body()?, Packed::Lz4Twice, block)),
+            4 | 6 | 7 => hierarchies.push((body()?, kind, block)),
             255 => {}
             _ => return Err(within(Fault::value("kind", kind.into(), "is none of FST's"))),
         }
@@ -104,8 +96,8 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
     let Some(signals) = signals else {
         return Err(Fault::of("geometry", "is missing: the file was not written to its end"));
     };
-    for (body, packed, block) in hierarchies {
-        names::check(&body, packed, signals).map_err(|fault| fault.within(&block))?;
+    for (body, kind, block) in hierarchies {
+        names::check(&body, kind, signals).map_err(|fault| fault.within(&block))?;
     }
     for section in sections {
         let block = format!("block at byte {}", section.begin - 1);
@@ -126,5 +118,5 @@ fn header(body: &[u8]) -> Checked<u64> {
         let expected = format!("expected 10 to the -21 to 2 seconds, not to the {exponent}");
         return Err(Fault::value("timescale", body[TIMESCALE].into(), expected));
     }
-    Ok(word(&body[END..]))
+    Span::new(&body[END..], "end").word(8)
 }

@@ -4,12 +4,10 @@
 //! The format is described by GHDL's `grt-waves.adb`. Constructs that the library does not support are left to it.
 
 mod types;
-mod words;
 
 use super::span::{Checked, Fault, Span, at_most};
 
 use types::Types;
-use words::{count, word};
 
 /// Size of the file header, and the offsets of its byte order (2 for big-endian) and of its version [bytes].
 const HEADER: u64 = 16;
@@ -22,16 +20,16 @@ const CHARACTERS: u64 = 1 << 27;
 pub(super) fn check(bytes: &[u8]) -> Checked<()> {
     let mut file = Span::new(bytes, "file");
     let head = file.take(HEADER)?;
-    let is_big = head[ORDER] == 2;
+    file.is_big = head[ORDER] == 2;
     let mut types = Types::new(head[VERSION]);
     loop {
         let place = file.place();
         let name = file.take(4)?;
         let section = match name {
-            b"STR\0" => strings(&mut file, is_big),
-            b"TYP\0" => types.section(&mut file, is_big),
+            b"STR\0" => strings(&mut file),
+            b"TYP\0" => types.section(&mut file),
             b"WKT\0" => known(&mut file),
-            b"HIE\0" => hierarchy(&mut file, is_big, &types),
+            b"HIE\0" => hierarchy(&mut file, &types),
             b"EOH\0" => return Ok(()),
             _ => Err(Fault::of("name", "expected STR, TYP, WKT, HIE or EOH")),
         };
@@ -40,9 +38,9 @@ pub(super) fn check(bytes: &[u8]) -> Checked<()> {
     }
 }
 
-fn strings(file: &mut Span, is_big: bool) -> Checked<()> {
+fn strings(file: &mut Span) -> Checked<()> {
     file.take(4)?;
-    let count = count(file, is_big, "strings")?;
+    let count = file.items("strings")?;
     file.take(4)?;
     let (mut length, mut total) = (0u64, 0);
     // The section's end has the form of another string.
@@ -72,11 +70,9 @@ fn known(file: &mut Span) -> Checked<()> {
     Ok(())
 }
 
-fn hierarchy(file: &mut Span, is_big: bool, types: &Types) -> Checked<()> {
-    file.take(4)?;
-    word(file, is_big)?;
-    word(file, is_big)?;
-    count(file, is_big, "signals")?;
+fn hierarchy(file: &mut Span, types: &Types) -> Checked<()> {
+    file.take(12)?;
+    file.items("signals")?;
     loop {
         match file.byte()? {
             0 => return Ok(()),

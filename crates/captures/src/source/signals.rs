@@ -2,7 +2,10 @@
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Debug;
+use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, OnceLock};
+
+use strum::{Display, IntoStaticStr};
 
 use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
@@ -14,8 +17,9 @@ use super::names::Name;
 use super::stream::Cursor;
 use super::tick::Tick;
 
-/// Format of a source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Format of a source. Its text is the name used in outputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display, IntoStaticStr)]
+#[strum(serialize_all = "UPPERCASE")]
 pub enum SourceFormat {
     /// Value change dump of a simulator.
     Vcd,
@@ -24,31 +28,20 @@ pub enum SourceFormat {
     /// GHDL's waveform.
     Ghw,
     /// A logic analyser's CSV with a row of radices.
+    #[strum(serialize = "ILA CSV")]
     IlaCsv,
     /// A logic analyser's CSV without a row of radices.
+    #[strum(serialize = "ILA CSV without radix row")]
     LegacyIlaCsv,
     /// A logic analyser's VCD.
+    #[strum(serialize = "ILA VCD")]
     IlaVcd,
     /// A logic analyser's archive.
+    #[strum(serialize = "ILA archive")]
     Ila,
     /// Simulation by tofsim.
+    #[strum(serialize = "simulation")]
     Simulation,
-}
-
-impl SourceFormat {
-    /// Returns the name used in outputs.
-    pub const fn name(self) -> &'static str {
-        match self {
-            SourceFormat::Vcd => "VCD",
-            SourceFormat::Fst => "FST",
-            SourceFormat::Ghw => "GHW",
-            SourceFormat::IlaCsv => "ILA CSV",
-            SourceFormat::LegacyIlaCsv => "ILA CSV without radix row",
-            SourceFormat::IlaVcd => "ILA VCD",
-            SourceFormat::Ila => "ILA archive",
-            SourceFormat::Simulation => "simulation",
-        }
-    }
 }
 
 /// Unit of the places in a source.
@@ -68,6 +61,11 @@ impl Axis {
             Axis::Time(tick) => Some(tick.femtoseconds(at)),
             Axis::Samples => None,
         }
+    }
+
+    /// Returns the time of a place in a waveform of both sides: the sample number if places are no times [ps].
+    pub(crate) fn picoseconds(self, at: u64) -> u128 {
+        self.femtoseconds(at).map_or(at.into(), |fs| fs / 1000)
     }
 }
 
@@ -134,6 +132,8 @@ pub struct Source {
     /// Notes on deviations from the usual format, and on values taken from another part.
     pub notes: Vec<String>,
     pub(super) origin: Arc<dyn Origin>,
+    /// Flag that stops reading.
+    pub(super) stop: Arc<AtomicBool>,
     /// Signals by the last part of their names, computed on first use.
     pub(super) by_last: OnceLock<HashMap<String, Vec<usize>>>,
 }
@@ -153,6 +153,24 @@ pub(super) trait Origin: Debug + Send + Sync {
 }
 
 impl Source {
+    /// Creates a source without end and notes, which needs no radix.
+    pub(super) fn new(
+        name: String,
+        format: SourceFormat,
+        axis: Axis,
+        signals: Vec<Signal>,
+        origin: impl Origin + 'static,
+    ) -> Source {
+        let (end, radix_stated, notes, origin) = (None, true, Vec::new(), Arc::new(origin));
+        let (stop, by_last) = (Arc::default(), OnceLock::new());
+        Source { name, format, axis, signals, end, radix_stated, notes, origin, stop, by_last }
+    }
+
+    /// Returns the source with a flag: once `stop` is set, reading fails as interrupted.
+    pub fn stopped_by(self, stop: Arc<AtomicBool>) -> Source {
+        Source { stop, ..self }
+    }
+
     /// Starts to read the signals with the given ids; signal `k` of the cursor is `ids[k]`.
     ///
     /// # Errors
@@ -162,7 +180,9 @@ impl Source {
         let signals = self.signals.iter().rev();
         let widths: HashMap<usize, u32> = signals.map(|s| (s.id, s.width)).collect();
         let widths: Vec<u32> = ids.iter().map(|id| widths.get(id).copied().unwrap_or(0)).collect();
-        self.origin.read(ids, &widths)
+        let mut cursor = self.origin.read(ids, &widths)?;
+        cursor.stop = Arc::clone(&self.stop);
+        Ok(cursor)
     }
 
     /// Returns the last place to search for a match: for a simulation of unlimited length, the end of its first

@@ -1,6 +1,6 @@
 //! A scenario as a source, simulated while it is read.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
@@ -24,7 +24,7 @@ pub const LONGEST_SIMULATION: Time = Time::from_ns(100_000_000);
 
 /// Setup and number of frames of a simulation.
 #[derive(Clone, Debug)]
-struct Origin {
+struct SimulationOrigin {
     setup: Arc<Setup>,
     frames: Option<u64>,
 }
@@ -45,22 +45,14 @@ pub(super) fn source(setup: Setup, frames: Option<u64>) -> Source {
         shape: Some(entry.signal.format),
         id: entry.id,
     });
-    Source {
-        name: format!("scenario {}", setup.name),
-        format: SourceFormat::Simulation,
-        axis: Axis::Time(Tick::FEMTOSECOND),
-        signals: signals.collect(),
-        end: None,
-        radix_stated: true,
-        notes: Vec::new(),
-        origin: Arc::new(Origin { setup: Arc::new(setup), frames }),
-        by_last: OnceLock::new(),
-    }
+    let (name, axis) = (format!("scenario {}", setup.name), Axis::Time(Tick::FEMTOSECOND));
+    let origin = SimulationOrigin { setup: Arc::new(setup), frames };
+    Source::new(name, SourceFormat::Simulation, axis, signals.collect(), origin)
 }
 
-impl signals::Origin for Origin {
+impl signals::Origin for SimulationOrigin {
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
-        let Origin { setup, frames } = self.clone();
+        let SimulationOrigin { setup, frames } = self.clone();
         let mut places = vec![Vec::new(); IDS];
         for (signal, (&id, &width)) in ids.iter().zip(widths).enumerate() {
             places[id].push((signal, u64::MAX >> (64 - width.min(64))));

@@ -72,11 +72,13 @@ pub(super) struct Span<'a> {
     at: usize,
     /// Name of the bytes in errors.
     what: &'static str,
+    /// Whether the most significant byte of a word is its first.
+    pub(super) is_big: bool,
 }
 
 impl<'a> Span<'a> {
     pub(super) fn new(bytes: &'a [u8], what: &'static str) -> Span<'a> {
-        Span { bytes, at: 0, what }
+        Span { bytes, at: 0, what, is_big: true }
     }
 
     /// Returns the number of bytes parsed.
@@ -100,6 +102,13 @@ impl<'a> Span<'a> {
     #[inline]
     pub(super) fn byte(&mut self) -> Checked<u8> {
         Ok(self.take(1)?[0])
+    }
+
+    /// Parses an integer of `size` bytes.
+    pub(super) fn word(&mut self, size: u64) -> Checked<u64> {
+        let bytes = self.take(size)?.iter();
+        let add = |word, &byte: &u8| word << 8 | u64::from(byte);
+        Ok(if self.is_big { bytes.fold(0, add) } else { bytes.rev().fold(0, add) })
     }
 
     /// Parses an unsigned LEB128 integer.
@@ -130,6 +139,12 @@ impl<'a> Span<'a> {
         at_most(field, count, self.left()).map_err(|fault| fault.within(self.what))
     }
 
+    /// Parses the four-byte number of items that follow, of at least one byte each.
+    pub(super) fn items(&mut self, field: &str) -> Checked<u64> {
+        let count = self.word(4)?;
+        at_most(field, count, self.left())
+    }
+
     /// Parses a zero-terminated text.
     pub(super) fn text(&mut self) -> Checked<&'a [u8]> {
         let rest = &self.bytes[self.at..];
@@ -138,11 +153,6 @@ impl<'a> Span<'a> {
         self.at += 1;
         Ok(text)
     }
-}
-
-/// Converts eight bytes, most significant first.
-pub(super) fn word(bytes: &[u8]) -> u64 {
-    bytes.iter().take(8).fold(0, |word, &byte| word << 8 | u64::from(byte))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use tofsim::error::Result;
 
 use crate::ila::Radix;
 use crate::ila::read::{LONGEST_WORD, digits, word};
-use crate::words::Bits;
+use crate::words::{Bits, fill};
 
 use super::signals::{self, Signal, SignalKind, Source};
 use super::stream::Cursor;
@@ -27,19 +27,16 @@ impl Translation {
     /// Returns the value of a word; all bits are unknown if the word is.
     fn bits(&self, value: &[u64]) -> Bits {
         let cell = word(value);
-        let mut bits = Bits::default();
-        bits.clear(self.width.div_ceil(64) as usize);
+        let mut bits = Bits::zero(self.width);
         if let Some(&state) = self.states.get(&cell) {
             bits.value[0] = state;
-        } else if let Some(read) =
-            self.radix.and_then(|radix| digits::read(cell.as_bytes(), radix, self.width).ok())
-        {
-            bits = read;
-        } else {
-            let words = bits.unknown.iter_mut().enumerate();
-            words.for_each(|(k, word)| *word = crate::words::ones(self.width, k));
+            return bits;
         }
-        bits
+        let read = self.radix.map(|radix| digits::read(cell.as_bytes(), radix, self.width));
+        read.and_then(std::result::Result::ok).unwrap_or_else(|| {
+            fill(&mut bits.unknown, self.width);
+            bits
+        })
     }
 }
 

@@ -1,7 +1,6 @@
 //! VCD, FST and GHW files, read by the crate `wellen`.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
 
 use wellen::stream::{Filter, StreamError, StreamingWaveform};
 use wellen::{Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
@@ -25,7 +24,7 @@ use super::tick::Tick;
 
 /// Path and format of a waveform.
 #[derive(Clone, Debug)]
-struct Origin {
+struct WaveOrigin {
     path: PathBuf,
     format: SourceFormat,
     /// The library's signal for each id.
@@ -75,26 +74,16 @@ fn described(
         let expected = format!("expected {WIDEST} bits at most");
         return Err(Input::new(source, expected).field(&wide.name.text).value(wide.width).into());
     }
-    let marks =
-        (format == SourceFormat::Vcd).then(|| Style::of(&signals, hierarchy.version())).flatten();
-    let axis = match &marks {
-        Some(_) => Axis::Samples,
-        None => Axis::Time(tick(&source, hierarchy)?),
-    };
-    if let Some(style) = &marks {
+    let mut origin = WaveOrigin { path: path.to_owned(), format, references, marks: None };
+    let style = Style::of(&signals, hierarchy.version());
+    if let Some(style) = style.filter(|_| format == SourceFormat::Vcd) {
         style.hide(&mut signals);
+        origin.marks = Some(style);
+        let source = Source::new(source, SourceFormat::IlaVcd, Axis::Samples, signals, origin);
+        return Ok(Source { radix_stated: false, ..source });
     }
-    Ok(Source {
-        name: source,
-        format: if marks.is_some() { SourceFormat::IlaVcd } else { format },
-        axis,
-        signals,
-        end: end.filter(|_| marks.is_none()),
-        radix_stated: marks.is_none(),
-        notes: Vec::new(),
-        origin: Arc::new(Origin { path: path.to_owned(), format, references, marks }),
-        by_last: OnceLock::new(),
-    })
+    let axis = Axis::Time(tick(&source, hierarchy)?);
+    Ok(Source { end, ..Source::new(source, format, axis, signals, origin) })
 }
 
 fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
@@ -122,7 +111,7 @@ fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {
     tick.ok_or_else(fault)
 }
 
-impl signals::Origin for Origin {
+impl signals::Origin for WaveOrigin {
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
         let references: Vec<SignalRef> = ids.iter().map(|&id| self.references[id]).collect();
         let origin = self.clone();
@@ -140,7 +129,7 @@ impl signals::Origin for Origin {
     }
 }
 
-fn stream(origin: &Origin, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
+fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
     let mut wave = open(&origin.path)?;
     let mut marking = origin.marks.as_ref().map(|style| Marking::new(style, &origin.references));
     let mut wanted = references.to_vec();

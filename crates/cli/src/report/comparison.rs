@@ -107,7 +107,7 @@ fn matched(result: &Comparison, verbose: bool) -> String {
     if verbose {
         for pair in &result.pairs {
             let other = if pair.other == pair.name { "" } else { &pair.other };
-            text += &format!("            {:<6} {} {other}\n", pair.how.word(), pair.name);
+            text += &format!("            {:<6} {} {other}\n", pair.how, pair.name);
         }
     }
     text += &guessed(result, verbose);

@@ -14,8 +14,8 @@ use crate::session::request::Request;
 
 /// Returns a file of the capture.
 pub async fn ila(State(shared): State<Shared>, Path(ending): Path<String>) -> Response {
-    let mut formats = CaptureFormat::ALL.into_iter();
-    match formats.find(|format| format.ending() == ending) {
+    let mut formats = CaptureFormat::ALL.iter().copied();
+    match formats.find(|format| format.to_string() == ending) {
         Some(format) => ask(&shared, Request::IlaFile(format)).await,
         None => StatusCode::NOT_FOUND.into_response(),
     }

@@ -219,7 +219,7 @@ impl Ila {
         let done = self.done.as_ref().ok_or_else(none)?;
         let file = done.files.iter().find(|(known, _)| *known == format);
         let (_, bytes) = file.ok_or_else(none)?;
-        Ok((format!("{}.{}", done.view.name, format.ending()), Arc::clone(bytes)))
+        Ok((format!("{}.{format}", done.view.name), Arc::clone(bytes)))
     }
 
     /// Returns the state for the page.
@@ -243,12 +243,12 @@ impl Ila {
 
 fn files(capture: &Capture, name: &str) -> Result<Vec<(CaptureFormat, Arc<[u8]>)>> {
     let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "create"))?;
-    let paths = export(capture, folder.path(), name, &CaptureFormat::ALL, true)?;
+    let paths = export(capture, folder.path(), name, CaptureFormat::ALL, true)?;
     let read = |(format, path): (CaptureFormat, &std::path::PathBuf)| {
         let bytes = fs::read(path).map_err(Error::io(path, "read"))?;
         Ok((format, Arc::from(bytes)))
     };
-    CaptureFormat::ALL.into_iter().zip(&paths).map(read).collect()
+    CaptureFormat::ALL.iter().copied().zip(&paths).map(read).collect()
 }
 
 /// Formats the command that makes the same capture from the run's scenario.

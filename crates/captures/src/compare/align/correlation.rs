@@ -1,6 +1,5 @@
 //! Alignment for best agreement, over all offsets at once by Fourier transforms.
 
-mod candidate;
 mod matcher;
 
 use vcd::Value;
@@ -15,13 +14,12 @@ use super::super::samples::Sample;
 use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
 use super::survey::survey;
-use crate::words::Bits;
-use candidate::Rows;
-pub(super) use candidate::{Candidate, KEPT};
-use matcher::Matcher;
+use crate::words::{Bits, listed};
+pub(super) use matcher::{Candidate, KEPT};
+use matcher::{Matcher, Rows};
 
 /// Longest sequence that is searched for [samples].
-pub(super) const LONGEST: u64 = 1 << 17;
+const LONGEST: u64 = 1 << 17;
 /// Largest number of bits per sample that are correlated.
 const BITS: usize = 256;
 /// Number of candidates that an error lists.
@@ -61,6 +59,18 @@ impl<'a> PairBits<'a> {
         }
         row.truncate(self.width);
         row
+    }
+
+    /// Reads the rest of a piece, up to the longest sequence that is searched.
+    pub(super) fn rows(&mut self, side: usize, selected: &mut Selected) -> Result<Rows> {
+        let mut rows = Rows::new();
+        while (rows.len() as u64) < LONGEST
+            && let Some(place) = selected.next()?
+            && !place.sample.is_extended
+        {
+            rows.push(self.row(side, &selected.samples.state));
+        }
+        Ok(rows)
     }
 }
 
@@ -130,17 +140,11 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
 /// Reads the sequence to search for.
 fn template(plan: &Plan, search: &Search, probe: &mut PairBits) -> Result<Rows> {
     let pieces = [search.piece.clone()];
-    let mut template = Rows::new();
     let mut selected = Selected::new(plan.samples(search.side)?, &pieces);
-    while let Some(place) = selected.next()? {
-        if place.sample.is_extended || template.len() as u64 == LONGEST {
-            break;
-        }
-        template.push(probe.row(search.side, &selected.samples.state));
-    }
+    let template = probe.rows(search.side, &mut selected)?;
     if template.len() < 2 {
-        let source = &plan.sources[search.side].name;
-        return Err(Input::new(source, "expected at least two samples to align by").into());
+        let expected = "expected at least two samples to align by";
+        return Err(plan.fault(search.side, expected).into());
     }
     Ok(template)
 }
@@ -193,12 +197,11 @@ pub(super) fn decide(
     };
     let near: Vec<_> = candidates.iter().filter(|c| c.rate() <= 2.0 * best.rate()).collect();
     if near.len() > 1 {
-        let list: Vec<_> = near.iter().take(LISTED).map(|candidate| describe(candidate)).collect();
-        let more = if near.len() > LISTED { " and more" } else { "" };
+        let near: Vec<_> = near.into_iter().map(describe).collect();
         let expected = format!(
-            "ambiguous, {what} fits at several offsets: {}{more}; align by trigger, an edge or an \
+            "ambiguous, {what} fits at several offsets: {}; align by trigger, an edge or an \
             offset, or by other signals",
-            list.join(", ")
+            listed(&near, LISTED, " and more")
         );
         return Err(Input::new("--align", expected).into());
     }

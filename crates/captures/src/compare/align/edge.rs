@@ -51,7 +51,7 @@ fn first(plan: &Plan, side: usize, pair: usize) -> Result<u64> {
         let changed = changes(state);
         changed && plan.is_looked_at(side, sample)
     })?;
-    let never = || Input::new(&plan.sources[side].name, "never changes").field(&pair.name);
+    let never = || plan.fault(side, "never changes").field(&pair.name);
     Ok(edge.ok_or_else(never)?.index)
 }
 
@@ -74,7 +74,8 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
         [Axis::Time(a), Axis::Time(b)] => same_time(plan, [a, b]),
         [Axis::Samples, Axis::Samples] => {
             let windows = [survey(plan.sources[0])?.windows, survey(plan.sources[1])?.windows];
-            let mut differences = Vec::from_iter(windows_differ(&windows[0], &windows[1]));
+            let mut differences =
+                Vec::from_iter(windows_differ(windows[0].len(), windows[1].len()));
             for (k, (a, b)) in windows[0].iter().zip(&windows[1]).enumerate() {
                 differences.extend(counts_differ(k, a, b));
                 differences.extend(triggers_differ(k, a, b));
@@ -99,7 +100,7 @@ fn same_time(plan: &Plan, ticks: [Tick; 2]) -> Result<Alignment> {
     for side in 0..2 {
         let Some(sample) = first_looked_at(plan, side)? else {
             let expected = format!("the clock never rises after {}", plan.terms.after);
-            return Err(Input::new(&plan.sources[side].name, expected).into());
+            return Err(plan.fault(side, expected).into());
         };
         (firsts[side], times[side]) = (sample.index, time(side, sample));
     }
@@ -109,7 +110,7 @@ fn same_time(plan: &Plan, ticks: [Tick; 2]) -> Result<Alignment> {
     let Some(first) = first.filter(|&sample| time(early, sample) == begin) else {
         let expected =
             "no edge of the clock is at the time of the other side's first; give --align";
-        return Err(Input::new(&plan.sources[early].name, expected).into());
+        return Err(plan.fault(early, expected).into());
     };
     firsts[early] = first.index;
     let pieces = firsts.map(|first| vec![Piece::Run(first, None)]);

@@ -62,8 +62,7 @@ pub fn survey(source: &Source) -> Result<Survey> {
 }
 
 /// Describes different numbers of windows, if they differ.
-pub(super) fn windows_differ(a: &[Window], b: &[Window]) -> Option<String> {
-    let (a, b) = (a.len(), b.len());
+pub(crate) fn windows_differ(a: usize, b: usize) -> Option<String> {
     (a != b).then(|| format!("the first has {a} windows, the second {b}"))
 }
 

@@ -5,9 +5,11 @@ use tofsim::error::{Input, Result};
 
 use crate::ila::Capture;
 use crate::ila::core::{Core, Shape};
+use crate::words::listed;
 
 use super::super::find;
 use super::super::operands::SideCondition;
+use super::super::parts::ordered;
 use super::super::plan::Plan;
 use super::super::result::Described;
 use super::super::samples::Sample;
@@ -15,6 +17,9 @@ use super::super::selection::Piece;
 use super::alignment::Alignment;
 use super::edge::first_looked_at;
 use super::survey::{Survey, counts_differ, survey, triggers_differ, windows_differ};
+
+/// Number of windows whose first sample is listed.
+const LISTED: usize = 3;
 
 /// Aligns the samples that triggered.
 pub(super) fn alignment(plan: &Plan, time_from: Option<&str>) -> Result<Alignment> {
@@ -45,7 +50,7 @@ fn triggered(plan: &Plan, side: usize) -> Result<(Survey, Vec<u64>)> {
 
 fn captures(plan: &Plan) -> Result<Alignment> {
     let ((a, triggers_a), (b, triggers_b)) = (triggered(plan, 0)?, triggered(plan, 1)?);
-    let mut differences = Vec::from_iter(windows_differ(&a.windows, &b.windows));
+    let mut differences = Vec::from_iter(windows_differ(a.windows.len(), b.windows.len()));
     let mut pieces = [Vec::new(), Vec::new()];
     let mut offsets = Vec::new();
     let windows = a.windows.into_iter().zip(b.windows);
@@ -68,11 +73,6 @@ fn captures(plan: &Plan) -> Result<Alignment> {
     Ok(Alignment { pieces, found, offset, differences, doubts: Vec::new() })
 }
 
-/// Orders the pieces of a capture and of a waveform by side.
-fn ordered(side: usize, capture: Vec<Piece>, waveform: Vec<Piece>) -> [Vec<Piece>; 2] {
-    if side == 0 { [capture, waveform] } else { [waveform, capture] }
-}
-
 fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alignment> {
     let (Survey { windows, last, .. }, triggers) = triggered(plan, side)?;
     let (first, at) = (windows[0], triggers[0]);
@@ -89,12 +89,9 @@ fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alig
         capture.push(Piece::Run(window.first + lead, count));
         waveform.push(piece.part(0, count.unwrap_or(u64::MAX)));
     }
-    let samples: Vec<String> = (waveform.iter().take(3))
-        .filter_map(|piece| piece.sample(0))
-        .map(|sample| sample.to_string())
-        .collect();
-    let more = if waveform.len() > 3 { ", ..." } else { "" };
-    let found = format!("by the trigger; from sample {}{more} of the waveform", samples.join(", "));
+    let samples = waveform.iter().filter_map(|piece| Some(piece.sample(0)?.to_string()));
+    let samples = listed(&samples.collect::<Vec<_>>(), LISTED, ", ...");
+    let found = format!("by the trigger; from sample {samples} of the waveform");
     let offset = match (&waveform[..], &capture[..]) {
         ([Piece::Run(waveform, _)], [Piece::Run(capture, _)]) => {
             let later = *waveform as i64 - *capture as i64;
@@ -134,7 +131,7 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     let Some(mut trigger) = plan.trigger[side].clone() else {
         let expected =
             "expected a condition (--trigger, or in the map) that the waveform triggers on";
-        return Err(Input::new(&plan.sources[side].name, expected).into());
+        return Err(plan.fault(side, expected).into());
     };
     let mut qualifier = plan.qualifier[side].clone();
     let first = first_looked_at(plan, side)?.map_or(u64::MAX, |sample| sample.index);
@@ -179,7 +176,7 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     if found < shape.windows {
         let never = never(plan, side, last, found, shape.windows);
         let expected = early.map_or(never.clone(), |early| format!("{never}; {early}"));
-        return Err(Input::new(&plan.sources[side].name, expected).into());
+        return Err(plan.fault(side, expected).into());
     }
     let pieces = stored_pieces(&capture, skipped, missing, qualifier.is_some());
     Ok(Stored { pieces, early })
@@ -212,7 +209,7 @@ fn first(plan: &Plan, side: usize) -> Result<u64> {
     let shape = Shape { depth: 1, windows: 1, position: 0 };
     let stored = stored(plan, side, shape)?;
     let first = stored.pieces.first().and_then(|(piece, _)| piece.sample(0));
-    let never = || Input::new(&plan.sources[side].name, never(plan, side, None, 0, 1));
+    let never = || plan.fault(side, never(plan, side, None, 0, 1));
     first.ok_or_else(|| never().into())
 }
 

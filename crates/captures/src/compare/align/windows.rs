@@ -11,10 +11,11 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use tofsim::error::{Input, Result};
 
+use super::super::parts::ordered;
 use super::super::plan::Plan;
 use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
-use super::correlation::{KEPT, LONGEST, PairBits, Search, decide, search};
+use super::correlation::{KEPT, PairBits, Search, decide, search};
 use super::survey::survey;
 use recent::{hash, pass, power};
 use template::{Template, packed};
@@ -54,10 +55,7 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
         let more = found.split_off(LISTED - 1).len();
         found.push(format!("... and {more} more windows"));
     }
-    let mut pieces = [capture, waveform];
-    if side == 1 {
-        pieces.swap(0, 1);
-    }
+    let pieces = ordered(side, capture, waveform);
     Ok(Alignment { pieces, found: found.join("\n"), ..Alignment::default() })
 }
 
@@ -71,19 +69,12 @@ fn templates(
     let stride = 2 * bits.width.div_ceil(64);
     let mut templates = Vec::new();
     loop {
-        let (mut rows, mut count) = (Vec::new(), 0);
-        while let Some(place) = selected.next()? {
-            if place.sample.is_extended || count == LONGEST {
-                break;
-            }
-            rows.extend(packed(&bits.row(side, &selected.samples.state)));
-            count += 1;
-        }
-        if count < 2 {
-            let source = &plan.sources[side].name;
+        let rows = bits.rows(side, &mut selected)?;
+        if rows.len() < 2 {
             let expected = "expected at least two samples of each window to align by";
-            return Err(Input::new(source, expected).into());
+            return Err(plan.fault(side, expected).into());
         }
+        let rows = rows.iter().flat_map(|row| packed(row)).collect();
         templates.push(Template::new(rows, stride));
         if !selected.next_piece() {
             return Ok(templates);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::super::result::{BeatDifference, BeatKind, BeatPlace, Beats};
+use super::super::result::{BeatDifference, BeatKind, Beats};
 use super::stream::{BeatWords, Stream};
 
 /// Two streams and their words.
@@ -40,10 +40,6 @@ impl Classifier<'_> {
                 _ if self.repeats(b) => BeatKind::Repeated,
                 _ => BeatKind::Extra,
             };
-            let place = |side: usize, k: usize| {
-                let beat = self.sides[side].beats.get(k)?;
-                Some(BeatPlace { beat: k as u64, sample: beat.sample, at: beat.at })
-            };
             let text = |side: usize, k: usize| {
                 let number = self.sides[side].words.get(k).filter(|_| is_in[side])?;
                 Some(self.words.text(*number).to_owned())
@@ -51,7 +47,7 @@ impl Classifier<'_> {
             beats.push(BeatDifference {
                 kind,
                 window: self.window,
-                beats: [place(0, a), place(1, b)],
+                beats: [(0, a), (1, b)].map(|(side, k)| self.sides[side].beats.get(k).copied()),
                 expected: text(0, a),
                 got: text(1, b),
             });

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 
 use crate::words::Bits;
 
@@ -11,24 +11,16 @@ use super::super::align::SearchEnd;
 use super::super::operands::SideCondition;
 use super::super::pair::Pair;
 use super::super::plan::Plan;
-use super::super::samples::{Sample, Samples};
+use super::super::result::BeatPlace;
+use super::super::samples::Samples;
 
 /// Largest number of beats of a side.
 const MOST_BEATS: usize = 1 << 22;
 
-/// An accepted word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Beat {
-    /// Number of the sample.
-    pub(super) sample: u64,
-    /// Place in the source.
-    pub(super) at: u64,
-}
-
 /// Beats of a side.
 #[derive(Debug, Default)]
 pub(super) struct Stream {
-    pub(super) beats: Vec<Beat>,
+    pub(super) beats: Vec<BeatPlace>,
     /// Number of each beat's word in [`BeatWords`].
     pub(super) words: Vec<u32>,
     /// Beats of each window.
@@ -103,14 +95,9 @@ pub(super) fn stream(
     let mut holds = condition.clone();
     let mut samples = plan.samples(side)?;
     let mut end = SearchEnd::new(plan, side, more)?;
-    let source = plan.sources[side];
-    let is_late = |sample: Sample| {
-        let time = source.axis.femtoseconds(sample.at);
-        time.is_some_and(|time| time >= plan.terms.until_fs)
-    };
     while let Some(sample) = samples.next()?
         && !sample.is_extended
-        && !is_late(sample)
+        && plan.is_reached(side, sample) != Some(true)
         && end.takes(sample)
     {
         let count = stream.beats.len();
@@ -125,9 +112,10 @@ pub(super) fn stream(
         }
         if count == MOST_BEATS {
             let expected = format!("has more than {MOST_BEATS} beats; take part of it (--until)");
-            return Err(Input::new(&source.name, expected).into());
+            return Err(plan.fault(side, expected).into());
         }
-        stream.beats.push(Beat { sample: sample.index, at: sample.at });
+        let place = BeatPlace { beat: count as u64, sample: sample.index, at: sample.at };
+        stream.beats.push(place);
         stream.words.push(words.number(pairs, side, &samples));
         if let Some(window) = stream.windows.last_mut() {
             window.end = count + 1;

@@ -19,7 +19,7 @@ const LONGEST: u64 = 1 << 17;
 const COLUMNS: usize = 32;
 
 /// Values of a signal.
-pub(super) struct Column {
+pub(super) struct DiagnosedSignal {
     /// Name on its side.
     pub(super) name: String,
     /// Index of its pair, if it has one.
@@ -36,9 +36,9 @@ pub(super) struct Collected {
     /// Number of the first sample.
     pub(super) first: u64,
     /// Both sides of the pairs that differ.
-    pub(super) pairs: Vec<[Column; 2]>,
+    pub(super) pairs: Vec<[DiagnosedSignal; 2]>,
     /// Signals of each side without a partner.
-    pub(super) unpaired: [Vec<Column>; 2],
+    pub(super) unpaired: [Vec<DiagnosedSignal>; 2],
     /// For each side and sample, a hash of the values of all pairs.
     pub(super) rows: [Vec<u64>; 2],
 }
@@ -88,8 +88,12 @@ fn empty(plan: &Plan, result: &Comparison, window: usize) -> Collected {
     let differing: Vec<&str> = result.differing().map(|pair| pair.name.as_str()).collect();
     let pairs = plan.matching.pairs.iter().enumerate();
     let pairs = pairs.filter(|(_, pair)| differing.contains(&pair.name.as_str())).take(COLUMNS);
-    let column =
-        |name: &String, pair, width| Column { name: name.clone(), pair, width, values: Vec::new() };
+    let column = |name: &String, pair, width| DiagnosedSignal {
+        name: name.clone(),
+        pair,
+        width,
+        values: Vec::new(),
+    };
     let in_windows = plan.sources.iter().any(|source| source.is_capture());
     Collected {
         window: if in_windows { format!("window {window}: ") } else { String::new() },

@@ -8,7 +8,7 @@ use crate::ila::write::write_cell;
 
 use super::super::plan::Plan;
 use super::super::result::Finding;
-use super::collect::{Collected, Column};
+use super::collect::{Collected, DiagnosedSignal};
 
 /// Finds pairs that would be equal if one column were read in another radix.
 pub(super) fn findings(plan: &Plan, collected: &Collected) -> Vec<Finding> {
@@ -23,13 +23,12 @@ pub(super) fn findings(plan: &Plan, collected: &Collected) -> Vec<Finding> {
             let fits =
                 |&to: &Radix| to != radix && reread(own, radix, to) == Some(other.values.clone());
             let likely = self::radix(plan, 1 - side, other);
-            if let Some(to) = likely.into_iter().chain(Radix::ALL).find(fits) {
+            if let Some(to) = likely.into_iter().chain(Radix::ALL.iter().copied()).find(fits) {
                 let side = ["first", "second"][side];
                 let text = format!(
-                    "{} of the {side} side is the same if it is read as {} and not as {}: wrong radix",
-                    own.name,
-                    to.word(),
-                    radix.word()
+                    "{} of the {side} side is the same if it is read as {to} and not as {radix}: wrong \
+                     radix",
+                    own.name
                 );
                 findings.push(Finding::new("wrong radix", &[&columns[0].name], text));
                 break;
@@ -40,14 +39,14 @@ pub(super) fn findings(plan: &Plan, collected: &Collected) -> Vec<Finding> {
 }
 
 /// Returns the radix that a column states.
-fn radix(plan: &Plan, side: usize, column: &Column) -> Option<Radix> {
+fn radix(plan: &Plan, side: usize, column: &DiagnosedSignal) -> Option<Radix> {
     let part = plan.matching.pairs[column.pair?].sides[side].first()?;
     let id = plan.matching.slots[side].ids[part.signal];
     plan.sources[side].signals.iter().find(|signal| signal.id == id)?.radix
 }
 
 /// Returns the values that the digits of a column have in another radix.
-fn reread(column: &Column, from: Radix, to: Radix) -> Option<Vec<u64>> {
+fn reread(column: &DiagnosedSignal, from: Radix, to: Radix) -> Option<Vec<u64>> {
     let values = column.values.iter().map(|value| {
         let mut cell = Vec::new();
         write_cell(&mut cell, from, &value.view_bits()[..column.width as usize]).ok()?;

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use crate::source::{Name, Source};
 
 use super::super::pair::{MatchedBy, Pair};
+use super::super::parts::ordered;
 use super::matched::{Matching, Unmatched, UnmatchedReason};
 use super::tails::{by_tail, ends};
 
@@ -94,7 +95,7 @@ fn best(
             // Names that are the same are found from the first side.
             for end in ends(&text).skip(side) {
                 for &other in whole[1 - side].get(end).into_iter().flatten() {
-                    let (a, b) = if side == 0 { (own, other) } else { (other, own) };
+                    let [a, b] = ordered(side, own, other);
                     let score = score(&names[0][a], &names[1][b]);
                     best[0][a].take(score, b);
                     best[1][b].take(score, a);
@@ -136,22 +137,13 @@ pub(super) fn by_name(
         let a = &sides[0].signals[k];
         let is_mutual = |&b: &usize| best[1][b].score == found.score;
         let mutual: Vec<usize> = found.found.iter().copied().filter(is_mutual).collect();
-        let mut refuse = |side: usize, signal: usize, reason: UnmatchedReason| {
-            reasons[side].entry(signal).or_insert(reason);
-        };
         let Some(&first) = mutual.first() else { continue };
         let b = &sides[1].signals[first];
-        if let Some(others) = several(sides[1], &mutual) {
-            refuse(0, k, UnmatchedReason::Ambiguous(others));
-            continue;
-        }
-        if let Some(others) = &best[1][first].several {
-            refuse(1, first, UnmatchedReason::Ambiguous(others.clone()));
-            continue;
-        }
-        if a.width != b.width || a.kind != b.kind {
-            refuse(0, k, UnmatchedReason::Width(a.width, b.width));
-            mutual.iter().for_each(|&b_k| refuse(1, b_k, UnmatchedReason::Width(b.width, a.width)));
+        let refused = refused(sides, k, &mutual, &best[1][first]);
+        if !refused.is_empty() {
+            for (side, signal, reason) in refused {
+                reasons[side].entry(signal).or_insert(reason);
+            }
             continue;
         }
         joined[0].insert(a.id);
@@ -178,14 +170,37 @@ pub(super) fn by_name(
         }
     }
     for side in 0..2 {
-        let (source, reasons) = (sides[side], &mut reasons[side]);
-        let left = candidates[side].iter().copied();
-        let left = left.filter(|&k| !joined[side].contains(&source.signals[k].id));
-        matching.unmatched.extend(left.map(|k| {
-            let reason = reasons.remove(&k).unwrap_or(UnmatchedReason::Alone);
-            Unmatched { side, name: source.signals[k].name.text.clone(), signal: k, reason }
-        }));
+        for &k in &candidates[side] {
+            let signal = &sides[side].signals[k];
+            if !joined[side].contains(&signal.id) {
+                let reason = reasons[side].remove(&k).unwrap_or(UnmatchedReason::Alone);
+                let name = signal.name.text.clone();
+                matching.unmatched.push(Unmatched { side, name, signal: k, reason });
+            }
+        }
     }
+}
+
+/// Returns the sides and signals that cannot be matched, with reasons, of a signal of the first side and its mutual
+/// partners, the first of which has the partners `back`.
+fn refused(
+    sides: [&Source; 2],
+    own: usize,
+    mutual: &[usize],
+    back: &Best,
+) -> Vec<(usize, usize, UnmatchedReason)> {
+    let (a, b) = (&sides[0].signals[own], &sides[1].signals[mutual[0]]);
+    if let Some(others) = several(sides[1], mutual) {
+        return vec![(0, own, UnmatchedReason::Ambiguous(others))];
+    }
+    if let Some(others) = &back.several {
+        return vec![(1, mutual[0], UnmatchedReason::Ambiguous(others.clone()))];
+    }
+    if a.width == b.width && a.kind == b.kind {
+        return Vec::new();
+    }
+    let theirs = mutual.iter().map(|&other| (1, other, UnmatchedReason::Width(b.width, a.width)));
+    [(0, own, UnmatchedReason::Width(a.width, b.width))].into_iter().chain(theirs).collect()
 }
 
 /// Returns the names of some signals, if they are not the same signal.

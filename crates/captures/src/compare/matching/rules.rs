@@ -11,7 +11,7 @@ use crate::words::ones;
 use super::super::find;
 use super::super::map::{Rule, SignalMap, parse_mask};
 use super::super::pair::{MatchedBy, Pair};
-use super::super::parts::{Part, Slots};
+use super::super::parts::{Part, Slots, ordered};
 use super::super::show::Show;
 use super::matched::Matching;
 
@@ -38,10 +38,7 @@ pub(super) fn by_rule(
     matching: &mut Matching,
     used: &mut [HashSet<usize>; 2],
 ) -> Result<Pair> {
-    let mut names = [rule.a.as_slice(), rule.b.as_slice()];
-    if matching.swapped {
-        names.swap(0, 1);
-    }
+    let names = ordered(usize::from(matching.swapped), &rule.a, &rule.b);
     let mut parts: [Vec<Part>; 2] = Default::default();
     let mut first = [0, 0];
     for side in 0..2 {

@@ -6,7 +6,7 @@ use crate::source::Source;
 
 use super::super::find;
 use super::super::pair::{MatchedBy, Pair};
-use super::super::parts::Part;
+use super::super::parts::{Part, ordered};
 use super::super::show::Show;
 use super::matched::{Matching, Unmatched, UnmatchedReason};
 
@@ -42,10 +42,7 @@ pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
             return true;
         }
         parts.entry((other, bus)).or_default().push(part);
-        let mut sides = [vec![Part::whole(&mut slots[own], signal)], vec![part]];
-        if own == 1 {
-            sides.swap(0, 1);
-        }
+        let sides = ordered(own, vec![Part::whole(&mut slots[own], signal)], vec![part]);
         let [name, other] = [0, 1].map(|_| left.name.clone());
         let (how, width, show) = (MatchedBy::Suffix, signal.width, Show::of(signal, signal));
         pairs.push(Pair { name, other, how, width, sides, show, ..Pair::default() });

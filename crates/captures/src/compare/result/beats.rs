@@ -1,6 +1,7 @@
 //! Result of a comparison of beats.
 
 use serde::Serialize;
+use strum::Display;
 
 /// Number of differences that are listed individually.
 const LISTED: usize = 64;
@@ -54,8 +55,9 @@ impl Beats {
 }
 
 /// Kind of difference between beats.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum BeatKind {
     /// Only the first side has the word.
     Lost,
@@ -65,18 +67,6 @@ pub enum BeatKind {
     Extra,
     /// The word has another value.
     Changed,
-}
-
-impl BeatKind {
-    /// Returns the name used in outputs.
-    pub const fn word(self) -> &'static str {
-        match self {
-            BeatKind::Lost => "lost",
-            BeatKind::Repeated => "repeated",
-            BeatKind::Extra => "extra",
-            BeatKind::Changed => "changed",
-        }
-    }
 }
 
 /// A difference between beats.

@@ -69,10 +69,8 @@ pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<O
         place.is_none() && (column.text || table.is_none())
     };
     let vcd = columns.iter().zip(&places).any(needs_vcd).then(|| parts.vcd()).flatten();
-    let vcd = vcd.filter(|vcd| {
-        let widths = |columns: &[Column]| columns.iter().map(|c| c.width).collect::<Vec<_>>();
-        widths(&vcd.columns) == widths(&columns)
-    });
+    let width = |column: &Column| column.width;
+    let vcd = vcd.filter(|vcd| vcd.columns.iter().map(width).eq(columns.iter().map(width)));
     let has_dump = dump.is_some();
     let buffer = dump.map(|dump| dump.buffer);
     let mut merge =

@@ -2,7 +2,7 @@
 
 use tofsim::error::Result;
 
-use crate::words::bit;
+use crate::words::{bit, fill};
 
 use super::line::Line;
 use super::opened::{CaptureRow, CaptureRows, Column, LARGEST};
@@ -111,16 +111,11 @@ impl CaptureRows for BufferRows {
         row.clear(&self.columns);
         for (column, &low) in self.columns.iter().zip(&self.places) {
             if row.gap {
-                ones(&mut row.unknown[column.place()], column.bits())
+                fill(&mut row.unknown[column.place()], column.bits())
             } else {
                 buffer.get(low, column.bits(), sample, &mut row.value[column.place()])
             }
         }
         Ok(true)
     }
-}
-
-/// Sets the lowest `width` bits.
-fn ones(words: &mut [u64], width: u32) {
-    words.iter_mut().enumerate().for_each(|(k, word)| *word = crate::words::ones(width, k));
 }

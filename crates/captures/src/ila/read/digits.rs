@@ -1,12 +1,12 @@
 //! Parser of a cell's digits.
 
-use crate::words::{Bits, trim};
+use crate::words::{Bits, fill, trim};
 
 use super::super::capture::Radix;
 
 /// Error in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fault {
+pub(crate) enum DigitFault {
     /// The cell is empty.
     Empty,
     /// A character is not a digit of the radix.
@@ -15,39 +15,34 @@ pub(crate) enum Fault {
     Wide,
 }
 
-impl Fault {
+impl DigitFault {
     /// Formats the error.
     pub(super) fn message(self, radix: Radix, width: u32) -> String {
-        let word = radix.word();
         match self {
-            Fault::Empty => format!("expected {word} digits"),
-            Fault::Digit => format!("expected {word} digits only, unless the radix is wrong"),
-            Fault::Wide if radix == Radix::Signed => {
+            DigitFault::Empty => format!("expected {radix} digits"),
+            DigitFault::Digit => format!("expected {radix} digits only, unless the radix is wrong"),
+            DigitFault::Wide if radix == Radix::Signed => {
                 let top = width - 1;
-                format!("expected a {word} number of {width} bits, from -2^{top} to 2^{top} - 1")
+                format!("expected a {radix} number of {width} bits, from -2^{top} to 2^{top} - 1")
             }
-            Fault::Wide => format!(
-                "expected a {word} number of {width} bits at most, unless the radix is wrong"
+            DigitFault::Wide => format!(
+                "expected a {radix} number of {width} bits at most, unless the radix is wrong"
             ),
         }
     }
 }
 
 /// Parses the cell of a probe.
-pub(crate) fn read(cell: &[u8], radix: Radix, width: u32) -> Result<Bits, Fault> {
+pub(crate) fn read(cell: &[u8], radix: Radix, width: u32) -> Result<Bits, DigitFault> {
     if cell.is_empty() {
-        return Err(Fault::Empty);
+        return Err(DigitFault::Empty);
     }
-    let mut bits = Bits::default();
-    bits.clear(width.div_ceil(64) as usize);
+    let mut bits = Bits::zero(width);
     match radix {
         Radix::Hex => grouped(cell, 4, width, &mut bits)?,
         Radix::Octal => grouped(cell, 3, width, &mut bits)?,
         Radix::Binary => grouped(cell, 1, width, &mut bits)?,
-        Radix::Signed | Radix::Unsigned if is_unknown(cell) => {
-            bits.unknown.fill(u64::MAX);
-            trim(&mut bits.unknown, width);
-        }
+        Radix::Signed | Radix::Unsigned if is_unknown(cell) => fill(&mut bits.unknown, width),
         Radix::Unsigned => decimal(cell, width, &mut bits.value)?,
         Radix::Signed => signed(cell, width, &mut bits.value)?,
     }
@@ -64,10 +59,10 @@ fn is_x(byte: &u8) -> bool {
 }
 
 /// Parses digits of `size` bits each, least significant last.
-fn grouped(cell: &[u8], size: u32, width: u32, bits: &mut Bits) -> Result<(), Fault> {
+fn grouped(cell: &[u8], size: u32, width: u32, bits: &mut Bits) -> Result<(), DigitFault> {
     let digit = |byte: u8| char::from(byte).to_digit(1 << size);
     if !cell.iter().all(|byte| is_x(byte) || digit(*byte).is_some()) {
-        return Err(Fault::Digit);
+        return Err(DigitFault::Digit);
     }
     for (place, &byte) in cell.iter().rev().enumerate() {
         let low = place as u32 * size;
@@ -76,10 +71,10 @@ fn grouped(cell: &[u8], size: u32, width: u32, bits: &mut Bits) -> Result<(), Fa
             Some(digit) => (&mut bits.value, digit),
             // A probe's top digit may have fewer bits than the others; its X stands for those.
             None if room > 0 => (&mut bits.unknown, (1 << room) - 1),
-            None => return Err(Fault::Wide),
+            None => return Err(DigitFault::Wide),
         };
         if ones >> room != 0 {
-            return Err(Fault::Wide);
+            return Err(DigitFault::Wide);
         }
         for bit in (0..room).filter(|bit| ones >> bit & 1 == 1).map(|bit| low + bit) {
             target[bit as usize / 64] |= 1 << (bit % 64);
@@ -88,15 +83,15 @@ fn grouped(cell: &[u8], size: u32, width: u32, bits: &mut Bits) -> Result<(), Fa
     Ok(())
 }
 
-fn signed(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
+fn signed(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), DigitFault> {
     let magnitude = cell.strip_prefix(b"-");
     decimal(magnitude.unwrap_or(cell), width, value)?;
     let sign = 1 << ((width - 1) % 64);
-    let (top, rest) = value.split_last_mut().ok_or(Fault::Wide)?;
+    let (top, rest) = value.split_last_mut().ok_or(DigitFault::Wide)?;
     let least = *top == sign && rest.iter().all(|&word| word == 0);
     if *top & sign != 0 && !(magnitude.is_some() && least) {
         // A single bit is 1 or -1: which of them Vivado writes nobody knows.
-        return if width == 1 { Ok(()) } else { Err(Fault::Wide) };
+        return if width == 1 { Ok(()) } else { Err(DigitFault::Wide) };
     }
     if magnitude.is_some() {
         let mut carry = true;
@@ -108,9 +103,9 @@ fn signed(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
     Ok(())
 }
 
-fn decimal(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
+fn decimal(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), DigitFault> {
     if cell.is_empty() || !cell.iter().all(u8::is_ascii_digit) {
-        return Err(Fault::Digit);
+        return Err(DigitFault::Digit);
     }
     for digit in cell {
         let mut carry = u128::from(digit - b'0');
@@ -119,18 +114,22 @@ fn decimal(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
             (*word, carry) = (product as u64, product >> 64);
         }
         if carry != 0 {
-            return Err(Fault::Wide);
+            return Err(DigitFault::Wide);
         }
     }
     let top = value[value.len() - 1];
-    if !width.is_multiple_of(64) && top >> (width % 64) != 0 { Err(Fault::Wide) } else { Ok(()) }
+    if !width.is_multiple_of(64) && top >> (width % 64) != 0 {
+        Err(DigitFault::Wide)
+    } else {
+        Ok(())
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn value(cell: &str, radix: Radix, width: u32) -> Result<(Vec<u64>, Vec<u64>), Fault> {
+    fn value(cell: &str, radix: Radix, width: u32) -> Result<(Vec<u64>, Vec<u64>), DigitFault> {
         read(cell.as_bytes(), radix, width).map(|bits| (bits.value, bits.unknown))
     }
 
@@ -161,7 +160,7 @@ mod tests {
         assert_eq!(known("-1", Radix::Signed, 130), [u64::MAX, u64::MAX, 3]);
         let above = "340282366920938463463374607431768211456";
         assert_eq!(known(above, Radix::Unsigned, 129), [0, 0, 1]);
-        assert_eq!(value(above, Radix::Unsigned, 128), Err(Fault::Wide));
+        assert_eq!(value(above, Radix::Unsigned, 128), Err(DigitFault::Wide));
     }
 
     #[test]
@@ -177,7 +176,11 @@ mod tests {
             ("-2", Radix::Signed, 1),
             ("XX", Radix::Hex, 4),
         ] {
-            assert_eq!(value(cell, radix, width), Err(Fault::Wide), "{cell} {radix:?} {width}");
+            assert_eq!(
+                value(cell, radix, width),
+                Err(DigitFault::Wide),
+                "{cell} {radix:?} {width}"
+            );
         }
     }
 
@@ -195,9 +198,9 @@ mod tests {
             ("1X", Radix::Unsigned),
             ("zfff", Radix::Hex),
         ] {
-            assert_eq!(value(cell, radix, 8), Err(Fault::Digit), "{cell} {radix:?}");
+            assert_eq!(value(cell, radix, 8), Err(DigitFault::Digit), "{cell} {radix:?}");
         }
-        assert_eq!(value("", Radix::Hex, 8), Err(Fault::Empty));
+        assert_eq!(value("", Radix::Hex, 8), Err(DigitFault::Empty));
     }
 
     #[test]

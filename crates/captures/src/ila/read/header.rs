@@ -64,7 +64,7 @@ impl Header {
             return Err(header.row_fault(text).into());
         }
         let mut columns = Vec::new();
-        let (mut names, mut width, mut word) = (HashSet::new(), 0, 0);
+        let (mut names, mut width) = (HashSet::new(), 0);
         for index in first..header.len() {
             let fault = |text: String| header.fault(index, text);
             let head = header.text(index)?;
@@ -78,17 +78,12 @@ impl Header {
             }
             if radix_row {
                 let index = index - (gap && short) as usize;
-                match radix(&radices.field(index)) {
-                    Some(radix) => column.radix = radix,
-                    None => {
-                        let expected = "expected HEX, SIGNED, UNSIGNED, BINARY, OCTAL or ASCII";
-                        return Err(radices.fault(index, expected).field(column.head()).into());
-                    }
-                }
-                column.text = column.radix.is_none();
+                let Some(radix) = radix(&radices.field(index)) else {
+                    let expected = "expected HEX, SIGNED, UNSIGNED, BINARY, OCTAL or ASCII";
+                    return Err(radices.fault(index, expected).field(column.head()).into());
+                };
+                (column.radix, column.text) = (radix, radix.is_none());
             }
-            column.word = word;
-            word += column.words();
             columns.push(column);
         }
         Ok(Header { columns, radix_row, gap, delimiter, notes })
@@ -124,11 +119,7 @@ fn check_radices(radices: &Row, expected: usize) -> Result<()> {
 
 /// Parses a radix; columns of words have none.
 fn radix(word: &[u8]) -> Option<Option<Radix>> {
-    match Radix::ALL.into_iter().find(|radix| radix.word().as_bytes() == word) {
-        None if word == b"ASCII" => Some(None),
-        None => None,
-        found => Some(found),
-    }
+    if word == b"ASCII" { Some(None) } else { str::from_utf8(word).ok()?.parse().ok().map(Some) }
 }
 
 /// Parses name and range of a column head.

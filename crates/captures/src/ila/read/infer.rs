@@ -54,7 +54,7 @@ impl Guess {
     }
 
     fn names(&self) -> String {
-        let names: Vec<_> = self.left.iter().map(|radix| radix.word()).collect();
+        let names: Vec<_> = self.left.iter().map(Radix::to_string).collect();
         names.join(" or ")
     }
 
@@ -116,7 +116,7 @@ mod tests {
             "none".to_owned()
         } else {
             match guess.decide(None) {
-                Ok(radix) => radix.word().to_owned(),
+                Ok(radix) => radix.to_string(),
                 Err(error) => error.to_string(),
             }
         }

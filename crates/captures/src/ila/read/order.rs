@@ -12,7 +12,7 @@ pub(super) struct Order {
 }
 
 /// Index of the fixed column at fault, and what was expected.
-pub(super) type Fault = (usize, String);
+pub(super) type OrderFault = (usize, String);
 
 impl Order {
     /// Checks the next sample; returns true if a window begins with it.
@@ -21,7 +21,7 @@ impl Order {
         sample: u64,
         in_window: u64,
         trigger: bool,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, OrderFault> {
         let starts = match self.last {
             None => {
                 self.whole = in_window == 0;
@@ -54,7 +54,7 @@ impl Order {
     }
 
     /// Checks the number in the window, which should be `following` unless a window begins; returns true if one does.
-    fn follow(&mut self, following: u64, in_window: u64) -> Result<bool, Fault> {
+    fn follow(&mut self, following: u64, in_window: u64) -> Result<bool, OrderFault> {
         let ends = self.depth == Some(following);
         let goes_on = in_window == following && !ends;
         let begins = in_window == 0 && (ends || self.depth.is_none());
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     /// Checks rows given as number in window and trigger; numbers in the buffer count from 0.
-    fn check(rows: &[(u64, bool)]) -> Result<Vec<bool>, (usize, Fault)> {
+    fn check(rows: &[(u64, bool)]) -> Result<Vec<bool>, (usize, OrderFault)> {
         let mut order = Order::default();
         let row = |(row, &(in_window, trigger)): (usize, &(u64, bool))| {
             order.check(row as u64, in_window, trigger).map_err(|fault| (row, fault))

@@ -7,7 +7,9 @@ use std::collections::HashMap;
 
 use tofsim::error::{Input, Result};
 
+use super::super::capture::Radix;
 use super::buffer::Buffer;
+use super::digits;
 use super::header;
 use super::opened::Column;
 
@@ -129,19 +131,9 @@ impl Vcd {
 }
 
 /// Parses binary digits; leading zeros may be missing.
-fn bits(digits: &str, width: u32) -> Option<Vec<u64>> {
-    if digits.is_empty() || digits.len() > width as usize {
-        return None;
-    }
-    let mut value = vec![0; width.div_ceil(64) as usize];
-    for (k, digit) in digits.bytes().rev().enumerate() {
-        match digit {
-            b'0' => {}
-            b'1' => value[k / 64] |= 1 << (k % 64),
-            _ => return None,
-        }
-    }
-    Some(value)
+fn bits(text: &str, width: u32) -> Option<Vec<u64>> {
+    let bits = digits::read(text.as_bytes(), Radix::Binary, width).ok()?;
+    (bits.is_known() && text.len() <= width as usize).then_some(bits.value)
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ fn head(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<(
     table.write_record(fixed.into_iter().chain(capture.probes.iter().map(|probe| probe.head())))?;
     if radix_row {
         let fixed = ["Radix - UNSIGNED", "UNSIGNED", "UNSIGNED"];
-        let words = capture.probes.iter().map(|probe| shown(probe).word());
+        let words = capture.probes.iter().map(|probe| shown(probe).into());
         table.write_record(fixed.into_iter().chain(words))?;
     }
     table.flush()

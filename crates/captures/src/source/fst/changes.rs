@@ -3,7 +3,7 @@
 use std::io::{Read, Seek, SeekFrom};
 
 use super::super::bytes::Bytes;
-use super::super::span::{Checked, Fault, Span, at_most, word};
+use super::super::span::{Checked, Fault, Span, at_most};
 use super::unpack::most;
 
 /// Size of the fields before the initial values: length, start, end and memory [bytes].
@@ -34,12 +34,13 @@ impl Section {
             return Err(Fault::value("length", self.length, expected));
         }
         let tail = file.range(end - TAIL, TAIL)?;
-        let [size, packed, count] = [0, 8, 16].map(|place| word(&tail[place..]));
+        let mut tail = Span::new(&tail, "times");
+        let (size, packed, count) = (tail.word(8)?, tail.word(8)?, tail.word(8)?);
         at_most("packed times", packed, self.length - least)?;
         at_most("times' size", size, most(packed, true).max(packed))?;
         at_most("number of times", count, size)?;
         let chain_end = end - TAIL - packed - 8;
-        let length = word(&file.range(chain_end, 8)?);
+        let length = Span::new(&file.range(chain_end, 8)?, "places").word(8)?;
         let values = self.values(file, chain_end, signals)?;
         at_most("the length of the places", length, (chain_end - values).saturating_sub(1))?;
         let chain_begin = chain_end - length;

@@ -1,13 +1,13 @@
 //! Check of the names and widths of an FST file's signals.
 
 use super::super::signals::WIDEST;
-use super::super::span::{Checked, Fault, Span, at_most, word};
+use super::super::span::{Checked, Fault, Span, at_most};
 use super::unpack::{gzip, lz4, zlib};
 
 /// Parses the width of each signal's initial value in the geometry block [bytes].
 pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
     let mut span = Span::new(body, "geometry");
-    let (size, count) = (word(span.take(8)?), word(span.take(8)?));
+    let (size, count) = (span.word(8)?, span.word(8)?);
     let bytes = zlib(span.take(span.left())?, size, "geometry's size")?;
     let count = at_most("geometry's signals", count, bytes.len() as u64)?;
     let mut span = Span::new(&bytes, "geometry");
@@ -19,23 +19,16 @@ pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
     (0..count).map(width).collect()
 }
 
-/// Compression of the hierarchy block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Packed {
-    Gzip,
-    Lz4,
-    Lz4Twice,
-}
-
-/// Checks that every name belongs to one of the first `signals` signals.
-pub(super) fn check(body: &[u8], packed: Packed, signals: u64) -> Checked<()> {
+/// Checks that every name in a hierarchy block belongs to one of the first `signals` signals. The block's kind is 4 if it
+/// is compressed by gzip, 6 for LZ4, or 7 for LZ4 twice.
+pub(super) fn check(body: &[u8], kind: u8, signals: u64) -> Checked<()> {
     const SIZE: &str = "names' size";
     let mut span = Span::new(body, "names");
-    let size = word(span.take(8)?);
-    let bytes = match packed {
-        Packed::Gzip => gzip(span.take(span.left())?, size, SIZE)?,
-        Packed::Lz4 => lz4(span.take(span.left())?, size, SIZE)?,
-        Packed::Lz4Twice => {
+    let size = span.word(8)?;
+    let bytes = match kind {
+        4 => gzip(span.take(span.left())?, size, SIZE)?,
+        6 => lz4(span.take(span.left())?, size, SIZE)?,
+        _ => {
             let once = span.number()?;
             lz4(&lz4(span.take(span.left())?, once, SIZE)?, size, SIZE)?
         }

@@ -1,7 +1,6 @@
 //! Types of a GHW file, as far as they determine the number of signals of a name.
 
 use super::super::span::{Checked, Fault, Span, at_most};
-use super::words::count;
 
 /// Largest nesting depth of types.
 const DEEPEST: u32 = 256;
@@ -52,9 +51,9 @@ impl Types {
     }
 
     /// Parses the section of types.
-    pub(super) fn section(&mut self, file: &mut Span, is_big: bool) -> Checked<()> {
+    pub(super) fn section(&mut self, file: &mut Span) -> Checked<()> {
         file.take(4)?;
-        let count = count(file, is_big, "types")?;
+        let count = file.items("types")?;
         self.most = (file.left() + file.place() as u64).saturating_mul(STEPS);
         for number in 1..=count {
             let form = self.form(file).map_err(|fault| fault.within(&format!("type {number}")))?;

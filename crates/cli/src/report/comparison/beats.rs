@@ -37,7 +37,7 @@ pub(super) fn first_line(result: &Comparison, found: &Beats) -> Option<String> {
     let [a, b] = [0, 1].map(|side| place(result, side, first.beats[side]));
     let of = |word: &Option<String>| word.clone().unwrap_or_else(|| "none".to_owned());
     let (expected, got) = (of(&first.expected), of(&first.got));
-    Some(format!("{} word at {a} / {b}: expected {expected}, got {got}", first.kind.word()))
+    Some(format!("{} word at {a} / {b}: expected {expected}, got {got}", first.kind))
 }
 
 /// The words that differ, the first on a line of its own.
@@ -48,7 +48,7 @@ pub(super) fn differing(result: &Comparison) -> String {
         let [a, b] = [0, 1].map(|side| place(result, side, beat.beats[side]));
         let word = |word: &Option<String>| word.clone().unwrap_or_default();
         let (expected, got) = (word(&beat.expected), word(&beat.got));
-        [beat.kind.word().to_owned(), beat.window.to_string(), a, b, expected, got]
+        [beat.kind.to_string(), beat.window.to_string(), a, b, expected, got]
     };
     let header = ["word", "window", "expected at", "got at", "expected", "got"];
     let rows = found.list.iter().take(LISTED).map(row);

@@ -141,7 +141,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         talk.heed(&outcome.notes)?;
         notes.extend(outcome.notes);
     }
-    let formats = if args.format.is_empty() { &CaptureFormat::ALL[..] } else { &args.format };
+    let formats = if args.format.is_empty() { CaptureFormat::ALL } else { &args.format };
     let stage = StagedFolder::new(&args.output)?;
     let files = export(&capture, stage.path(), &set_up.name, formats, !args.legacy_csv)?;
     // The map by which `tofsim compare` lays the capture over a waveform.

@@ -36,7 +36,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if !source.is_capture() {
         let expected = format!(
             "is a waveform ({}), not a logic analyser's capture; `tofsim compare` reads it",
-            source.format.name()
+            source.format
         );
         return Err(Input::new(args.file.display(), expected).into());
     }
@@ -80,7 +80,7 @@ fn as_json(source: &Source, survey: &Survey) -> serde_json::Value {
             "name": signal.name.text,
             "width": width(signal),
             "lsb": signal.lsb,
-            "radix": signal.radix.map(|radix| radix.word()),
+            "radix": signal.radix.map(|radix| radix.to_string()),
             "states": states(signal),
             "text": signal.kind == SignalKind::Text,
         })
@@ -89,7 +89,7 @@ fn as_json(source: &Source, survey: &Survey) -> serde_json::Value {
     json!({
         "schema": "tofsim.ila_info/1",
         "file": source.name,
-        "format": source.format.name(),
+        "format": source.format.to_string(),
         "samples": survey.samples,
         "windows": survey.windows.len(),
         "triggers": triggers.len(),
@@ -133,7 +133,7 @@ fn as_text(source: &Source, survey: &Survey) -> String {
         let radix = match (signal.kind, signal.radix) {
             (SignalKind::Text, _) if signal.words.mixed => "text, numbers",
             (SignalKind::Text, _) => "text",
-            (_, Some(radix)) => radix.word(),
+            (_, Some(radix)) => radix.into(),
             (_, None) => "-",
         };
         [signal.name.text.clone(), width(signal).to_string(), radix.to_owned()]
@@ -144,7 +144,7 @@ fn as_text(source: &Source, survey: &Survey) -> String {
     format!(
         "{}: {}\n\n{}\n\n{}\n\nNot in this file:\n{}{notes}",
         source.name,
-        source.format.name(),
+        source.format,
         facts(rows),
         table(["probe", "width", "radix"], probes, ..0),
         unsaid.collect::<String>()

@@ -129,7 +129,7 @@ impl ReplayFiles {
 
     /// Name of the list that stands beside.
     fn list(&self, kind: ReplayKind) -> String {
-        format!("{}.{}.csv", self.stem, kind.key())
+        format!("{}.{kind}.csv", self.stem)
     }
 }
 
@@ -203,7 +203,7 @@ impl Findings for ReplayFindings<'_> {
 
     fn json(&self) -> Value {
         json!({
-            "kind": self.replay.kind.key(),
+            "kind": self.replay.kind.to_string(),
             "entries": self.replay.entries,
             "shots": self.replay.shots(),
             "shots_per_frame": self.replay.shots_per_frame(),
@@ -223,7 +223,7 @@ impl Findings for ReplayFindings<'_> {
                 "replayed",
                 format!(
                     "{entries} {}",
-                    if *kind == ReplayKind::Histogram { "words" } else { kind.key() }
+                    if *kind == ReplayKind::Histogram { "words" } else { (*kind).into() }
                 ),
             ),
             ("shots", self.replay.shots().to_string()),

@@ -36,31 +36,27 @@ impl Entries {
     /// Opens the archive in a file, with notes.
     pub(super) fn open(source: String, file: File) -> Result<(Self, Vec<String>)> {
         let (mut entries, mut notes) = Entries::of(source, Box::new(file))?;
-        let is_capture = |entries: &Entries| {
-            entries.names.iter().any(|name| last(name).starts_with("waveform."))
-        };
-        if !is_capture(&entries) {
-            let is_inner = |name: &&String| name.to_ascii_lowercase().ends_with(".ila");
-            let inner: Vec<_> = entries.names.iter().filter(is_inner).cloned().collect();
-            match &inner[..] {
-                [] => {}
-                [name] => {
-                    let read = |_: &str, entry: &mut dyn Read| whole("", entry, LARGEST_ENTRY);
-                    let bytes = entries.part(last(name), read).transpose()?.unwrap_or_default();
-                    let source = format!("{}/{name}", entries.source);
-                    let (inside, more) = Entries::of(source, Box::new(Cursor::new(bytes)))?;
-                    notes.push(format!("the capture is {name}, an archive inside this one"));
-                    notes.extend(more);
-                    entries = inside;
-                }
-                several => {
-                    let expected = "expected one archive inside; unpack the one that is meant";
-                    let fault = Input::new(&entries.source, expected);
-                    return Err(fault.value(several.join(", ")).into());
-                }
+        if entries.names.iter().any(|name| last(name).starts_with("waveform.")) {
+            return Ok((entries, notes));
+        }
+        let is_inner = |name: &&String| name.to_ascii_lowercase().ends_with(".ila");
+        let inner: Vec<_> = entries.names.iter().filter(is_inner).cloned().collect();
+        match &inner[..] {
+            [] => Ok((entries, notes)),
+            [name] => {
+                let read = |_: &str, entry: &mut dyn Read| whole("", entry, LARGEST_ENTRY);
+                let bytes = entries.part(last(name), read).transpose()?.unwrap_or_default();
+                let source = format!("{}/{name}", entries.source);
+                let (inside, more) = Entries::of(source, Box::new(Cursor::new(bytes)))?;
+                notes.push(format!("the capture is {name}, an archive inside this one"));
+                notes.extend(more);
+                Ok((inside, notes))
+            }
+            several => {
+                let expected = "expected one archive inside; unpack the one that is meant";
+                Err(Input::new(&entries.source, expected).value(several.join(", ")).into())
             }
         }
-        Ok((entries, notes))
     }
 
     fn of(source: String, mut file: Box<dyn Bytes>) -> Result<(Self, Vec<String>)> {

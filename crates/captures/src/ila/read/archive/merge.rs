@@ -182,7 +182,6 @@ impl<'a> Merge<'a> {
 /// Formats names for a note.
 fn listed(names: &[String]) -> String {
     const LISTED: usize = 8;
-    let more = names.len().saturating_sub(LISTED);
-    let text = names.iter().take(LISTED).cloned().collect::<Vec<_>>().join(", ");
-    if more > 0 { format!("{text} and {more} more") } else { text }
+    let more = format!(" and {} more", names.len().saturating_sub(LISTED));
+    crate::words::listed(names, LISTED, &more)
 }

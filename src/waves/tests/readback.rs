@@ -8,14 +8,14 @@ use wellen::simple::Waveform;
 use crate::firmware::tof_top::Params;
 use crate::hierarchy::{Entry, entries, ram_entries};
 
+use super::super::writer::{WaveFormat, Waves};
 use super::bench::{Bench, SHOTS};
-use super::writer::{WaveFormat, Waves};
 
-pub(super) const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];
+pub const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];
 /// Slightly more than the length of a frame [cycles of clk_sys].
-pub(super) const FRAME: u64 = 256 + 6 * SHOTS as u64 + 16 + 268 + 20;
+pub const FRAME: u64 = 256 + 6 * SHOTS as u64 + 16 + 268 + 20;
 
-pub(super) fn extension(format: WaveFormat) -> &'static str {
+pub fn extension(format: WaveFormat) -> &'static str {
     match format {
         WaveFormat::Vcd => "vcd",
         WaveFormat::Fst => "fst",
@@ -23,13 +23,13 @@ pub(super) fn extension(format: WaveFormat) -> &'static str {
 }
 
 /// Creates a waveform file with some provenance.
-pub(super) fn create(path: &Path, format: WaveFormat, entries: &[Entry], params: &Params) -> Waves {
+pub fn create(path: &Path, format: WaveFormat, entries: &[Entry], params: &Params) -> Waves {
     let provenance = ["scenario kc705".to_owned(), "seed 1".to_owned()];
     Waves::create(path, format, entries, &params.tdc.decoder.encoder, &provenance).unwrap()
 }
 
 /// Records the run that most tests examine, from time 0 on or in two windows.
-pub(super) fn record(directory: &Path, windows: bool, params: Params) -> Vec<PathBuf> {
+pub fn record(directory: &Path, windows: bool, params: Params) -> Vec<PathBuf> {
     let entries = [entries(&params), ram_entries(&Default::default())].concat();
     let paths = FORMATS.map(|format| directory.join("run").with_extension(extension(format)));
     let mut waves: Vec<_> = FORMATS
@@ -55,10 +55,10 @@ pub(super) fn record(directory: &Path, windows: bool, params: Params) -> Vec<Pat
 }
 
 /// Path, width and changes of each signal: time [ps] and digits, where the last entry of a time applies.
-pub(super) type Contents = BTreeMap<String, (u32, Vec<(u64, String)>)>;
+pub type Contents = BTreeMap<String, (u32, Vec<(u64, String)>)>;
 
 /// Reads all signals of a file.
-pub(super) fn contents(wave: &mut Waveform) -> Contents {
+pub fn contents(wave: &mut Waveform) -> Contents {
     let variables: Vec<_> = wave.hierarchy().all_vars().collect();
     let references: Vec<_> = variables.iter().map(|&var| var.deref_in(wave).signal_ref()).collect();
     wave.load_signals(&references);
@@ -80,7 +80,7 @@ pub(super) fn contents(wave: &mut Waveform) -> Contents {
 }
 
 /// Lookup of a variable.
-pub(super) trait DerefIn {
+pub trait DerefIn {
     /// Returns the variable in `wave`.
     fn deref_in(self, wave: &Waveform) -> &wellen::Var;
 }
@@ -92,7 +92,7 @@ impl DerefIn for wellen::VarRef {
 }
 
 /// Asserts that two files are equal, and reports only the first difference.
-pub(super) fn assert_same(one: &Contents, other: &Contents) {
+pub fn assert_same(one: &Contents, other: &Contents) {
     assert!(one.keys().eq(other.keys()));
     for (path, (width, changes)) in one {
         let (other_width, others) = &other[path];
@@ -103,7 +103,7 @@ pub(super) fn assert_same(one: &Contents, other: &Contents) {
 }
 
 /// Returns the value at a time [ps].
-pub(super) fn at(changes: &[(u64, String)], time: u64) -> &str {
+pub fn at(changes: &[(u64, String)], time: u64) -> &str {
     let after = changes.partition_point(|change| change.0 <= time);
     &changes[after - 1].1
 }

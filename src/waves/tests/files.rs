@@ -12,9 +12,9 @@ use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Time;
 
+use super::super::writer::WaveFormat;
 use super::bench::{Bench, params};
 use super::readback::{FORMATS, FRAME, at, contents, create, extension, record};
-use super::writer::WaveFormat;
 
 #[test]
 fn outside_the_windows_everything_is_unknown() {

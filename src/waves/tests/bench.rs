@@ -14,18 +14,18 @@ use crate::firmware::{
 };
 use crate::kernel::{S, Time, U};
 
-use super::writer::Waves;
+use super::super::writer::Waves;
 
 /// Shots per frame.
-pub(super) const SHOTS: u32 = 12;
+pub const SHOTS: u32 = 12;
 
 /// Parameters with a bubble-free chain, small ROMs and short frames.
-pub(super) fn params() -> Params {
+pub fn params() -> Params {
     with_delays(&[11_500; TAPS])
 }
 
 /// Parameters with a chain of the given delays [fs], small ROMs and short frames.
-pub(super) fn with_delays(taps: &[i64]) -> Params {
+pub fn with_delays(taps: &[i64]) -> Params {
     let delays = Delays::new(Time::from_fs(2_230_000), taps).unwrap();
     let weight = |row: usize, neuron: usize| {
         if neuron < NEURONS {
@@ -71,9 +71,9 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
 }
 
 /// Firmware whose SPAD fires a fixed time after each laser pulse.
-pub(super) struct Bench {
+pub struct Bench {
     /// Current state of the firmware.
-    pub(super) top: TofTop,
+    pub top: TofTop,
     params: Params,
     transitions: Transitions,
     cycle: u64,
@@ -83,7 +83,7 @@ pub(super) struct Bench {
 
 impl Bench {
     /// Creates the firmware at power-up, with the PLL locked and the highest laser frequency.
-    pub(super) fn new(params: Params) -> Self {
+    pub fn new(params: Params) -> Self {
         let pins = Pins { laser_freq: U::new(3), laser_en: true, dsp_en: true, ..Pins::default() };
         let mut top = TofTop::new(pins, &params);
         top.pll.locked = true;
@@ -92,12 +92,12 @@ impl Bench {
     }
 
     /// Returns the time of the next cycle's first edge.
-    pub(super) fn now(&self) -> Time {
+    pub fn now(&self) -> Time {
         Time::from_ns(8 * self.cycle)
     }
 
     /// Runs one cycle of `clk_sys`, and calls `see` at every instant at which a signal may have changed.
-    pub(super) fn cycle(&mut self, see: &mut impl FnMut(Time, &TofTop)) {
+    pub fn cycle(&mut self, see: &mut impl FnMut(Time, &TofTop)) {
         let start = self.now();
         for quarter in 0..4 {
             let now = start + Time::from_ns(2 * quarter);
@@ -135,7 +135,7 @@ impl Bench {
     }
 
     /// Runs cycles of `clk_sys`, sampled by each of `waves`.
-    pub(super) fn run(&mut self, cycles: u64, waves: &mut [Waves]) {
+    pub fn run(&mut self, cycles: u64, waves: &mut [Waves]) {
         for _ in 0..cycles {
             self.cycle(&mut |now, top| {
                 for waves in &mut *waves {
