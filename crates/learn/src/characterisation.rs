@@ -11,7 +11,7 @@ pub mod transfer;
 use serde::Serialize;
 
 use tofsim::firmware::tdc;
-use tofsim::firmware::tdc_decoder::{self, Decoder, Encoder};
+use tofsim::firmware::tdc_decoder::{self, Decoder};
 use tofsim::sim::disturbance::Disturbance;
 
 use bubbles::Bubbles;
@@ -65,13 +65,10 @@ impl Characterisation {
         hits: u64,
         seed: u64,
     ) -> Self {
-        let scale = p.decoder.scale;
-        let uncalibrated = tdc_decoder::Params::uniform_calibration(&p.delays, &scale);
+        let uncalibrated = tdc_decoder::Params::uniform_calibration(&p.delays, &p.decoder.scale);
         let raw = p.clone().with_calibration(uncalibrated);
-        let chain = (&p.delays, &p.decoder.encoder);
-        let density = CodeDensity::new(chain, scale.period(), hits, seed);
-        let reached = Encoder::new(Decoder::Ones, &p.delays);
-        let reached = CodeDensity::new((&p.delays, &reached), scale.period(), 0, seed);
+        let density = CodeDensity::new(p, hits, seed);
+        let reached = CodeDensity::new(&p.clone().with_decoder(Decoder::Ones), 0, seed);
         let stop = |t2_ns: u64| {
             let hit = transfer::hit(p, t2_ns * 1_000_000)?;
             let t1_ns = hit.edge_fs as f64 * 1e-6;

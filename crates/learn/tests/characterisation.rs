@@ -131,8 +131,7 @@ fn the_standard_error_of_an_age_is_what_tests_spread_by() {
     let p = params(&["tdc.profile=kintex7"]);
     let roms: Vec<_> = (0..200)
         .map(|seed| {
-            let density =
-                CodeDensity::new((&p.delays, &p.decoder.encoder), Time::from_ns(8), 20_000, seed);
+            let density = CodeDensity::new(&p, 20_000, seed);
             let mut counts = vec![0; p.delays.taps() + 1];
             density.bins.iter().for_each(|bin| counts[bin.n] = bin.count);
             CalibratedRom::new("counts", &counts, &p).unwrap()
@@ -334,12 +333,7 @@ fn the_bins_that_an_estimator_is_told_are_those_of_the_calibration() {
         let offs: Vec<_> = pairs.map(|(known, own)| known - own).collect();
         Spread::of(&offs)
     };
-    let density = CodeDensity::new(
-        (own.known_delays(), &own.params.tdc.decoder.encoder),
-        Time::from_ns(8),
-        HITS,
-        1,
-    );
+    let density = CodeDensity::new(&own.params.tdc, HITS, 1);
     let mut counts = vec![0; own.params.tdc.delays.taps() + 1];
     // As many hits as femtoseconds: the widths themselves.
     density.bins.iter().for_each(|bin| counts[bin.n] = (bin.true_width_ps * 1e3).round() as u64);

@@ -1,6 +1,7 @@
 //! A block of the model beside somebody else's: it takes the edges and the inputs of that one, and its outputs are
 //! compared.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use tofsim::Setup;
@@ -76,7 +77,8 @@ impl Block {
         top::check(&setup)?;
         let sizes = setup.params.sizes();
         let ports = spec.ports(&sizes);
-        let input_layout = Layout::new(ports.iter().filter(|port| !port.output && !is_clock(port)));
+        let input_layout =
+            Layout::new(ports.iter().filter(|port| !port.output && !port.is_clock()));
         let output_layout = Layout::new(ports.iter().filter(|port| port.output));
         let taps = || TapDigits::new(&setup.params.tdc.decoder.encoder);
         let find = |name: &str| input_layout.find(name).map(|place| (place.low, place.width));
@@ -210,7 +212,7 @@ impl Block {
             transitions: &mut self.transitions,
             now,
             edge,
-            inputs: &mut self.inputs,
+            inputs: RefCell::new(&mut self.inputs),
         });
         let Some(id) = self.inputs.strange.take() else { return Ok(()) };
         let port = (self.model.inputs)().swap_remove(id).name;
@@ -235,10 +237,6 @@ fn lacks(setup: &Setup, block: &str) -> Option<&'static str> {
         ("tdc_calibration", _, _, None) => Some("tdc.recalibrate_frames"),
         _ => None,
     }
-}
-
-fn is_clock(port: &Port) -> bool {
-    port.name.starts_with("clk")
 }
 
 #[cfg(test)]

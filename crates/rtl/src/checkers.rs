@@ -10,7 +10,6 @@ use tofsim::error::Result;
 use tofsim::hierarchy;
 
 use crate::block::{Block, Layout};
-use crate::golden::ports::Port;
 use crate::golden::timing;
 use crate::golden::{BLOCKS, Spec};
 
@@ -150,8 +149,8 @@ fn clocks(block: &Block) -> impl Iterator<Item = String> {
         timing::OWN_WITH_RESET => vec!["clk_sys".to_owned(), "clk_laser".to_owned()],
         timing::OWN => Vec::new(),
         _ => {
-            let is_clock = |port: &&Port| !port.output && port.name.starts_with("clk");
-            block.ports().iter().filter(is_clock).map(|port| port.name.clone()).collect()
+            let clocks = block.ports().iter().filter(|port| port.is_clock());
+            clocks.map(|port| port.name.clone()).collect()
         }
     };
     names.into_iter()

@@ -1,5 +1,7 @@
 //! Values with standard errors.
 
+use tofsim_learn::evaluation::spread::mean_and_error;
+
 /// A value with its standard error, if it has one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figure {
@@ -20,14 +22,8 @@ impl Figure {
 
 /// Computes the mean of numbers, with its standard error.
 pub fn mean(numbers: impl Iterator<Item = f64> + Clone) -> Figure {
-    let count = numbers.clone().count() as f64;
-    if count == 0.0 {
-        return Figure::default();
-    }
-    let mean = numbers.clone().sum::<f64>() / count;
-    let squares: f64 = numbers.map(|number| (number - mean) * (number - mean)).sum();
-    let se = (count > 1.0).then(|| (squares / (count - 1.0) / count).sqrt());
-    Figure::new(Some(mean), se)
+    let (mean, se) = mean_and_error(numbers);
+    Figure::new(mean, se)
 }
 
 /// Combines repeats: their mean, with the standard error derived from their scatter; the first one if there is only

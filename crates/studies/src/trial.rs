@@ -90,10 +90,6 @@ impl<'a> Trial<'a> {
             taker.take(frame);
             Ok(())
         };
-        let stepping = match plan.file.fidelity {
-            Fidelity::Shot => Stepping::LeapShots,
-            _ => Stepping::SkipIdle,
-        };
         match plan.file.fidelity {
             Fidelity::Budget => {}
             Fidelity::Histogram => {
@@ -105,7 +101,9 @@ impl<'a> Trial<'a> {
                     take(&histograms.frame(index))?;
                 }
             }
-            Fidelity::Shot | Fidelity::Cycle => {
+            fidelity @ (Fidelity::Shot | Fidelity::Cycle) => {
+                let leaps = fidelity == Fidelity::Shot;
+                let stepping = if leaps { Stepping::LeapShots } else { Stepping::SkipIdle };
                 let frames_to =
                     Observers { frames: Some(&mut take), stop: self.stop, ..Observers::default() };
                 Run::new(setup).stepping(stepping).observe(frames, frames_to)?;

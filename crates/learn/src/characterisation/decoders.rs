@@ -97,21 +97,17 @@ impl Comparison {
         let bin_ps = p.decoder.scale.bin().fs() as f64 * 1e-3;
         let figures = |(decoder, cost): (Decoder, DecoderCost)| {
             let own = p.clone().with_decoder(decoder);
-            let density = density(&own, hits, seed);
+            let density = CodeDensity::new(&own, hits, seed);
             DecoderFigures::new(decoder.name(), &own, density, bin_ps, Some(cost))
         };
         let mut decoders: Vec<_> = Decoder::ALL.into_iter().zip(COSTS).map(figures).collect();
         // A hit that has reached one more tap shows another pattern, so the ones count tells all of them apart.
         let ones = p.clone().with_decoder(Decoder::Ones);
-        let mut states = density(&ones, hits, seed);
+        let mut states = CodeDensity::new(&ones, hits, seed);
         states.bins.retain(|bin| bin.true_width_ps > 0.0);
         decoders.push(DecoderFigures::new("states", &ones, states, bin_ps, None));
         Comparison { decoders, patterns: patterns(p), bin_ps }
     }
-}
-
-fn density(p: &tdc::Params, hits: u64, seed: u64) -> CodeDensity {
-    CodeDensity::new((&p.delays, &p.decoder.encoder), p.decoder.scale.period(), hits, seed)
 }
 
 impl DecoderFigures {
@@ -163,7 +159,7 @@ fn off(error: &TimeError, density: &CodeDensity, most_ps: f64) -> f64 {
 /// Each pattern that hits show, by the phases at which they do.
 fn patterns(p: &tdc::Params) -> Vec<Read> {
     let encoders = Decoder::ALL.map(|decoder| Encoder::new(decoder, &p.delays));
-    let reached = density(&p.clone().with_decoder(Decoder::Ones), 0, 0);
+    let reached = CodeDensity::new(&p.clone().with_decoder(Decoder::Ones), 0, 0);
     let mut found: BTreeMap<(String, [usize; 3]), f64> = BTreeMap::new();
     bubbles::each_phase(&p.delays, &reached, |levels, rank, share| {
         let below = levels.iter().position(|level| !level).unwrap_or(levels.len());

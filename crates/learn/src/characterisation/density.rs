@@ -3,8 +3,7 @@
 use rand::RngExt;
 use serde::Serialize;
 
-use tofsim::firmware::carry_chain::Delays;
-use tofsim::firmware::tdc_decoder::Encoder;
+use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::sensor::streams::{Source, stream};
 
@@ -60,8 +59,9 @@ impl Spread {
 }
 
 impl CodeDensity {
-    /// Of so many hits on a chain that samples with a clock of that period, by a decoder.
-    pub fn new((delays, encoder): (&Delays, &Encoder), period: Time, hits: u64, seed: u64) -> Self {
+    /// Of so many hits on a converter's chain, by its decoder.
+    pub fn new(p: &tdc::Params, hits: u64, seed: u64) -> Self {
+        let (delays, encoder, period) = (&p.delays, &p.decoder.encoder, p.decoder.scale.period());
         let number = |fs: u64| encoder.of_rank(delays.rank(Time::from_fs(fs)));
         // The least age with that number or more.
         let least = |n: usize| delays.boundary(encoder.least_rank(n) - 1).fs();

@@ -36,21 +36,18 @@ impl GridOption {
     /// # Errors
     /// When an axis is none ([`Axis::parse`]), or a name does not stand alone.
     pub fn parse(options: &[String]) -> Result<Self> {
-        match options {
-            [] => return Ok(GridOption::Thesis),
-            [name] => match name.as_str() {
-                "thesis" => return Ok(GridOption::Thesis),
-                "train" => return Ok(GridOption::ThesisOf(GridPurpose::Training)),
-                "test" => return Ok(GridOption::ThesisOf(GridPurpose::Test)),
-                _ => {}
-            },
+        match options.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+            [] | ["thesis"] => return Ok(GridOption::Thesis),
+            ["train"] => return Ok(GridOption::ThesisOf(GridPurpose::Training)),
+            ["test"] => return Ok(GridOption::ThesisOf(GridPurpose::Test)),
             _ => {}
         }
         let mut axes = Vec::new();
         for option in options {
-            match option.contains('=') {
-                true => axes.push(Axis::parse(OPTION, option)?),
-                false => axes.extend(file(option)?),
+            if option.contains('=') {
+                axes.push(Axis::parse(OPTION, option)?);
+            } else {
+                axes.extend(file(option)?);
             }
         }
         if axes.iter().any(|axis| axis.key == ILLUMINANCE) {
@@ -125,9 +122,10 @@ fn file(path: &str) -> Result<Vec<Axis>> {
     let checked = Checked::syntax(path, &read_text(Path::new(path))?)?;
     let mut axes = Vec::new();
     collect(path, "", checked.table().iter(), &mut axes)?;
-    match axes.is_empty() {
-        true => Err(Input::new(path, "expected keys of the scenario with their values").into()),
-        false => Ok(axes),
+    if axes.is_empty() {
+        Err(Input::new(path, "expected keys of the scenario with their values").into())
+    } else {
+        Ok(axes)
     }
 }
 

@@ -70,9 +70,10 @@ impl Labelled {
                 }
             };
             let description = path.join(DESCRIPTION);
-            return match description.exists() {
-                true => Ok(labelled.described(&read_text(&description)?)),
-                false => Ok(labelled),
+            return if description.exists() {
+                Ok(labelled.described(&read_text(&description)?))
+            } else {
+                Ok(labelled)
             };
         }
         match (is_parquet(path)?, truth) {
@@ -149,24 +150,18 @@ fn counts(path: &Path, columns: &ParquetColumns, size: &Params) -> Result<Vec<Hi
     let mut histograms: Vec<Histogram> = Vec::new();
     for bin in 0..size.bins {
         let name = format!("b{bin}");
-        let rows = columns.each(&name, |row, value| {
+        let values = columns.numbers(&name)?;
+        if bin == 0 {
+            histograms = vec![vec![0; size.bins]; values.len()];
+        }
+        for (row, (histogram, value)) in paired(path, &mut histograms, values)?.enumerate() {
             let count = value as u32;
             if f64::from(count) != value || u64::from(count) > size.most_hits() {
                 let field = format!("row {row}, column {name}");
                 let expected = histogram_file::count_range(size);
                 return Err(Input::new(path.display(), expected).field(field).value(value).into());
             }
-            if bin == 0 {
-                histograms.push(vec![0; size.bins]);
-            }
-            match histograms.get_mut(row) {
-                Some(histogram) => histogram[bin] = count,
-                None => return Err(lengths(path)),
-            }
-            Ok(())
-        })?;
-        if rows != histograms.len() {
-            return Err(lengths(path));
+            histogram[bin] = count;
         }
     }
     for (row, histogram) in histograms.iter().enumerate() {
@@ -189,15 +184,8 @@ fn parquet(path: &Path, size: &Params) -> Result<Labelled> {
         let knows_light = TRUTH[1..].iter().all(|name| names.iter().any(|known| known == name));
         let mut truth = vec![[0.0; 3]; histograms.len()];
         for (place, name) in TRUTH.iter().enumerate().take(if knows_light { 3 } else { 1 }) {
-            let rows = columns.each(name, |row, value| match truth.get_mut(row) {
-                Some(numbers) => {
-                    numbers[place] = value;
-                    Ok(())
-                }
-                None => Err(lengths(path)),
-            })?;
-            if rows != truth.len() {
-                return Err(lengths(path));
+            for (numbers, value) in paired(path, &mut truth, columns.numbers(name)?)? {
+                numbers[place] = value;
             }
         }
         let labelled = labelled(path, histograms, &truth, knows_light)?;
@@ -252,6 +240,15 @@ fn labelled(
     Ok(Labelled { histograms, scenes, knows_light, ..Labelled::default() })
 }
 
-fn lengths(path: &Path) -> Error {
-    Input::new(path.display(), "unreadable Parquet: columns of different lengths").into()
+/// Each row with its number of a column.
+fn paired<'a, R>(
+    path: &Path,
+    rows: &'a mut [R],
+    column: Vec<f64>,
+) -> Result<impl Iterator<Item = (&'a mut R, f64)> + use<'a, R>> {
+    if rows.len() != column.len() {
+        let expected = "unreadable Parquet: columns of different lengths";
+        return Err(Input::new(path.display(), expected).into());
+    }
+    Ok(rows.iter_mut().zip(column))
 }

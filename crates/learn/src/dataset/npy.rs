@@ -4,10 +4,10 @@
 //! the grid) and `rows.npy` (n x 2 `u64`: row number and seed).
 
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
 
-use npyz::{DType, NpyFile, Order, TypeChar, WriteOptions, WriterBuilder};
+use npyz::{DType, Deserialize, NpyFile, Order, TypeChar, WriteOptions, WriterBuilder};
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::npy;
@@ -96,21 +96,16 @@ pub(super) fn numbers(path: &Path) -> Result<(usize, Vec<f64>)> {
         _ => 0,
     };
     let file = NpyFile::with_header(header, file);
-    // One by one: a header may promise more than there is.
-    let unreadable = |error: String| fault(format!("unreadable .npy: {error}"));
-    let mut all = Vec::new();
-    match size {
-        8 => {
-            for value in file.data::<f64>().map_err(|error| unreadable(error.to_string()))? {
-                all.push(value.map_err(|error| unreadable(error.to_string()))?);
-            }
-        }
-        4 => {
-            for value in file.data::<f32>().map_err(|error| unreadable(error.to_string()))? {
-                all.push(value.map_err(|error| unreadable(error.to_string()))?.into());
-            }
-        }
+    let all = match size {
+        8 => floats::<f64>(file),
+        4 => floats::<f32>(file),
         _ => return Err(fault("expected floats of 4 or 8 bytes".to_owned())),
-    }
-    Ok((width, all))
+    };
+    Ok((width, all.map_err(|error| fault(format!("unreadable .npy: {error}")))?))
+}
+
+/// The floats after a header, one by one: it may promise more than there is.
+fn floats<T: Deserialize + Into<f64>>(file: NpyFile<impl Read>) -> io::Result<Vec<f64>> {
+    let values = file.data::<T>().map_err(io::Error::other)?;
+    values.map(|value| Ok(value?.into())).collect()
 }

@@ -48,16 +48,11 @@ impl<'a> ParquetColumns<'a> {
         values.iter().find(|value| value.key == key)?.value.as_deref()
     }
 
-    /// Shows `take` the row and the value of every number in a column, in order; returns how many there
-    /// are.
+    /// The numbers of a column, row by row.
     ///
     /// # Errors
-    /// When there is no such column, it is none of numbers, one is missing, or `take` fails.
-    pub fn each(
-        &self,
-        name: &str,
-        mut take: impl FnMut(usize, f64) -> Result<()>,
-    ) -> Result<usize> {
+    /// When there is no such column, it is none of numbers, or one is missing.
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>> {
         let Some(place) = self.names().iter().position(|known| known == name) else {
             let missing = Input::new(self.path.display(), "missing, expected numbers");
             return Err(missing.field(format!("column {name}")).into());
@@ -66,16 +61,13 @@ impl<'a> ParquetColumns<'a> {
         if column.max_rep_level() > 0 || column.max_def_level() > 1 {
             return Err(self.no_numbers(name));
         }
-        let mut rows = 0;
+        let mut numbers = Vec::new();
         for group in 0..self.file.num_row_groups() {
             let reader =
                 self.file.get_row_group(group).map_err(|error| damaged(self.path, error))?;
-            for value in self.values(&*reader, place, name, rows)? {
-                take(rows, value)?;
-                rows += 1;
-            }
+            numbers.extend(self.values(&*reader, place, name, numbers.len())?);
         }
-        Ok(rows)
+        Ok(numbers)
     }
 
     /// The numbers of a column in a group of rows.
@@ -93,16 +85,11 @@ impl<'a> ParquetColumns<'a> {
             return Err(damaged(self.path, "a column with a negative place or size"));
         }
         let column = group.get_column_reader(place);
-        let whole = |values: Vec<i64>| values.into_iter().map(|value| value as f64).collect();
         match column.map_err(|error| damaged(self.path, error))? {
-            ColumnReader::Int32ColumnReader(reader) => {
-                Ok(self.all(reader, name, first)?.into_iter().map(f64::from).collect())
-            }
-            ColumnReader::Int64ColumnReader(reader) => Ok(whole(self.all(reader, name, first)?)),
-            ColumnReader::FloatColumnReader(reader) => {
-                Ok(self.all(reader, name, first)?.into_iter().map(f64::from).collect())
-            }
-            ColumnReader::DoubleColumnReader(reader) => self.all(reader, name, first),
+            ColumnReader::Int32ColumnReader(reader) => self.all(reader, f64::from, name, first),
+            ColumnReader::Int64ColumnReader(reader) => self.all(reader, |n| n as f64, name, first),
+            ColumnReader::FloatColumnReader(reader) => self.all(reader, f64::from, name, first),
+            ColumnReader::DoubleColumnReader(reader) => self.all(reader, f64::from, name, first),
             _ => Err(self.no_numbers(name)),
         }
     }
@@ -110,9 +97,10 @@ impl<'a> ParquetColumns<'a> {
     fn all<T: DataType>(
         &self,
         mut reader: ColumnReaderImpl<T>,
+        number: impl Fn(T::T) -> f64,
         name: &str,
         first: usize,
-    ) -> Result<Vec<T::T>> {
+    ) -> Result<Vec<f64>> {
         let (mut values, mut defined) = (Vec::new(), Vec::new());
         loop {
             let read = reader.read_records(CHUNK, Some(&mut defined), None, &mut values);
@@ -122,7 +110,7 @@ impl<'a> ParquetColumns<'a> {
             }
         }
         match defined.iter().position(|&level| level == 0) {
-            None => Ok(values),
+            None => Ok(values.into_iter().map(number).collect()),
             Some(row) => {
                 let field = format!("row {}, column {name}", first + row);
                 let missing = Input::new(self.path.display(), "expected a number");

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::evaluation::Spread;
+use crate::evaluation::spread::{Spread, mean_and_error};
 
 /// The errors of a variant.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,9 +48,10 @@ impl Errors {
     /// Bias and spread; without shot noise there is no spread.
     pub fn figures(&self) -> ErrorFigures {
         let spread = Spread::of(self.of.iter().map(|error| error.map(|mm| 1e-3 * mm)));
-        let (two_sd_mm, two_sd_se_mm) = match self.is_drawn {
-            true => (spread.two_sd_mm, spread.two_sd_se_mm),
-            false => (spread.mean_mm.map(|_| 0.0), spread.mean_mm.map(|_| 0.0)),
+        let (two_sd_mm, two_sd_se_mm) = if self.is_drawn {
+            (spread.two_sd_mm, spread.two_sd_se_mm)
+        } else {
+            (spread.mean_mm.map(|_| 0.0), spread.mean_mm.map(|_| 0.0))
         };
         ErrorFigures {
             mean_mm: spread.mean_mm,
@@ -69,7 +70,8 @@ impl Errors {
         }
         let pairs = self.of.iter().zip(&others.of);
         let pairs: Vec<(f64, f64)> = pairs.filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
-        let means = [mean(pairs.iter().map(|pair| pair.0)), mean(pairs.iter().map(|pair| pair.1))];
+        let mean = |side: fn(&(f64, f64)) -> f64| mean_and_error(pairs.iter().map(side)).0;
+        let means = [mean(|pair| pair.0), mean(|pair| pair.1)];
         let [Some(own), Some(other)] = means else { return ErrorChange::default() };
         let (mean_mm, mean_se_mm) = mean_and_error(pairs.iter().map(|(a, b)| a - b));
         if !self.is_drawn {
@@ -115,21 +117,6 @@ impl ErrorFigures {
     pub fn variance_mm2(&self) -> Option<f64> {
         self.two_sd_mm.map(|mm| mm * mm / 4.0)
     }
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let values: Vec<_> = values.collect();
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-}
-
-/// Mean and its standard error, which takes two values at least.
-fn mean_and_error(values: impl Iterator<Item = f64>) -> (Option<f64>, Option<f64>) {
-    let values: Vec<_> = values.collect();
-    let Some(middle) = mean(values.iter().copied()) else { return (None, None) };
-    let count = values.len() as f64;
-    let squares: f64 = values.iter().map(|value| (value - middle).powi(2)).sum();
-    let error = (count > 1.0).then(|| (squares / (count - 1.0) / count).sqrt());
-    (Some(middle), error)
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@ use rand_chacha::rand_core::Rng;
 use tofsim::network::Histogram;
 use tofsim::sensor::streams::{Source, stream, uniform};
 
+use crate::estimation::acquisition::whole_hits;
+
 use super::quantile::binomial;
 
 /// Ways in which the expected counts are rounded to whole ones.
@@ -37,14 +39,8 @@ impl Histograms {
     /// The expected histogram to whole hits: what a bin loses by rounding the next one gets. `rounding` says which
     /// part of a hit the first bin begins with, so that all [`ROUNDINGS`] of them show what rounding does.
     pub fn expected(&self, rounding: u64) -> Histogram {
-        let mut owed = (rounding as f64 + 0.5) / ROUNDINGS as f64 - 0.5;
-        let count = |&mean: &f64| {
-            owed += mean * self.shots as f64;
-            let count = owed.round().max(0.0);
-            owed -= count;
-            count as u32
-        };
-        self.per_shot.iter().map(count).collect()
+        let owed = (rounding as f64 + 0.5) / ROUNDINGS as f64 - 0.5;
+        whole_hits(&self.per_shot, self.shots, owed)
     }
 }
 

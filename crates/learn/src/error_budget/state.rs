@@ -101,9 +101,10 @@ fn unfit(kind: EstimatorKind, variant: &Variant, known: &[String]) -> Result<Opt
 
 /// Returns notes on a scenario outside the network's training domain; none for other estimators.
 pub fn domain_notes(kind: EstimatorKind, setup: &Setup) -> Result<Vec<Note>> {
-    match kind.is_network() {
-        true => domain::notes(&setup.network, &setup.scenario, &[]),
-        false => Ok(Vec::new()),
+    if kind.is_network() {
+        domain::notes(&setup.network, &setup.scenario, &[])
+    } else {
+        Ok(Vec::new())
     }
 }
 

@@ -8,9 +8,9 @@ use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::network::float::Float;
 use tofsim::sim::estimates::centroid::locate;
 
-use crate::estimation::estimator::Failure;
+use crate::estimation::estimator::{Failure, FromFn};
 use crate::estimation::in_firmware::likelihood_estimator;
-use crate::estimation::network::NetworkEstimator;
+use crate::estimation::network::of_pass;
 use crate::estimation::{Acquisition, Estimator, EstimatorInputs, EstimatorKind};
 use crate::quantize::likelihood::LikelihoodExplainer;
 
@@ -34,38 +34,44 @@ pub fn estimator(kind: EstimatorKind, variant: &Variant) -> Result<Box<dyn Estim
             Box::new(likelihood_estimator(params))
         }
         EstimatorKind::LikelihoodEstimator => {
-            Box::new(LikelihoodTwin(LikelihoodExplainer::of_bins(setup, *told_shots, bins)?))
+            let explainer = LikelihoodExplainer::of_bins(setup, *told_shots, bins)?;
+            let estimate = move |histogram: &[u32]| match explainer.float(histogram) {
+                (depth_m, status) if status.is_empty() => Ok(depth_m),
+                (_, status) => Err(Failure::Rejected(status)),
+            };
+            Box::new(FromFn { name: kind.name(), estimate })
         }
         EstimatorKind::Centroid if !is_fixed => {
-            Box::new(CentroidTwin(setup.params.centroid_estimator))
+            let params = setup.params.centroid_estimator;
+            let estimate = move |histogram: &[u32]| centroid_m(&params, histogram);
+            Box::new(FromFn { name: kind.name(), estimate })
         }
-        EstimatorKind::Peak => kind.estimator(&EstimatorInputs {
-            // Its threshold is a part of the shots that there are.
-            acquisition: Acquisition { shots: setup.shots(1), ..variant.acquisition() },
-            network: &setup.network,
-            setup,
-        })?,
-        kind => kind.estimator(&EstimatorInputs {
-            acquisition: variant.acquisition(),
-            network: &setup.network,
-            setup,
-        })?,
+        kind => {
+            // The threshold of peak detection is a part of the shots that there are.
+            let shots = if kind == EstimatorKind::Peak { setup.shots(1) } else { *told_shots };
+            let acquisition = Acquisition { shots, ..variant.acquisition() };
+            kind.estimator(&EstimatorInputs { acquisition, network: &setup.network, setup })?
+        }
     })
 }
 
 /// The network with its weights rounded or not, and with its table or the exact hyperbolic tangent.
 fn network(variant: &Variant, is_rounded: bool, has_table: bool) -> Box<dyn Estimator> {
     let (network, size) = (&variant.setup.network, &variant.setup.params.histogram);
-    let weights = match is_rounded {
-        true => Float::from_fixed(&network.fixed, &network.datapath),
-        false => network.twin(),
+    let weights = if is_rounded {
+        Float::from_fixed(&network.fixed, &network.datapath)
+    } else {
+        network.twin()
     };
     let params = network.params(size);
-    let depth_m = move |histogram: &[u32]| match has_table {
-        true => weights.pass(histogram, |sum| looked_up(&params, sum), |_| ()),
-        false => weights.forward(histogram),
+    let depth_m = move |histogram: &[u32]| {
+        if has_table {
+            weights.pass(histogram, |sum| looked_up(&params, sum), |_| ())
+        } else {
+            weights.forward(histogram)
+        }
     };
-    Box::new(NetworkEstimator::new("network", size, depth_m))
+    Box::new(of_pass("network", size, depth_m))
 }
 
 /// Looks up a sum in the activation table [1].
@@ -76,43 +82,18 @@ fn looked_up(params: &NetworkParams, sum: f64) -> f64 {
     params.tansig.activation(L1In::new(word)).get() as f64 * datapath.l1_out.lsb()
 }
 
-/// `likelihood_estimator` in double precision.
-struct LikelihoodTwin(LikelihoodExplainer);
-
-impl Estimator for LikelihoodTwin {
-    fn name(&self) -> &'static str {
-        EstimatorKind::LikelihoodEstimator.name()
+/// Distance by the centroid in double precision [m].
+fn centroid_m(p: &CentroidParams, histogram: &[u32]) -> std::result::Result<f64, Failure> {
+    let found = locate(p, histogram);
+    if found.best == 0 {
+        return Err(Failure::NoPeak);
     }
-
-    fn estimate(&self, histogram: &[u32]) -> std::result::Result<f64, Failure> {
-        match self.0.float(histogram) {
-            (depth_m, status) if status.is_empty() => Ok(depth_m),
-            (_, status) => Err(Failure::Rejected(status)),
-        }
-    }
-}
-
-/// The centroid in double precision.
-struct CentroidTwin(CentroidParams);
-
-impl Estimator for CentroidTwin {
-    fn name(&self) -> &'static str {
-        EstimatorKind::Centroid.name()
-    }
-
-    fn estimate(&self, histogram: &[u32]) -> std::result::Result<f64, Failure> {
-        let p = &self.0;
-        let found = locate(p, histogram);
-        if found.best == 0 {
-            return Err(Failure::NoPeak);
-        }
-        let half_width = p.half_width as usize;
-        let window = histogram.iter().enumerate().take(found.peak + half_width + 1);
-        let window = window.skip(found.peak.saturating_sub(half_width));
-        let sum: f64 = window.map(|(bin, &count)| f64::from(count) * (bin as f64 + 0.5)).sum();
-        let (bin_m, offset_m): (f64, f64) = (p.slope_m().to_num(), p.offset_m().to_num());
-        Ok(sum / found.best_sum as f64 * bin_m + offset_m)
-    }
+    let half_width = p.half_width as usize;
+    let window = histogram.iter().enumerate().take(found.peak + half_width + 1);
+    let window = window.skip(found.peak.saturating_sub(half_width));
+    let sum: f64 = window.map(|(bin, &count)| f64::from(count) * (bin as f64 + 0.5)).sum();
+    let (bin_m, offset_m): (f64, f64) = (p.slope_m().to_num(), p.offset_m().to_num());
+    Ok(sum / found.best_sum as f64 * bin_m + offset_m)
 }
 
 #[cfg(test)]

@@ -142,17 +142,21 @@ pub fn spans_ps(bins: &Bins) -> impl Iterator<Item = (u16, f64, f64)> {
     bins.spans().iter().map(|span| (span.code, ps(span.from), ps(span.until)))
 }
 
-/// The histogram that codes of those probabilities make on average, to whole hits: what one bin loses
-/// by rounding the next one gets.
+/// The histogram that codes of those probabilities make on average, to whole hits ([`whole_hits`]).
 pub fn most_probable(probabilities: &[f64], shots: u64) -> Histogram {
-    let mut owed = 0.0;
-    let count = |&p: &f64| {
-        owed += shots as f64 * p;
-        let count = f64::round(owed);
+    whole_hits(probabilities, shots, 0.0)
+}
+
+/// The expected histogram of so many shots to whole hits: what a bin loses by rounding the next one gets, and the
+/// first one gets the part of a hit that is `owed`.
+pub fn whole_hits(per_shot: &[f64], shots: u64, mut owed: f64) -> Histogram {
+    let count = |&mean: &f64| {
+        owed += shots as f64 * mean;
+        let count = owed.round().max(0.0);
         owed -= count;
         count as u32
     };
-    probabilities.iter().map(count).collect()
+    per_shot.iter().map(count).collect()
 }
 
 fn ps(time: Time) -> f64 {

@@ -55,6 +55,24 @@ pub trait Estimator: Send + Sync {
     }
 }
 
+/// An estimator that is a function of the histogram, under a name of the command line.
+pub struct FromFn<F> {
+    /// Its name.
+    pub name: &'static str,
+    /// The function, which gives metres.
+    pub estimate: F,
+}
+
+impl<F: Fn(&[u32]) -> Result<f64, Failure> + Send + Sync> Estimator for FromFn<F> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
+        (self.estimate)(histogram)
+    }
+}
+
 /// Result of an estimator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {

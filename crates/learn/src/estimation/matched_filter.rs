@@ -87,10 +87,7 @@ struct Pulse {
 impl Pulse {
     fn new(bins: &[Pieces], arrival_ps: f64, shape: &pulse::Pulse) -> Self {
         // What would come before the laser edge comes with it.
-        let before = |t_ps: f64| match t_ps > 0.0 {
-            true => shape.part(t_ps - arrival_ps),
-            false => 0.0,
-        };
+        let before = |t_ps: f64| if t_ps > 0.0 { shape.part(t_ps - arrival_ps) } else { 0.0 };
         let [from_ps, until_ps] = reach_ps(shape).map(|ps| arrival_ps + ps);
         let sees = |bin: &Pieces| bin.spans.iter().any(|[a, b]| *b > from_ps && *a < until_ps);
         let part = |bin: &Pieces| bin.spans.iter().map(|[a, b]| before(*b) - before(*a)).sum();
@@ -263,10 +260,8 @@ impl Fit {
         let alone = product - flat_part * flat_product;
         let tried = weight > FAINTEST * filter.shots as f64;
         let signal = if tried { alone / weight } else { 0.0 };
-        let background = match flat_squares > 0.0 {
-            true => flat_product / flat_squares - signal * flat_part,
-            false => 0.0,
-        };
+        let background =
+            if flat_squares > 0.0 { flat_product / flat_squares - signal * flat_part } else { 0.0 };
         Fit { weight, flat_part, score: signal * weight.max(0.0).sqrt(), signal, background }
     }
 }

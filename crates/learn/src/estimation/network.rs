@@ -3,50 +3,32 @@
 use tofsim::firmware::histogram_builder::Params;
 use tofsim::network::{Network, estimate};
 
-use super::estimator::{Estimator, Failure, hits};
+use super::estimator::{Estimator, Failure, FromFn, hits};
 
-/// A network's pass as an estimator; it answers to an empty histogram too.
-pub struct NetworkEstimator<P> {
+/// A network's pass, which gives metres, as an estimator for such histograms; it answers to an empty one too.
+pub fn of_pass<P: Fn(&[u32]) -> f64 + Send + Sync>(
     name: &'static str,
-    /// Most hits that its words bear [hits].
-    most: u32,
+    size: &Params,
     depth_m: P,
-}
-
-impl<P: Fn(&[u32]) -> f64 + Send + Sync> NetworkEstimator<P> {
-    /// By the pass, which gives metres, for such histograms.
-    pub fn new(name: &'static str, size: &Params, depth_m: P) -> Self {
-        NetworkEstimator { name, most: size.most_hits() as u32, depth_m }
-    }
-}
-
-impl<P: Fn(&[u32]) -> f64 + Send + Sync> Estimator for NetworkEstimator<P> {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
-        match hits(histogram, self.most) {
-            Err(failure @ Failure::TooManyHits { .. }) => Err(failure),
-            _ => Ok((self.depth_m)(histogram)),
-        }
-    }
+) -> impl Estimator + use<P> {
+    let most = size.most_hits() as u32;
+    let estimate = move |histogram: &[u32]| match hits(histogram, most) {
+        Err(failure @ Failure::TooManyHits { .. }) => Err(failure),
+        _ => Ok(depth_m(histogram)),
+    };
+    FromFn { name, estimate }
 }
 
 /// The network in fixed point, bit for bit as the firmware.
 pub fn fixed(network: &Network, size: &Params) -> impl Estimator + use<> {
     let params = network.params(size);
-    NetworkEstimator::new("network", size, move |histogram: &[u32]| {
-        estimate(&params, histogram).depth.to_f64()
-    })
+    of_pass("network", size, move |histogram| estimate(&params, histogram).depth.to_f64())
 }
 
 /// The network in double precision: its weights before rounding, or else the values of its integers.
 pub fn float(network: &Network, size: &Params) -> impl Estimator + use<> {
     let weights = network.twin();
-    NetworkEstimator::new("network-float", size, move |histogram: &[u32]| {
-        weights.forward(histogram)
-    })
+    of_pass("network-float", size, move |histogram| weights.forward(histogram))
 }
 
 #[cfg(test)]

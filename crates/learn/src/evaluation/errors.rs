@@ -77,9 +77,10 @@ impl Evaluation {
             for (place, column) in columns.iter_mut().enumerate() {
                 let errors = block.par_iter().enumerate().map(|(k, sample)| {
                     let estimator = &estimators(&sample.scene)[place];
-                    let found = match estimator.needs_dark() {
-                        true => estimator.estimate_pair(&drawn[k]),
-                        false => estimator.estimate(&sample.histogram),
+                    let found = if estimator.needs_dark() {
+                        estimator.estimate_pair(&drawn[k])
+                    } else {
+                        estimator.estimate(&sample.histogram)
                     };
                     Some(found.ok()? - sample.scene.distance_m)
                 });

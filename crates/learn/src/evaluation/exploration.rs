@@ -12,7 +12,7 @@ use tofsim::network::Network;
 
 use crate::dataset::{HistogramSource, Rows};
 use crate::estimation::Estimator;
-use crate::estimation::network::{self, NetworkEstimator};
+use crate::estimation::network::{self, of_pass};
 use crate::quantize::circuit::Circuit;
 use crate::quantize::cost::Cost;
 
@@ -90,8 +90,7 @@ pub fn explore(
     let mut estimators: Vec<Box<dyn Estimator + '_>> =
         vec![Box::new(network::float(network, &size))];
     estimators.extend(circuits.iter().map(|circuit| {
-        let depth_m = |histogram: &[u32]| circuit.depth_m(histogram);
-        Box::new(NetworkEstimator::new("variant", &size, depth_m)) as _
+        Box::new(of_pass("variant", &size, |histogram| circuit.depth_m(histogram))) as _
     }));
     let evaluation = Evaluation::new(source, rows, seed, &estimators, stop, done)?;
     let exact = &evaluation.columns[0];

@@ -88,6 +88,17 @@ impl Spread {
     }
 }
 
+/// Mean of numbers and its standard error, which takes two of them at least.
+pub fn mean_and_error(numbers: impl Iterator<Item = f64> + Clone) -> (Option<f64>, Option<f64>) {
+    let count = numbers.clone().count() as f64;
+    if count == 0.0 {
+        return (None, None);
+    }
+    let mean = numbers.clone().sum::<f64>() / count;
+    let squares: f64 = numbers.map(|number| (number - mean) * (number - mean)).sum();
+    (Some(mean), (count > 1.0).then(|| (squares / (count - 1.0) / count).sqrt()))
+}
+
 /// A quantile of sorted values, linear between them.
 fn quantile(sorted: &[f64], part: f64) -> f64 {
     let place = part * (sorted.len() - 1) as f64;

@@ -95,9 +95,10 @@ impl Stretch {
         let from = (first - (thesis.places[0] - begin) * scale).round();
         let from = from.min(end - LEAST_TAIL).max(LEAST_HEAD);
         let until = last + (until - thesis.places[1]) * scale;
-        match until <= end - LEAST_TAIL {
-            true => Stretch { from, until: until.max(from), end, scale, tail: TAIL },
-            false => Stretch { from, until: end, end, scale, tail: 1 },
+        if until <= end - LEAST_TAIL {
+            Stretch { from, until: until.max(from), end, scale, tail: TAIL }
+        } else {
+            Stretch { from, until: end, end, scale, tail: 1 }
         }
     }
 

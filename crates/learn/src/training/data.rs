@@ -174,12 +174,10 @@ impl TrainingMaterial for TrainingScenes<'_> {
         };
         let seed = derived(seed, place);
         let rows = Rows::Subset(Subset::new(grid.clone(), len, seed));
-        let mut samples = Samples::default();
-        for sample in source.blocks(&rows, seed).flatten() {
-            samples.counts.push(sample.histogram);
-            samples.distances_m.push(sample.scene.distance_m);
-        }
-        samples
+        let drawn = source.blocks(&rows, seed).flatten();
+        let (counts, distances_m) =
+            drawn.map(|sample| (sample.histogram, sample.scene.distance_m)).unzip();
+        Samples { counts, distances_m }
     }
 }
 

@@ -111,14 +111,11 @@ impl TrainingMaterial for MeasuredParts {
         let wanted = usize::try_from(recipe.stage(stage).samples).unwrap_or(all).clamp(1, all);
         // Every stage begins at another one.
         let first = (stage * 7919) % all;
-        let places = (0..wanted)
-            .map(|k| ((k as u128 * all as u128 + first as u128) / wanted as u128) as usize);
-        let mut samples = Samples::default();
-        for place in places {
-            samples.counts.push(self.training.counts[place].clone());
-            samples.distances_m.push(self.training.distances_m[place]);
-        }
-        samples
+        let place = |k| ((k as u128 * all as u128 + first as u128) / wanted as u128) as usize;
+        let Samples { counts, distances_m } = &self.training;
+        let sample = |place: usize| (counts[place].clone(), distances_m[place]);
+        let (counts, distances_m) = (0..wanted).map(place).map(sample).unzip();
+        Samples { counts, distances_m }
     }
 }
 

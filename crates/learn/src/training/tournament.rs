@@ -243,9 +243,8 @@ impl<'a> Tournament<'a> {
             let ratio = worst(&errors(&circuit, choice), &self.recipe.weighting);
             let point = self.state.curve.iter_mut().rev().find(|point| point.start == start);
             point.into_iter().for_each(|point| point.ratio = Some(ratio));
-            let is_better = |best: &BestBlock| match saturated == best.saturated {
-                true => ratio < best.ratio,
-                false => best.saturated,
+            let is_better = |best: &BestBlock| {
+                if saturated == best.saturated { ratio < best.ratio } else { best.saturated }
             };
             if self.state.best.as_ref().is_none_or(is_better) {
                 let x = candidate.lm.x.clone();

@@ -123,16 +123,15 @@ impl<'a> Bench<'a> {
         let (vectors, spec) = (self.vectors, self.vectors.spec);
         let ports = spec.ports(&vectors.sizes);
         let parameters: Vec<_> = self.set().map(parameter).collect();
-        let connected: Vec<_> =
-            ports.iter().map(|port| format!("    .{0}({0})", port.name)).collect();
         let past = self.past.iter().map(|port| {
             if port.output {
-                format!("    .{0}({0})", port.name)
+                port.connection()
             } else {
-                format!("    .{}({{{}{{1'b1}}}})", port.name, port.width)
+                format!(".{}({{{}{{1'b1}}}})", port.name, port.width)
             }
         });
-        let connected: Vec<_> = connected.into_iter().chain(past).collect();
+        let connected = ports.iter().map(Port::connection).chain(past);
+        let connected: Vec<_> = connected.map(|port| format!("    {port}")).collect();
         let columns = vectors.expected.columns();
         let allowances = columns.iter().map(|column| self.allowed.text(column, vectors));
         let inputs: Vec<_> = vectors.stimulus.columns().iter().map(|c| c.name.as_str()).collect();

@@ -79,7 +79,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The lines with where they come from, and without parameters, memories, stops and coverage.
+    /// The lines with where they come from, and with the parameters that any block may have, without memories, stops and coverage.
     pub(super) fn vectors(self) -> Vectors {
         let Lines { spec, setting, stimulus, expected, .. } = self;
         Vectors {
@@ -87,7 +87,7 @@ impl<'a> Lines<'a> {
             seed: setting.seed,
             source: setting.setup.name.clone(),
             sizes: setting.setup.params.sizes(),
-            parameters: Vec::new(),
+            parameters: spec.parameters(setting),
             stimulus,
             expected,
             pll: setting.setup.pll().clone(),

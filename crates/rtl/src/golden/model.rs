@@ -1,5 +1,7 @@
 //! Steps a block of the model by itself, with inputs from elsewhere.
 
+use std::cell::RefCell;
+
 use tofsim::firmware::carry_chain::{Taps, Transitions};
 use tofsim::firmware::pll::Pll;
 use tofsim::firmware::tof_top::{Params, TofTop};
@@ -56,13 +58,13 @@ pub struct Stepping<'a> {
     pub now: Time,
     /// Edge that is taken.
     pub edge: Edge,
-    pub(crate) inputs: &'a mut Inputs,
+    pub(crate) inputs: RefCell<&'a mut Inputs>,
 }
 
 impl Stepping<'_> {
     /// The inputs.
-    pub fn input<S: Signals>(&mut self) -> S {
-        S::given(0, self.inputs)
+    pub fn input<S: Signals>(&self) -> S {
+        S::given(0, &mut **self.inputs.borrow_mut())
     }
 
     /// Samples the taps at the edge.

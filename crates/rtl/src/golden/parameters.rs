@@ -36,6 +36,17 @@ impl Parameter {
             Parameter::Memory(memory) => format!("\"{}\"", memory.name),
         }
     }
+
+    /// As VHDL writes it, without quotes.
+    pub fn vhdl(&self) -> String {
+        match self {
+            Parameter::Number(number) => number.to_string(),
+            Parameter::Words(words) => {
+                words.iter().rev().map(|word| format!("{word:016b}")).collect()
+            }
+            Parameter::Memory(memory) => memory.name.to_owned(),
+        }
+    }
 }
 
 /// Names and values, in the order in which the benches set them.

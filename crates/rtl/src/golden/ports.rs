@@ -9,6 +9,7 @@ use tofsim::kernel::sizes::Sizes;
 use super::parameters::{Parameter, Parameters};
 use super::spec::{Spec, Vectors};
 use super::table::{Column, Table};
+use super::verilog::range;
 
 /// A port of a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,6 +22,28 @@ pub struct Port {
     pub output: bool,
     /// Its meaning.
     pub meaning: &'static str,
+}
+
+impl Port {
+    /// Returns whether it is a clock that the block takes.
+    pub fn is_clock(&self) -> bool {
+        !self.output && self.name.starts_with("clk")
+    }
+
+    /// Returns its direction, as Verilog says it.
+    pub fn direction(&self) -> &'static str {
+        if self.output { "output" } else { "input" }
+    }
+
+    /// Its declaration in a module, without a sign.
+    pub fn declaration(&self) -> String {
+        format!("{} wire {}{}", self.direction(), range(self.width), self.name)
+    }
+
+    /// Its connection to a signal of its name.
+    pub fn connection(&self) -> String {
+        format!(".{0}({0})", self.name)
+    }
 }
 
 impl Spec {
@@ -36,8 +59,7 @@ impl Spec {
         let entries = hierarchy::every_entry_of(sizes).into_iter();
         let own = entries.filter(|entry| entry.scope == path && entry.kind != Kind::Internal);
         let mut ports: Vec<_> = own.map(port).collect();
-        let is_clock = |port: &Port| !port.output && port.name.starts_with("clk");
-        ports.sort_by_key(|port| (port.output, !is_clock(port)));
+        ports.sort_by_key(|port| (port.output, !port.is_clock()));
         ports
     }
 }
@@ -67,7 +89,7 @@ pub fn json(vectors: &Vectors) -> Value {
         "ports": spec.ports(&vectors.sizes).iter().map(|port| json!({
             "name": port.name,
             "width": port.width,
-            "direction": if port.output { "output" } else { "input" },
+            "direction": port.direction(),
             "meaning": port.meaning,
         })).collect::<Vec<_>>(),
         "stimulus": columns(&vectors.stimulus, |_, _| ()),

@@ -95,14 +95,11 @@ impl Spec {
         number.map_or_else(of_name, |number| number as u64)
     }
 
-    /// Parameters of its Verilog that say what a design has, where they are not the default.
-    pub fn options(&self, setting: &Setting) -> Parameters {
-        parameters::options(&setting.setup.params, self.verilog)
-    }
-
-    /// Parameters of its Verilog that say how large things are, where they are not the default.
-    pub fn sized(&self, setting: &Setting) -> Parameters {
-        parameters::sized(&setting.setup.params, self.verilog)
+    /// Parameters of its Verilog that say what a design has and how large things are, where they are not the default.
+    pub fn parameters(&self, setting: &Setting) -> Parameters {
+        let params = &setting.setup.params;
+        [parameters::options(params, self.verilog), parameters::sized(params, self.verilog)]
+            .concat()
     }
 
     /// Returns whether the bench drives a port from a memory, and not from a line.
@@ -151,6 +148,11 @@ pub struct Vectors {
 }
 
 impl Vectors {
+    /// With parameters of the block's own before those that any block may have.
+    pub fn with(self, own: Parameters) -> Self {
+        Vectors { parameters: [own, self.parameters].concat(), ..self }
+    }
+
     /// Module of their bench, and the stem of its file.
     pub fn bench_module(&self) -> String {
         format!("tb_{}", self.spec.name)

@@ -4,7 +4,6 @@ use tofsim::sim::setup::Setup;
 
 use crate::golden::blocks;
 use crate::golden::parameters::{Parameter, Parameters};
-use crate::golden::verilog::range;
 
 /// The module.
 pub const MODULE: &str = "instrument";
@@ -17,12 +16,11 @@ pub(super) const SHOTS: &str = "ShotsPerFrame";
 pub(super) fn module(setup: &Setup, parameters: &Parameters) -> String {
     let sizes = setup.params.sizes();
     let ports = blocks::find("tof_top").map_or(Vec::new(), |spec| spec.ports(&sizes));
-    let declared = ports.iter().map(|port| {
-        let direction = if port.output { "output" } else { "input" };
-        let signed = if port.name == "depth" { "signed " } else { "" };
-        format!("    {direction} wire {signed}{}{}", range(port.width), port.name)
+    let declared = ports.iter().map(|port| match port.name.as_str() {
+        "depth" => format!("    {}", port.declaration().replace("wire ", "wire signed ")),
+        _ => format!("    {}", port.declaration()),
     });
-    let connected = ports.iter().map(|port| format!("        .{0}({0})", port.name));
+    let connected = ports.iter().map(|port| format!("        {}", port.connection()));
     format!(
         "`timescale 1ps / 1fs\n`default_nettype none\n\n\
          // {}, by tofsim {}: tof_top with its parameters.\n\

@@ -92,41 +92,24 @@ fn muxf(data: Ps, select: Ps) -> Delays {
 }
 
 fn carry4() -> Delays {
-    const IN: [Pin; 10] = [
-        ("CYINIT", 0),
-        ("CI", 0),
-        ("DI", 0),
-        ("DI", 1),
-        ("DI", 2),
-        ("DI", 3),
-        ("S", 0),
-        ("S", 1),
-        ("S", 2),
-        ("S", 3),
-    ];
-    let arc = |input: usize, output: usize| {
-        let pin = if output < 4 { ("O", output) } else { ("CO", output - 4) };
-        (IN[input], pin, CARRY4[input][output])
+    let pins = |(port, width): (&'static str, usize)| (0..width).map(move |bit| (port, bit));
+    let inputs = [("CYINIT", 1), ("CI", 1), ("DI", 4), ("S", 4)].into_iter().flat_map(pins);
+    let arcs = |(input, row): (Pin, [Ps; 8])| {
+        let outputs = [("O", 4), ("CO", 4)].into_iter().flat_map(pins);
+        outputs.zip(row).map(move |(output, ps)| (input, output, ps))
     };
-    let all = (0..10).flat_map(|input| (0..8).map(move |output| arc(input, output)));
+    let all = inputs.zip(CARRY4).flat_map(arcs);
     Delays { between: all.filter(|arc| arc.2 > 0).collect(), direct: &["CI"], ..Delays::default() }
 }
 
 /// Distributed RAM: from address and from clock to the word.
 fn ram(read: Ps, clock: Ps) -> Delays {
     const OUTPUTS: [&str; 8] = ["O", "SPO", "DPO", "DOA", "DOB", "DOC", "DOD", "DO"];
-    const PAIRS: [(&str, &str); 8] = [
-        ("ADDRA", "DOA"),
-        ("ADDRB", "DOB"),
-        ("ADDRC", "DOC"),
-        ("ADDRD", "DOD"),
-        ("DPRA", "DPO"),
-        ("DPRA0", "DPO"),
-        ("DPRA1", "DPO"),
-        ("DPRA2", "DPO"),
-    ];
+    const PAIRS: [(&str, &str); 4] =
+        [("ADDRA", "DOA"), ("ADDRB", "DOB"), ("ADDRC", "DOC"), ("ADDRD", "DOD")];
     let single = ADDRESSES.iter().flat_map(|port| ["O", "SPO"].map(|word| (*port, word, read)));
-    let pairs = PAIRS.iter().map(|(port, word)| (*port, *word, read));
+    let dual = ["DPRA", "DPRA0", "DPRA1", "DPRA2"].map(|port| (port, "DPO"));
+    let pairs = PAIRS.into_iter().chain(dual).map(|(port, word)| (port, word, read));
     let written = ["D", "DI", "DIA", "DIB", "DIC", "DID"].map(|port| (port, 453));
     let addressed = ADDRESSES.iter().chain(&["ADDRD"]).map(|port| (*port, 616));
     Delays {
@@ -140,25 +123,18 @@ fn ram(read: Ps, clock: Ps) -> Delays {
 fn block_ram(cell: &Cell) -> Delays {
     let clock = |parameter| if cell.number(parameter) == 1 { 882 } else { 2454 };
     let (a, b) = (clock("DOA_REG"), clock("DOB_REG"));
-    let ends = [
-        ("ADDRARDADDR", 566),
-        ("ADDRBWRADDR", 566),
-        ("WEA", 532),
-        ("WEBWE", 532),
-        ("REGCEAREGCE", 360),
-        ("REGCEB", 360),
-        ("RSTREGARSTREG", 342),
-        ("RSTREGB", 342),
-        ("DIADI", 737),
-        ("DIBDI", 737),
-        ("DIPADIP", 737),
-        ("DIPBDIP", 737),
-        ("ENARDEN", 360),
-        ("ENBWREN", 360),
+    let ends: [(Ps, &'static [&'static str]); 5] = [
+        (566, &["ADDRARDADDR", "ADDRBWRADDR"]),
+        (532, &["WEA", "WEBWE"]),
+        (360, &["REGCEAREGCE", "REGCEB", "ENARDEN", "ENBWREN"]),
+        (342, &["RSTREGARSTREG", "RSTREGB"]),
+        (737, &["DIADI", "DIBDI", "DIPADIP", "DIPBDIP"]),
     ];
+    let of_each =
+        |(ps, ports): (Ps, &'static [&'static str])| ports.iter().map(move |port| (*port, ps));
     Delays {
         starts: vec![("DOADO", a), ("DOPADOP", a), ("DOBDO", b), ("DOPBDOP", b)],
-        ends: ends.to_vec(),
+        ends: ends.into_iter().flat_map(of_each).collect(),
         ..Delays::default()
     }
 }

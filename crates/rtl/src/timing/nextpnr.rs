@@ -187,9 +187,8 @@ fn place(
     let finished = tool.run(design.work, args, &design.limits)?;
     let fault = |why: String| Input::new(&design.rtl.source, why).field(block.name);
     if !finished.success() {
-        let error = finished.output.lines().find(|line| line.contains("ERROR: "));
         let why = match finished.end {
-            End::Exit(_) => error.unwrap_or("ended without a report").to_owned(),
+            End::Exit(_) => finished.error().unwrap_or("ended without a report").to_owned(),
             _ => format!("has no result after {} s", design.limits.time.as_secs_f64()),
         };
         return Err(fault(format!("{}, seed {seed}: {why}", tool.program)).into());

@@ -1,7 +1,6 @@
 //! Resources of a part that a design takes, by Yosys.
 
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::path::Path;
 
 use serde::Serialize;
@@ -10,7 +9,7 @@ use serde_json::Value;
 use tofsim::error::{Input, Result, read_text};
 
 use crate::verify::Rtl;
-use crate::verify::process::{End, Limits, YOSYS};
+use crate::verify::process::Limits;
 use crate::verify::yosys;
 
 use super::synthesis::Part;
@@ -85,28 +84,11 @@ pub fn resources(
     [folder, work]: [&Path; 2],
     limits: &Limits,
 ) -> Result<Resources> {
-    let define = (part == Part::Ecp5).then_some("ECP5");
     let absolute = std::path::absolute(work).unwrap_or_else(|_| work.to_owned());
-    let stat = absolute.join(format!("{top}.{}.json", name(part)));
-    let synth = match part {
-        Part::Ecp5 => format!("synth_ecp5 -top {top}"),
-        Part::Kintex7 => {
-            format!("synth_xilinx -family xc7 -flatten -noiopad -noclkbuf -top {top}")
-        }
-    };
-    let script = format!("{synth}\ntee -q -o {} stat -json\n", stat.display());
-    let mut args: Vec<OsString> = vec!["-q".into()];
-    args.extend(yosys::sources(rtl, top, folder, define)?);
-    args.extend(["-p".into(), script.into()]);
-    let finished = YOSYS.run(folder, args, limits)?;
-    if !finished.success() {
-        let error = finished.output.lines().find(|line| line.contains("ERROR: "));
-        let why = match finished.end {
-            End::Exit(_) => error.unwrap_or("Yosys ended without a netlist").to_owned(),
-            _ => format!("Yosys has no netlist after {} s", limits.time.as_secs_f64()),
-        };
-        return Err(Input::new(&rtl.source, why).field(top).into());
-    }
+    let stat = absolute.join(format!("{top}.{}.json", part.name()));
+    let script = format!("{}\ntee -q -o {} stat -json\n", part.synth(top), stat.display());
+    let sources = yosys::sources(rtl, top, folder, part.define())?;
+    yosys::synthesise((rtl, top), folder, sources, script, limits)?;
     let found: Option<Value> = serde_json::from_str(&read_text(&stat)?).ok();
     let cells = found.and_then(|mut found| {
         let cells = found.pointer_mut("/design/num_cells_by_type").map(Value::take)?;
@@ -115,14 +97,6 @@ pub fn resources(
     let expected = "expected what `stat -json` of Yosys writes";
     let cells = cells.ok_or_else(|| Input::new(stat.display(), expected))?;
     Ok(Resources::of(part, cells))
-}
-
-/// A part's name in file names and JSON.
-pub fn name(part: Part) -> &'static str {
-    match part {
-        Part::Ecp5 => "ecp5",
-        Part::Kintex7 => "kintex7",
-    }
 }
 
 #[cfg(test)]

@@ -1,15 +1,14 @@
 //! Netlists by Yosys.
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::files::output::{create_directory, write_bytes};
 use tofsim::sim::setup::Setup;
 
 use crate::golden::parameters;
 use crate::verify::Rtl;
-use crate::verify::process::{End, Limits, YOSYS};
+use crate::verify::process::Limits;
 use crate::verify::yosys;
 
 use super::block::{TOP, TimedBlock};
@@ -26,6 +25,31 @@ pub enum Part {
     Ecp5,
     /// The KC705's part.
     Kintex7,
+}
+
+impl Part {
+    /// Its name in file names and JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Part::Ecp5 => "ecp5",
+            Part::Kintex7 => "kintex7",
+        }
+    }
+
+    /// The macro that is set for it.
+    pub(super) fn define(self) -> Option<&'static str> {
+        (self == Part::Ecp5).then_some("ECP5")
+    }
+
+    /// Yosys's command that synthesises the module `top` for it.
+    pub(super) fn synth(self, top: &str) -> String {
+        match self {
+            Part::Ecp5 => format!("synth_ecp5 -top {top}"),
+            Part::Kintex7 => {
+                format!("synth_xilinx -family xc7 -flatten -noiopad -noclkbuf -top {top}")
+            }
+        }
+    }
 }
 
 /// A design that is timed.
@@ -61,39 +85,22 @@ impl TimedDesign<'_> {
     /// When Yosys is missing, refuses the sources, or does not end.
     pub fn synthesise(&self, block: &TimedBlock, part: Part) -> Result<(PathBuf, &'static str)> {
         let (top, text) = self.top(block, part);
-        let (name, define) = match part {
-            Part::Ecp5 => ("ecp5", Some("ECP5")),
-            Part::Kintex7 => ("kintex7", None),
-        };
+        let name = part.name();
         let netlist = self.work.join(format!("{}.{name}.json", block.name));
-        let synth = match part {
-            Part::Ecp5 => format!("synth_ecp5 -top {top}"),
-            Part::Kintex7 => {
-                format!("synth_xilinx -family xc7 -flatten -noiopad -noclkbuf -top {top}\nautoname")
-            }
-        };
+        let autoname = if part == Part::Kintex7 { "\nautoname" } else { "" };
         let script = format!(
-            "{synth}\nsetattr -unset src\nsetattr -mod -unset src\nwrite_json \"{}\"\n",
+            "{}{autoname}\nsetattr -unset src\nsetattr -mod -unset src\nwrite_json \"{}\"\n",
+            part.synth(top),
             netlist.display(),
         );
-        let mut args: Vec<OsString> = vec!["-q".into()];
-        args.extend(yosys::sources(self.rtl, &text, self.folder, define)?);
+        let mut sources = yosys::sources(self.rtl, &text, self.folder, part.define())?;
         if !self.rtl.has(top) {
             let file = self.work.join(format!("{}.{name}.v", block.name));
             write_bytes(&file, &text)?;
-            args.push(file.into());
+            sources.push(file.into());
         }
-        args.extend(["-p".into(), script.into()]);
-        let finished = YOSYS.run(self.folder, args, &self.limits)?;
-        if finished.success() {
-            return Ok((netlist, top));
-        }
-        let error = finished.output.lines().find(|line| line.contains("ERROR: "));
-        let why = match finished.end {
-            End::Exit(_) => error.unwrap_or("Yosys ended without a netlist").to_owned(),
-            _ => format!("Yosys has no netlist after {} s", self.limits.time.as_secs_f64()),
-        };
-        Err(Input::new(&self.rtl.source, why).field(block.name).into())
+        yosys::synthesise((self.rtl, block.name), self.folder, sources, script, &self.limits)?;
+        Ok((netlist, top))
     }
 
     /// The module that is placed, and what names it or declares it.

@@ -34,8 +34,7 @@ pub fn wrapper(block: &TimedBlock) -> String {
     for port in ports {
         let (name, range) = (&port.name, format!("[{}:0]", port.width - 1));
         if CLOCKS.contains(&name.as_str()) || block.pins.contains(&name.as_str()) {
-            let direction = if port.output { "output" } else { "input" };
-            head.push(format!("    {direction} wire {range} {name}"));
+            head.push(format!("    {} wire {range} {name}", port.direction()));
             continue;
         }
         let mut register = |to: &str, from: &str| {
@@ -58,11 +57,8 @@ pub fn wrapper(block: &TimedBlock) -> String {
         let _ = write!(body, "    always @(posedge {clock}) begin\n{edge}    end\n");
     }
     for spec in &specs {
-        let connected: Vec<_> = spec
-            .ports(&Sizes::default())
-            .iter()
-            .map(|port| format!(".{0}({0})", port.name))
-            .collect();
+        let ports = spec.ports(&Sizes::default());
+        let connected: Vec<_> = ports.iter().map(Port::connection).collect();
         let _ = writeln!(body, "    {0} {0} ({1});", spec.name, connected.join(", "));
     }
     format!("module {TOP} (\n{}\n);\n{body}endmodule\n", head.join(",\n"))

@@ -110,10 +110,7 @@ impl BlockMap {
     /// The adapter.
     fn text(&self, bench: &Bench, spec: &Spec, found: &Interface) -> String {
         let ports = spec.ports(&bench.vectors.sizes);
-        let declare = |port: &Port| {
-            let direction = if port.output { "output" } else { "input" };
-            format!("    {direction} wire {}{}", range(port.width), port.name)
-        };
+        let declare = |port: &Port| format!("    {}", port.declaration());
         let parameter = |name| format!("    parameter {name} = 0");
         let set = |ours| Some(format!("        .{}({ours})", self.parameter(ours)?));
         let (mut lines, mut connected) = (String::new(), Vec::new());

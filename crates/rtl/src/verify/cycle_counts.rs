@@ -6,8 +6,6 @@
 //! is true of them too says nothing, and counts as not proven.
 
 mod design;
-#[cfg(test)]
-mod faults;
 mod measured;
 mod model;
 mod promises;

@@ -89,6 +89,11 @@ impl Finished {
     pub fn success(&self) -> bool {
         self.end == End::Exit(true)
     }
+
+    /// The first line of its output that is an error of Yosys or nextpnr.
+    pub fn error(&self) -> Option<&str> {
+        self.output.lines().find(|line| line.contains("ERROR: "))
+    }
 }
 
 impl Tool {

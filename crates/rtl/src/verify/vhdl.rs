@@ -114,14 +114,7 @@ fn synthesise(
     let made = GHDL.run(folder, ["-m", "--std=08", entity], limits)?;
     // What GHDL says must not come between the Verilog.
     let script = format!("exec \"$@\" > {OUTPUT}");
-    let set = generics.iter().map(|(name, value)| match value {
-        Parameter::Number(number) => format!("-g{name}={number}"),
-        Parameter::Words(words) => {
-            let bits: String = words.iter().rev().map(|word| format!("{word:016b}")).collect();
-            format!("-g{name}={bits}")
-        }
-        Parameter::Memory(memory) => format!("-g{name}={}", memory.name),
-    });
+    let set = generics.iter().map(|(name, value)| format!("-g{name}={}", value.vhdl()));
     let args =
         ["-c", &script, "sh", GHDL.program, "synth", "--std=08", "--latches", "--out=verilog"];
     let args = args.map(str::to_owned).into_iter().chain(set).chain([entity.to_owned()]);

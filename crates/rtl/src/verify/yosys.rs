@@ -3,8 +3,9 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 
+use super::process::{End, Limits, YOSYS};
 use super::rtl::Rtl;
 
 /// Its arguments for those sources that something which names the identifiers of `text` needs, with one more
@@ -31,6 +32,30 @@ pub fn sources(
     let relative = |path: &Path| path.strip_prefix(&folder).unwrap_or(path).into();
     let files = needed.iter().map(|source| relative(&source.path));
     Ok(["-f".into(), frontend.into()].into_iter().chain(files).collect())
+}
+
+/// Runs a script over those sources, and more files, so that it leaves a netlist; errors name `field`.
+///
+/// # Errors
+/// When Yosys is missing, refuses the sources, or does not end.
+pub fn synthesise(
+    (rtl, field): (&Rtl, &str),
+    folder: &Path,
+    sources: impl IntoIterator<Item = OsString>,
+    script: String,
+    limits: &Limits,
+) -> Result<()> {
+    let script = ["-p".into(), script.into()];
+    let args = [OsString::from("-q")].into_iter().chain(sources).chain(script);
+    let finished = YOSYS.run(folder, args, limits)?;
+    if finished.success() {
+        return Ok(());
+    }
+    let why = match finished.end {
+        End::Exit(_) => finished.error().unwrap_or("Yosys ended without a netlist").to_owned(),
+        _ => format!("Yosys has no netlist after {} s", limits.time.as_secs_f64()),
+    };
+    Err(Input::new(&rtl.source, why).field(field).into())
 }
 
 /// A source of the design that Yosys does not read here, if there is one: VHDL, or a library's.

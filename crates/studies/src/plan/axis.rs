@@ -8,7 +8,7 @@ use tofsim::kernel::pulse::normal_cdf;
 use tofsim::scenario::Scenario;
 use tofsim_learn::dataset;
 
-use super::distribution::Quantiles;
+use super::distribution::{Quantiles, between};
 use super::fault::at_key;
 use super::file::{AxisFile, Distribution, Scale, Value};
 
@@ -187,14 +187,6 @@ pub fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
 
-/// Interpolates between two numbers; `part` is between 0 and 1.
-pub fn between([from, to]: [f64; 2], scale: Scale, part: f64) -> f64 {
-    match scale {
-        Scale::Linear => from + part * (to - from),
-        Scale::Log => from * libm::pow(to / from, part),
-    }
-}
-
 /// Returns whether a key accepts whole numbers only.
 pub fn is_whole(key: &str) -> bool {
     let takes = |value: &str| {
@@ -205,14 +197,19 @@ pub fn is_whole(key: &str) -> bool {
 }
 
 /// Creates an error at a field of an axis, from the field and the expectation.
-type Fault<'a> = &'a dyn Fn(&str, &str) -> Input;
+pub type Fault<'a> = &'a dyn Fn(&str, &str) -> Input;
 
-/// Returns the ends of a range, in ascending order.
+/// Returns the ends of an axis's range, in ascending order.
 fn ends(file: &AxisFile, scale: Scale, fault: Fault) -> Result<[f64; 2]> {
     let (Some(from), Some(to)) = (file.from, file.to) else {
         let expected = "expected values, range, from and to, or distribution";
         return Err(fault("key", expected).into());
     };
+    checked_ends([from, to], scale, fault)
+}
+
+/// Checks that the ends of a range are in ascending order, and above 0 on a logarithmic scale.
+pub fn checked_ends([from, to]: [f64; 2], scale: Scale, fault: Fault) -> Result<[f64; 2]> {
     if !(from.is_finite() && to.is_finite() && from < to) {
         return Err(fault("to", "expected a number above from: the range is empty").into());
     }
@@ -238,9 +235,10 @@ fn quantiles(file: &AxisFile, kind: Distribution, fault: Fault) -> Result<Quanti
             Err(fault("to", "nothing of the distribution lies between from and to").into())
         }
     };
+    let uniform = |scale| -> Result<_> { Ok(Quantiles::Uniform(ends(file, scale, fault)?, scale)) };
     Ok(match kind {
-        Distribution::Uniform => Quantiles::Uniform(ends(file, Scale::Linear, fault)?),
-        Distribution::LogUniform => Quantiles::LogUniform(ends(file, Scale::Log, fault)?),
+        Distribution::Uniform => uniform(Scale::Linear)?,
+        Distribution::LogUniform => uniform(Scale::Log)?,
         Distribution::Normal => normal(false)?,
         Distribution::LogNormal => normal(true)?,
         Distribution::Triangular => {

@@ -2,13 +2,13 @@
 
 use tofsim::kernel::pulse::normal_quantile;
 
+use super::file::Scale;
+
 /// A distribution with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantiles {
-    /// Uniform between two numbers.
-    Uniform([f64; 2]),
-    /// Log-uniform between two numbers.
-    LogUniform([f64; 2]),
+    /// Uniform between two numbers, or with a uniform logarithm.
+    Uniform([f64; 2], Scale),
     /// Normal, truncated to an interval.
     Normal {
         /// Mean before truncation.
@@ -24,12 +24,19 @@ pub enum Quantiles {
     Triangular([f64; 3]),
 }
 
+/// Interpolates between two numbers; `part` is between 0 and 1.
+pub fn between([from, to]: [f64; 2], scale: Scale, part: f64) -> f64 {
+    match scale {
+        Scale::Linear => from + part * (to - from),
+        Scale::Log => from * libm::pow(to / from, part),
+    }
+}
+
 impl Quantiles {
     /// Returns the quantile `u`, which is between 0 and 1, excluding both.
     pub fn at(&self, u: f64) -> f64 {
         match *self {
-            Quantiles::Uniform([from, to]) => from + u * (to - from),
-            Quantiles::LogUniform([from, to]) => from * libm::pow(to / from, u),
+            Quantiles::Uniform(ends, scale) => between(ends, scale, u),
             Quantiles::Normal { mean, sd, parts: [below, until], is_log } => {
                 let value = mean + sd * normal_quantile(below + u * (until - below));
                 if is_log { libm::exp(value) } else { value }
@@ -56,8 +63,8 @@ mod tests {
 
     #[test]
     fn medians_and_quartiles_are_the_known_ones() {
-        near(Quantiles::Uniform([1.0, 3.0]).at(0.25), 1.5);
-        near(Quantiles::LogUniform([1.0, 100.0]).at(0.5), 10.0);
+        near(Quantiles::Uniform([1.0, 3.0], Scale::Linear).at(0.25), 1.5);
+        near(Quantiles::Uniform([1.0, 100.0], Scale::Log).at(0.5), 10.0);
         let normal = |is_log| Quantiles::Normal { mean: 2.0, sd: 0.5, parts: [0.0, 1.0], is_log };
         near(normal(false).at(0.841_344_746_068_543), 2.5);
         near(normal(true).at(0.5), 2f64.exp());

@@ -8,8 +8,9 @@ use toml_edit::Table;
 use crate::columns::Column;
 use crate::limit::Limit;
 
-use super::axis::{Axis, between, is_whole, rounded};
+use super::axis::{Axis, checked_ends, is_whole, rounded};
 use super::combination::{Combination, scenes};
+use super::distribution::between;
 use super::fault::at_key;
 use super::file::{Find, Scale, SearchFile};
 
@@ -58,12 +59,7 @@ impl Search {
     ) -> Result<Self> {
         let fault =
             |field: &str, expected: &str| checked.fault(&format!("search.{field}"), expected);
-        if !(file.from.is_finite() && file.to.is_finite() && file.from < file.to) {
-            return Err(fault("to", "expected a number above from: the range is empty").into());
-        }
-        if file.scale == Scale::Log && file.from <= 0.0 {
-            return Err(fault("from", "expected a number above 0 for a logarithmic range").into());
-        }
+        let ends = checked_ends([file.from, file.to], file.scale, &fault)?;
         if !(file.resolution.is_finite() && file.resolution > 0.0) {
             return Err(fault("resolution", "expected a number above 0").into());
         }
@@ -72,7 +68,7 @@ impl Search {
                 fault("meets", "expected a limit, such as [\"peak.failure_rate < 0.1\"]").into()
             );
         }
-        for end in [file.from, file.to] {
+        for end in ends {
             let assignment = format!("{}={end}", file.key);
             let checked_value = assign::<Scenario>(&mut Table::new(), "search", &assignment);
             checked_value.map_err(|error| at_key(checked, "search.key", error))?;
@@ -97,7 +93,7 @@ impl Search {
             over,
             scenes,
             find: file.find,
-            ends: [file.from, file.to],
+            ends,
             resolution: file.resolution,
             scale: file.scale,
             steps: file.steps,

@@ -11,7 +11,7 @@ use tofsim::files::output::write_bytes;
 use tofsim::files::staged::ScratchFolder;
 use tofsim_rtl::instrument;
 use tofsim_rtl::timing::Part;
-use tofsim_rtl::timing::resources::{name, resources};
+use tofsim_rtl::timing::resources::resources;
 use tofsim_rtl::timing::versions::version;
 use tofsim_rtl::verify::Rtl;
 use tofsim_rtl::verify::process::{Limits, YOSYS};
@@ -33,8 +33,8 @@ pub fn run(site: &Site) -> Result<Outcome> {
     let limits = Limits { stop: stop.as_deref(), ..Limits::new(LIMIT) };
     let one = |part: Part| {
         let found = resources(&rtl, (instrument::MODULE, part), [folder, work.path()], &limits)?;
-        site.talk.detail(format_args!("{}: {} LUTs", name(part), found.lut));
-        Ok((name(part).to_owned(), found))
+        site.talk.detail(format_args!("{}: {} LUTs", part.name(), found.lut));
+        Ok((part.name().to_owned(), found))
     };
     let found: Result<Vec<_>> = [Part::Kintex7, Part::Ecp5].into_par_iter().map(one).collect();
     let found = found?;

@@ -141,11 +141,10 @@ impl ModelCheck<'_> {
         }
         let first_m = self.distance_m(bins.first_ps());
         let is_other = first_m != 0.0 && (offset_m - first_m).abs() > OTHER_SCALE * first_m.abs();
-        let text = match scenario.laser.delay_ps > 0.0 {
-            false => "what it adds is not the distance at which the first bin begins",
-            true => {
-                "what it adds is not the distance of the first bin's begin less the laser's delay"
-            }
+        let text = if scenario.laser.delay_ps > 0.0 {
+            "what it adds is not the distance of the first bin's begin less the laser's delay"
+        } else {
+            "what it adds is not the distance at which the first bin begins"
         };
         is_other.then(|| self.note("estimator.centroid_offset_m", offset_m, about(first_m), text))
     }

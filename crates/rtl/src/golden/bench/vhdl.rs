@@ -84,11 +84,7 @@ fn generic((name, value): &(&'static str, Parameter)) -> Result<String> {
                 .into())
         }
         Parameter::Number(number) => Ok(format!("      {name} => {number}")),
-        Parameter::Words(words) => {
-            let bits: String = words.iter().rev().map(|word| format!("{word:016b}")).collect();
-            Ok(format!("      {name} => \"{bits}\""))
-        }
-        Parameter::Memory(memory) => Ok(format!("      {name} => \"{}\"", memory.name)),
+        quoted => Ok(format!("      {name} => \"{}\"", quoted.vhdl())),
     }
 }
 

@@ -36,10 +36,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let changes = (1..count).filter(|&tap| taps.tap(tap) != taps.tap(tap - 1)).count();
         travelling.see(changes as u64);
     }
-    let mut parameters = files(["DelaysFile"], [parameters::tap_delays(delays)]);
-    parameters.extend(spec.sized(setting));
+    let own = files(["DelaysFile"], [parameters::tap_delays(delays)]);
     let stops = stops.times().to_vec();
-    Ok(Vectors { parameters, stops, settles: 1, ..run.vectors([ones, travelling]) })
+    Ok(Vectors { stops, settles: 1, ..run.vectors([ones, travelling]).with(own) })
 }
 
 /// Plans changes after the edge that ends a line, now that none is left.

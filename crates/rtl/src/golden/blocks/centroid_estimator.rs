@@ -17,14 +17,13 @@ pub(super) const SPEC: Spec = Spec {
     glue: Some(histograms::GLUE),
     configurations: &[LEVEL],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.centroid_estimator.rise(&i, &at.params.centroid_estimator);
+        at.top.centroid_estimator.rise(&at.input(), &at.params.centroid_estimator);
     })),
     ..Spec::new("centroid_estimator", "centroid_estimator", record)
 };
 
 /// The whole window counted, and a distance taken off.
-const LEVEL: Configuration = Configuration {
+pub(super) const LEVEL: Configuration = Configuration {
     name: "level",
     set: &[
         "estimator.kind=centroid",
@@ -76,12 +75,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         estimator.rise(&In { rst, algo_start, count }, &params);
     }
     Ok(Vectors {
-        parameters: [
-            parameters::centroid_estimator(&params),
-            spec.sized(setting),
-        ]
-        .concat(),
         bench_memory: Some(memory(&histograms, &params.histogram)),
-        ..run.vectors([vec![cases], estimations.coverage().into()].concat())
+        ..run
+            .vectors([vec![cases], estimations.coverage().into()].concat())
+            .with(parameters::centroid_estimator(&params))
     })
 }

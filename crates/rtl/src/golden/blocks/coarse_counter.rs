@@ -8,8 +8,7 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "start", to: "window", cycles: |_| 0 }],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.tdc.coarse_counter.tick(&i, &at.params.tdc.coarse_counter);
+        at.top.tdc.coarse_counter.tick(&at.input(), &at.params.tdc.coarse_counter);
     })),
     ..Spec::new("coarse_counter", "tdc.coarse_counter", record)
 };
@@ -41,6 +40,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc.coarse_counter = counter.next(&i, &params);
     }
-    let parameters = spec.sized(setting);
-    Ok(Vectors { parameters, ..run.vectors([coarse, started_at]) })
+    Ok(run.vectors([coarse, started_at]))
 }

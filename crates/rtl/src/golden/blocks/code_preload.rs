@@ -13,9 +13,8 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "start", to: "tdc_valid", cycles: |_| 1 }],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
         if let CodeSource::Preload(rom) = &at.params.code_source {
-            at.top.code_preload.tick(&i, rom);
+            at.top.code_preload.tick(&at.input(), rom);
         }
     })),
     ..Spec::new("code_preload", "code_preload", record)
@@ -61,7 +60,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.top.code_preload = run.top.code_preload.next(&i, &rom);
     }
     let file = Parameter::Memory(parameters::codes(&rom, &setting.histogram()));
-    let mut parameters = vec![("Codes", Parameter::Number(codes)), ("CodeFile", file)];
-    parameters.extend(spec.sized(setting));
-    Ok(Vectors { parameters, ..run.vectors([words, resets, phases]) })
+    let own = vec![("Codes", Parameter::Number(codes)), ("CodeFile", file)];
+    Ok(run.vectors([words, resets, phases]).with(own))
 }

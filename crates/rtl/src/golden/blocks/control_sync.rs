@@ -13,10 +13,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "dsp_en", to: "dsp_en_sync", cycles: |_| 1 },
         Latency { from: "dsp_rst", to: "dsp_rst_sync", cycles: |_| 1 },
     ],
-    model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.control_sync.tick(&i, &());
-    })),
+    model: Some(Model::new::<In>(|at| at.top.control_sync.tick(&at.input(), &()))),
     ..Spec::new("control_sync", "control_sync", record)
 };
 
@@ -49,6 +46,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.control_sync = run.top.control_sync.next(&i, &());
     }
-    let parameters = spec.sized(setting);
-    Ok(Vectors { parameters, settles: 2, ..run.vectors([pairs, rates, alone]) })
+    Ok(Vectors { settles: 2, ..run.vectors([pairs, rates, alone]) })
 }

@@ -32,6 +32,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.sample();
         run.top.vcsel_driver.ddr_output = output.rise(&i);
     }
-    let parameters = spec.sized(setting);
-    Ok(Vectors { parameters, settles: 1, ..run.vectors([levels]) })
+    Ok(Vectors { settles: 1, ..run.vectors([levels]) })
 }

@@ -15,8 +15,7 @@ pub(super) const SPEC: Spec = Spec {
     glue: Some(histograms::GLUE),
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.depth_estimator.rise(&i, &at.params.depth_estimator);
+        at.top.depth_estimator.rise(&at.input(), &at.params.depth_estimator);
     })),
     ..Spec::new("depth_estimator", "depth_estimator", record)
 };
@@ -63,13 +62,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         estimator.rise(&In { rst, algo_start, count }, params);
     }
     Ok(Vectors {
-        parameters: [
-            parameters::depth_estimator(params),
-            spec.options(setting),
-            spec.sized(setting),
-        ]
-        .concat(),
         bench_memory: Some(memory(&histograms, &size)),
-        ..run.vectors([vec![ends], estimations.coverage().into()].concat())
+        ..run
+            .vectors([vec![ends], estimations.coverage().into()].concat())
+            .with(parameters::depth_estimator(params))
     })
 }

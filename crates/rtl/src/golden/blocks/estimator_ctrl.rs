@@ -13,8 +13,7 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.depth_estimator.estimator_ctrl.tick(&i, &at.params.depth_estimator.ctrl());
+        at.top.depth_estimator.estimator_ctrl.tick(&at.input(), &at.params.depth_estimator.ctrl());
     })),
     ..Spec::new("estimator_ctrl", "depth_estimator.estimator_ctrl", record)
 };
@@ -66,6 +65,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.depth_estimator.estimator_ctrl = ctrl.next(&i, &p);
     }
-    let parameters = [spec.options(setting), spec.sized(setting)].concat();
-    Ok(Vectors { parameters, ..run.vectors([starts, resets, idle]) })
+    Ok(run.vectors([starts, resets, idle]))
 }

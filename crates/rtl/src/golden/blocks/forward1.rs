@@ -18,8 +18,7 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.depth_estimator.forward1.tick(&i, &at.params.depth_estimator.forward1);
+        at.top.depth_estimator.forward1.tick(&at.input(), &at.params.depth_estimator.forward1);
     })),
     ..Spec::new("forward1", "depth_estimator.forward1", record)
 };
@@ -97,6 +96,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         }
     }
     let memories = files(["W1File", "B1File"], mem::forward1(rom, neurons, setting.datapath()));
-    let parameters = [memories, spec.options(setting), spec.sized(setting)].concat();
-    Ok(Vectors { parameters, ..run.vectors([wraps, rows, situations, sequence]) })
+    Ok(run.vectors([wraps, rows, situations, sequence]).with(memories))
 }

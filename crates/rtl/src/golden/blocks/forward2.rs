@@ -22,8 +22,7 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.depth_estimator.forward2.tick(&i, &at.params.depth_estimator.forward2);
+        at.top.depth_estimator.forward2.tick(&at.input(), &at.params.depth_estimator.forward2);
     })),
     ..Spec::new("forward2", "depth_estimator.forward2", record)
 };
@@ -109,6 +108,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             wraps.see_if(far && !i.rst, goal);
         }
     }
-    let parameters = [files(["W2File", "B2File"], mem::forward2(&rom)), spec.options(setting), spec.sized(setting)].concat();
-    Ok(Vectors { parameters, ..run.vectors([situations, order, wraps]) })
+    let memories = files(["W2File", "B2File"], mem::forward2(&rom));
+    Ok(run.vectors([situations, order, wraps]).with(memories))
 }

@@ -23,10 +23,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "algo_done", to: "frame_done", cycles: |_| 0 },
     ],
     configurations: &[PRELOADED, CALIBRATED],
-    model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.frame_ctrl.tick(&i, &at.params.frame_ctrl);
-    })),
+    model: Some(Model::new::<In>(|at| at.top.frame_ctrl.tick(&at.input(), &at.params.frame_ctrl))),
     ..Spec::new("frame_ctrl", "frame_ctrl", record)
 };
 
@@ -117,11 +114,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.frame_ctrl = ctrl.next(&i, &params);
     }
-    let mut parameters = vec![
+    let own = vec![
         ("ShotsPerFrame", Parameter::Number(shots.into())),
         ("Preloaded", Parameter::Number(preloaded.into())),
     ];
-    parameters.extend(spec.sized(setting));
-    parameters.extend(spec.options(setting));
-    Ok(Vectors { parameters, ..run.vectors([transitions, resets, kinds, inputs]) })
+    Ok(run.vectors([transitions, resets, kinds, inputs]).with(own))
 }

@@ -26,14 +26,8 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "tdc_valid", to: "count", cycles: |_| 2 },
     ],
     model: Some(Model {
-        settle: |at| {
-            let i = at.input();
-            at.top.nets.count = at.top.histogram_builder.count(&i);
-        },
-        ..Model::new::<In>(|at| {
-            let i = at.input();
-            at.top.histogram_builder.tick(&i, &at.params.histogram);
-        })
+        settle: |at| at.top.nets.count = at.top.histogram_builder.count(&at.input()),
+        ..Model::new::<In>(|at| at.top.histogram_builder.tick(&at.input(), &at.params.histogram))
     }),
     ..Spec::new("histogram_builder", "histogram_builder", record)
 };
@@ -154,6 +148,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.histogram_builder.tick(&i, &size);
     }
-    let parameters = spec.sized(setting);
-    Ok(Vectors { parameters, settles: bins as usize, ..run.vectors([cleared, hits, seen, overlaps, phases, spans, sizes]) })
+    let coverage = [cleared, hits, seen, overlaps, phases, spans, sizes];
+    Ok(Vectors { settles: bins as usize, ..run.vectors(coverage) })
 }

@@ -8,9 +8,8 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     timing: timing::NONE,
     model: Some(Model::combinational::<In>(|at| {
-        let i = at.input();
         if let HistogramSource::Preload(rom) = &at.params.histogram_source {
-            at.top.nets.count = histogram_preload::count(&i, rom);
+            at.top.nets.count = histogram_preload::count(&at.input(), rom);
         }
     })),
     ..Spec::new("histogram_preload", "histogram_preload", record)
@@ -39,7 +38,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.top.nets.count = histogram_preload::count(&i, &rom);
         run.line(&i);
     }
-    let mut parameters = files(["HistogramFile"], [parameters::histogram(&rom, &size)]);
-    parameters.extend(spec.sized(setting));
-    Ok(Vectors { parameters, ..run.vectors([words]) })
+    let own = files(["HistogramFile"], [parameters::histogram(&rom, &size)]);
+    Ok(run.vectors([words]).with(own))
 }

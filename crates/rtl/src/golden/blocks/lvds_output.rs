@@ -7,8 +7,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     timing: timing::NONE,
     model: Some(Model::combinational::<In>(|at| {
-        let i = at.input();
-        at.top.lvds_output = lvds_output::out(&i);
+        at.top.lvds_output = lvds_output::out(&at.input());
     })),
     ..Spec::new("lvds_output", "lvds_output", record)
 };

@@ -38,7 +38,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         levels.see(bits([top.pll.locked, top.clocks.clk_sys, top.clocks.clk_laser]));
         run.sample();
     }
-    let mut parameters = vec![("LockTime", Parameter::Number(pll.locked_at.ps()))];
-    parameters.extend(parameters::clocks(&setting.setup.scenario.pll.params()));
-    Ok(Vectors { parameters, ..run.vectors([levels]) })
+    let mut own = vec![("LockTime", Parameter::Number(pll.locked_at.ps()))];
+    own.extend(parameters::clocks(&setting.setup.scenario.pll.params()));
+    Ok(run.vectors([levels]).with(own))
 }

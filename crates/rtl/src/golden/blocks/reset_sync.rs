@@ -10,10 +10,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "rst", to: "rst_sync", cycles: |_| 1 },
         Latency { from: "locked", to: "rst_sync", cycles: |_| 1 },
     ],
-    model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.reset_sync_sys.tick(&i, &());
-    })),
+    model: Some(Model::new::<In>(|at| at.top.reset_sync_sys.tick(&at.input(), &()))),
     ..Spec::new("reset_sync", "reset_sync_sys", record)
 };
 

@@ -8,10 +8,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "pre_start", to: "spad_rst", cycles: |_| 0 }],
-    model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.spad_control.tick(&i, &());
-    })),
+    model: Some(Model::new::<In>(|at| at.top.spad_control.tick(&at.input(), &()))),
     ..Spec::new("spad_control", "spad_control", record)
 };
 

@@ -12,8 +12,7 @@ pub(super) const SPEC: Spec = Spec {
     latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 1 }],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.depth_estimator.tansig.tick(&i, &at.params.depth_estimator.tansig);
+        at.top.depth_estimator.tansig.tick(&at.input(), &at.params.depth_estimator.tansig);
     })),
     ..Spec::new("tansig", "depth_estimator.tansig", record)
 };
@@ -67,13 +66,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.depth_estimator.tansig = run.top.depth_estimator.tansig.next(&i, rom);
     }
-    let parameters = [
-        files(["TansigFile"], [mem::tansig(rom, setting.datapath())]),
-        spec.options(setting),
-        spec.sized(setting),
-    ]
-    .concat();
-    Ok(Vectors { parameters, ..run.vectors([lowest, highest, beyond, situations]) })
+    let memory = files(["TansigFile"], [mem::tansig(rom, setting.datapath())]);
+    Ok(run.vectors([lowest, highest, beyond, situations]).with(memory))
 }
 
 /// The sum of a neuron in a line of the sweep: other addresses for other neurons.

@@ -132,12 +132,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.top.tdc.rise(&i, &rom, stops.sample(now, &rom.delays));
     }
     let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&rom.decoder)];
-    let mut parameters = files(["DelaysFile", "CalFile"], memories);
-    parameters.extend(spec.options(setting));
-    parameters.extend(spec.sized(setting));
-    Ok(Vectors {
-        parameters,
-        stops: light.stops.times().to_vec(),
-        ..run.vectors([hits, codes, coarses, rises, resets, corners])
-    })
+    let own = files(["DelaysFile", "CalFile"], memories);
+    let stops = light.stops.times().to_vec();
+    let coverage = [hits, codes, coarses, rises, resets, corners];
+    Ok(Vectors { stops, ..run.vectors(coverage).with(own) })
 }

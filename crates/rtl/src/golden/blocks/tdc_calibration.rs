@@ -26,9 +26,8 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "n", to: "calibrated_age", cycles: |_| 0 },
     ],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
         if let Some(params) = &at.params.tdc_calibration {
-            at.top.tdc_calibration.tick(&i, params);
+            at.top.tdc_calibration.tick(&at.input(), params);
         }
     })),
     ..Spec::new("tdc_calibration", "tdc_calibration", record)
@@ -115,6 +114,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc_calibration.tick(&i, &params);
     }
-    let parameters = [spec.sized(&setting), parameters::tdc_calibration(&params)].concat();
-    Ok(Vectors { parameters, ..run.vectors([states, inputs, counted, ages, limits, apart, dues]) })
+    let mut vectors = run.vectors([states, inputs, counted, ages, limits, apart, dues]);
+    vectors.parameters.extend(parameters::tdc_calibration(&params));
+    Ok(vectors)
 }

@@ -19,8 +19,7 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[COUNT_STAGES_2, LEADING, REORDERED, CALIBRATED],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.tdc.tdc_decoder.tick(&i, &at.params.tdc.decoder);
+        at.top.tdc.tdc_decoder.tick(&at.input(), &at.params.tdc.decoder);
     })),
     ..Spec::new("tdc_decoder", "tdc.tdc_decoder", record)
 };
@@ -98,10 +97,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc.tdc_decoder = decoder.next(&i, &rom);
     }
-    let mut parameters = files(["CalFile"], [mem::tdc_decoder(&rom)]);
-    parameters.extend(spec.options(setting));
-    parameters.extend(spec.sized(setting));
-    Ok(Vectors { parameters, ..run.vectors([ones, coarses, codes, times, situations]) })
+    let memory = files(["CalFile"], [mem::tdc_decoder(&rom)]);
+    Ok(run.vectors([ones, coarses, codes, times, situations]).with(memory))
 }
 
 /// Coarse counts, each with an age that makes the last time before the range, its first, its last, or the

@@ -16,8 +16,7 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[CALIBRATED],
     model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.tdc.tdc_latch.tick(&i, &at.params.tdc.delays.tap_0_position());
+        at.top.tdc.tdc_latch.tick(&at.input(), &at.params.tdc.delays.tap_0_position());
     })),
     ..Spec::new("tdc_latch", "tdc.tdc_latch", record)
 };
@@ -60,9 +59,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc.tdc_latch = latch.next(&i, &tap_0);
     }
-    let mut parameters = spec.sized(setting);
-    parameters.extend(spec.options(setting));
-    Ok(Vectors { parameters, ..run.vectors([hits, coarse, situations, free]) })
+    Ok(run.vectors([hits, coarse, situations, free]))
 }
 
 /// A coarse count in a window of so many cycles.

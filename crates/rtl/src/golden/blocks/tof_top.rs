@@ -50,12 +50,7 @@ pub(super) const SPEC: Spec = Spec {
 /// The other estimator, with values of its own.
 const CENTROID: Configuration = Configuration {
     name: "centroid",
-    set: &[
-        "estimator.kind=centroid",
-        "estimator.centroid_half_width=9",
-        "estimator.centroid_background=false",
-        "estimator.centroid_offset_m=-0.1",
-    ],
+    set: super::centroid_estimator::LEVEL.set,
     parameters: &["Estimator", "HalfWidth", "Background", "Slope", "Offset"],
     module: Some(super::CENTROID),
     ..configuration::DEFAULTS

@@ -79,8 +79,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.sample();
         run.top.vcsel_driver.rise(&i, p);
     }
-    let parameters = spec.sized(setting);
-    Ok(Vectors { parameters, ..run.vectors([changes, phases, endings]) })
+    Ok(run.vectors([changes, phases, endings]))
 }
 
 /// Codes whose periods are short enough to go through again and again.

@@ -107,7 +107,6 @@ fn answer(promise: &Promise, finished: &Finished, limits: &Limits) -> Answer {
         let registers: Vec<_> = promise.registers().collect();
         Answer::Stuck(format!("the proof needs the registers {}", registers.join(" and ")))
     } else {
-        let error = finished.output.lines().find(|line| line.contains("ERROR: "));
-        Answer::Stuck(format!("Yosys: {}", error.unwrap_or("ended without an answer")))
+        Answer::Stuck(format!("Yosys: {}", finished.error().unwrap_or("ended without an answer")))
     }
 }

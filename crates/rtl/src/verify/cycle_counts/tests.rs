@@ -1,5 +1,7 @@
 //! Promises hold of our own Verilog; what cannot be counted or proven is reported.
 
+mod faults;
+
 use std::fs;
 use std::time::Duration;
 
@@ -15,7 +17,7 @@ fn limits() -> Limits<'static> {
 }
 
 /// A place in a file of ours, and what to put there.
-pub type Edit = [&'static str; 3];
+type Edit = [&'static str; 3];
 
 fn kc705() -> CountedDesign {
     of(&[])
@@ -26,7 +28,7 @@ fn of(set: &[&str]) -> CountedDesign {
 }
 
 /// The count of `key` in our Verilog after some edits.
-pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
+fn with_fault(key: &str, edits: &[Edit]) -> Count {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
     for [file, from, to] in edits {

@@ -1,6 +1,6 @@
 //! Faults planted in our own Verilog are counted, and what they break is not proven.
 
-use super::tests::{Edit, with_fault};
+use super::{Edit, with_fault};
 
 /// A fault, what it is found by, and what is counted then.
 fn fault(key: &str, edits: &[Edit], measured: u64) {
