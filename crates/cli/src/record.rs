@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use tofsim::Note;
+use tofsim::error::{Input, Result, read_text};
 use tofsim::sim::setup::Setup;
 
 /// Begins the record in a file that is not JSON.
@@ -108,6 +109,15 @@ impl Record {
         let begin = marked.or_else(|| memmem(bytes, br#"{"schema":"tofsim."#))?;
         serde_json::Deserializer::from_slice(&bytes[begin..]).into_iter().next()?.ok()
     }
+}
+
+/// Reads the JSON object of a file.
+///
+/// # Errors
+/// When the file cannot be read, or is no JSON.
+pub fn read_object(path: &Path) -> Result<Value> {
+    let text = read_text(path)?;
+    serde_json::from_str(&text).map_err(|error| Input::new(path.display(), error).into())
 }
 
 /// Returns the first place of `wanted` in `bytes`.

@@ -2,15 +2,11 @@
 
 pub mod finding;
 pub mod html;
-pub mod json;
-mod line;
-mod measured;
 mod measures;
 mod networks;
 mod peaks;
 mod published;
 mod scenes;
-mod scopes;
 pub mod study;
 mod sweeps;
 pub mod table;

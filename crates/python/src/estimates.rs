@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 
 use tofsim::Setup;
 use tofsim::error::Input;
-use tofsim_cli::verbs::budget::findings::Findings;
+use tofsim_cli::report::link_budget::LinkBudget;
+use tofsim_cli::report::writer::Findings;
 use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
 use tofsim_learn::quantize;
 
@@ -25,8 +26,8 @@ pub fn link_budget<'py>(
     py: Python<'py>,
     scenario: Option<&Bound<'py, PyAny>>,
 ) -> Result<Bound<'py, PyAny>> {
-    let findings = Findings::of(Setup::of_counts(Scenario::of(scenario)?.seeded(None))?);
-    let mut found = findings.json();
+    let findings = LinkBudget::of(Setup::of_counts(Scenario::of(scenario)?.seeded(None))?);
+    let mut found = findings.object();
     found["notes"] = json!(findings.notes()?);
     Ok(object(py, &found)?)
 }

@@ -2,8 +2,8 @@
 
 use tofsim::Setup;
 use tofsim::error::Input;
+use tofsim_cli::report::causes;
 use tofsim_cli::report::causes::{CAUSES, Causes};
-use tofsim_cli::report::histogram_svg;
 use tofsim_cli::report::page::facts;
 
 use crate::errors::Result;
@@ -33,7 +33,6 @@ pub fn histogram(
         causes
     };
     let causes = causes.cloned().unwrap_or_else(unknown);
-    let svg =
-        histogram_svg::svg(title, &causes, &setup.scenario.tdc, setup.true_depth_m(), depth_m);
+    let svg = causes::svg(title, &causes, &setup.scenario.tdc, setup.true_depth_m(), depth_m);
     Ok(svg.map_err(|why| Input::new("picture", why))?)
 }

@@ -1,5 +1,7 @@
 //! Columns of a sweep's table: the quantities that a point can yield, by name.
 
+use serde::Serialize;
+
 use tofsim::error::{Result, hint};
 use tofsim::files::toml::Checked;
 use tofsim::optics::first_photon::FirstPhoton;
@@ -14,7 +16,7 @@ use crate::plan::file::Fidelity;
 use crate::tally::Tally;
 
 /// A column.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Column {
     /// Its name.
     pub name: String,
@@ -23,6 +25,7 @@ pub struct Column {
     /// Meaning, as a phrase.
     pub meaning: &'static str,
     /// Origin of its values.
+    #[serde(skip)]
     pub quantity: Quantity,
 }
 

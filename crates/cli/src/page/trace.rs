@@ -1,10 +1,15 @@
-//! Samples of some signals, for a timing diagram.
+//! Samples of a run, as a logic analyser takes them, for a timing diagram and for WaveDrom.
 
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 
 use bitvec::field::BitField;
+use serde_json::{Value, json};
 
-use tofsim_captures::ila::{Capture, Radix};
+use tofsim::error::Result;
+use tofsim::sim::Run;
+use tofsim::sim::setup::Setup;
+use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Probe, Radix, capture};
 
 /// Signals over time, sampled at even steps.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,7 +53,7 @@ impl Trace {
     /// Samples `range` of a capture, whose clock has that period; time begins with the range [ns].
     pub fn of_capture(capture: &Capture, range: Range<usize>, step_ns: f64) -> Self {
         let range = range.start..range.end.min(capture.samples());
-        let wave = |(probe, place): (&tofsim_captures::ila::Probe, Range<usize>)| {
+        let wave = |(probe, place): (&Probe, Range<usize>)| {
             let value = |k: usize| {
                 let word: u64 = capture.sample(k)[place.clone()].load_le();
                 shown(word, probe.width, probe.radix)
@@ -101,6 +106,48 @@ fn shown(word: u64, width: u32, radix: Radix) -> String {
     }
 }
 
+/// The samples of a set-up in a run of `setup`; nothing if it never triggers.
+///
+/// # Errors
+/// When the set-up is not for the design, or the run is stopped.
+pub fn captured(
+    setup: &Setup,
+    set_up: &AnalyserSetup,
+    stop: Option<&AtomicBool>,
+) -> Result<Option<Capture>> {
+    let plan = AnalyserPlan { stop_when_full: true, ..AnalyserPlan::new(set_up, setup)? };
+    let mut analyser = Analyser::new(&plan, setup);
+    capture(Run::new(setup), set_up.file.frames, &mut analyser, stop)?;
+    let is_triggered = !analyser.triggers().is_empty();
+    Ok(is_triggered.then(|| analyser.finish()))
+}
+
+/// The object; `head` says what it shows.
+pub fn wavejson(trace: &Trace, head: &str) -> Value {
+    let signals: Vec<_> = trace.waves.iter().map(signal).collect();
+    let foot = format!("{} ns a step, from {} ns", trace.step_ns, trace.begin_ns);
+    json!({ "signal": signals, "head": { "text": head }, "foot": { "text": foot } })
+}
+
+fn signal(wave: &Wave) -> Value {
+    let mut shape = String::with_capacity(wave.samples.len());
+    let mut data = Vec::new();
+    for (range, value) in wave.stretches() {
+        if wave.is_word {
+            shape.push('=');
+            data.push(value.to_owned());
+        } else {
+            shape += value
+        }
+        shape.extend(range.skip(1).map(|_| '.'));
+    }
+    let mut signal = json!({ "name": wave.name, "wave": shape });
+    if wave.is_word {
+        signal["data"] = json!(data);
+    }
+    signal
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,5 +173,22 @@ mod tests {
         assert_eq!(shown(0b110, 3, Radix::Signed), "-2");
         assert_eq!(shown(5, 4, Radix::Binary), "0101");
         assert_eq!(shown(1, 1, Radix::Hex), "1");
+    }
+
+    #[test]
+    fn levels_and_words_by_hand() {
+        let wave = |name: &str, is_word, samples: &[&str]| Wave {
+            name: name.to_owned(),
+            is_word,
+            samples: samples.iter().map(|value| value.to_string()).collect(),
+        };
+        let waves = vec![
+            wave("start", false, &["0", "1", "1", "0"]),
+            wave("code[7:0]", true, &["00", "00", "7f", "80"]),
+        ];
+        let object = wavejson(&Trace { step_ns: 8.0, waves, ..Trace::default() }, "a shot");
+        assert_eq!(object["signal"][0], json!({ "name": "start", "wave": "01.0" }));
+        assert_eq!(object["signal"][1]["wave"], "=.==");
+        assert_eq!(object["signal"][1]["data"], json!(["00", "7f", "80"]));
     }
 }

@@ -1,7 +1,6 @@
 //! Errors by a quantity of the scene, as boxes: one for each value and estimator.
 
 mod boxes;
-mod missing;
 
 use std::ops::Range;
 

@@ -12,9 +12,8 @@ use tofsim::error::Result;
 use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
 use tofsim_captures::source::Axis;
 
-use crate::text::colour::coloured;
 use crate::text::junit::{self, JunitCase};
-use crate::text::table::{counted, grouped, table};
+use crate::text::table::{coloured, counted, grouped, table};
 
 use super::writer::Findings;
 

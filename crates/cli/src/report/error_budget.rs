@@ -1,8 +1,6 @@
 //! An error budget: tables, JSON, CSV and a picture.
 
-mod budgets;
-mod csv;
-mod json;
+mod files;
 mod picture;
 mod text;
 
@@ -13,14 +11,14 @@ use tofsim::error::Result;
 use super::sheet::NamedText;
 use super::writer::Findings;
 
-pub use budgets::DepthBudgets;
+pub use files::DepthBudgets;
 
 impl Findings for DepthBudgets<'_> {
     const SCHEMA: &'static str = "tofsim.errors/1";
     const FILE: Option<&'static str> = Some("errors.json");
 
     fn json(&self) -> Value {
-        json::json(self)
+        files::json(self)
     }
 
     fn text(&self) -> String {
@@ -28,7 +26,7 @@ impl Findings for DepthBudgets<'_> {
     }
 
     fn sheets(&self) -> Vec<NamedText> {
-        vec![("errors.csv".to_owned(), csv::csv(self))]
+        vec![("errors.csv".to_owned(), files::csv(self))]
     }
 
     fn plots(&self) -> Result<Vec<NamedText>> {

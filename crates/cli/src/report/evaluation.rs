@@ -9,9 +9,9 @@ use tofsim_learn::evaluation::{Figures, Group, KeyGroups, Spread};
 
 use crate::text::table::{fitted, number_or_dash, width};
 
+use super::evaluation_files as files;
 use super::sheet::NamedText;
 use super::writer::Findings;
-use super::{error_plots, evaluation_csv};
 
 /// References that figures are compared with.
 pub struct Beside<'a> {
@@ -125,18 +125,18 @@ impl Findings for EvaluationFindings<'_> {
     }
 
     fn sheets(&self) -> Vec<NamedText> {
-        let mut files = vec![("evaluation.csv".to_owned(), evaluation_csv::groups(self.figures))];
+        let mut sheets = vec![("evaluation.csv".to_owned(), files::groups(self.figures))];
         if self.figures.iter().any(|one| !one.by_scene.is_empty()) {
-            let scenes = evaluation_csv::scenes(self.figures, self.grid);
-            files.push(("scenes.csv".to_owned(), scenes));
+            let scenes = files::scenes(self.figures, self.grid);
+            sheets.push(("scenes.csv".to_owned(), scenes));
         }
-        files
+        sheets
     }
 
     fn plots(&self) -> Result<Vec<NamedText>> {
         let is_thesis = self.grid.is_some_and(Grid::is_thesis);
-        let mut plots = error_plots::all(self.figures, is_thesis)?;
-        plots.extend(error_plots::spread(self.figures, self.bound)?);
+        let mut plots = files::plots(self.figures, is_thesis)?;
+        plots.extend(files::spread(self.figures, self.bound)?);
         Ok(plots)
     }
 }

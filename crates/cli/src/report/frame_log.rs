@@ -15,9 +15,8 @@ use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::{Estimate, Panel};
 
-use super::opinions::{OpinionStatistics, Opinions};
 use super::pairs::{PairLog, PlaceInPair};
-use super::statistics::{EstimatorStatistics, Judge, Tally};
+use super::statistics::{EstimatorStatistics, Judge, OpinionStatistics, Opinions, Tally};
 
 /// Frames of which a table has rows.
 pub const ROWS: usize = 20;
@@ -44,6 +43,7 @@ pub struct DepthSpread {
 }
 
 /// The frames of a run so far.
+#[derive(Default)]
 pub struct FrameLog {
     /// The first frames, [`ROWS`] at most.
     pub rows: Vec<Frame>,
@@ -84,26 +84,13 @@ impl FrameLog {
         (panel, second): (Panel, Option<SecondOpinion>),
         limit_m: f64,
     ) -> Self {
-        let json = json.then(|| SpooledTempFile::new(KEPT));
-        let (rows, readings, opinions) = (Vec::new(), Vec::new(), Vec::new());
-        let pairs = setup.has_pairs().then(|| PairLog::new(setup));
-        let (judge, tally) = (Judge { truth_m: setup.true_depth_m(), limit_m }, Tally::default());
-        let (count, outliers, sums) = (0, 0, (0, 0));
-        let (second, waiting) = (Opinions::new(second), Vec::new());
         FrameLog {
-            rows,
-            readings,
-            opinions,
-            count,
-            pairs,
+            pairs: setup.has_pairs().then(|| PairLog::new(setup)),
             panel,
-            judge,
-            outliers,
-            tally,
-            second,
-            waiting,
-            sums,
-            json,
+            judge: Judge { truth_m: setup.true_depth_m(), limit_m },
+            second: Opinions::new(second),
+            json: json.then(|| SpooledTempFile::new(KEPT)),
+            ..FrameLog::default()
         }
     }
 

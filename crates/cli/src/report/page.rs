@@ -1,11 +1,8 @@
 //! The report of an instrument: one HTML file with all in it, and no scripts.
 
 pub mod accuracy;
-mod cost;
 pub mod facts;
-pub mod frame;
-pub mod notes;
-pub mod verified;
+pub mod sections;
 
 use serde_json::Value;
 
@@ -13,8 +10,7 @@ use tofsim::error::Result;
 use tofsim::scenario::Part;
 use tofsim::sim::setup::Setup;
 
-use crate::page::document::{Document, commands, section, tiles};
-use crate::page::html::{table, wide_figure};
+use crate::page::html::{Document, commands, section, table, tiles, wide_figure};
 use crate::record::Record;
 
 /// Caption of the frame's picture.
@@ -72,10 +68,10 @@ impl Page<'_> {
             self.tiles(),
             section("What it is", &facts::section(self.setup, &self.network)),
             section("What it sees, how far and how exactly", &self.accuracy()?),
-            section("A frame", &frame::section(&self.frame, self.histogram.as_deref(), FRAME)),
-            section("What it costs", &cost::section(&self.cost)),
-            section("What was verified", &verified::section(&self.verify, &self.cycles)),
-            section("Notes", &notes::section(&self.notes)),
+            section("A frame", &sections::frame(&self.frame, self.histogram.as_deref(), FRAME)),
+            section("What it costs", &sections::cost(&self.cost)),
+            section("What was verified", &sections::verified(&self.verify, &self.cycles)),
+            section("Notes", &sections::notes(&self.notes)),
             section("What made it", &self.origin()),
         ];
         let name = &self.setup.name;

@@ -12,7 +12,7 @@ use super::frame_log::FrameLog;
 use super::pairs::{PairStatistics, mean, right_of_echo};
 use super::sheet::Digits::Shortest;
 use super::sheet::Sheet;
-use super::{opinions, readings};
+use super::{readings, statistics};
 
 /// The table of a run in pairs.
 pub fn table(setup: &Setup, log: &FrameLog) -> String {
@@ -36,7 +36,7 @@ fn one_pair(
         rows.push(("true depth", format!("{truth:.6} m")));
     }
     if let Some(opinion) = opinion {
-        rows.push(("second opinion", opinions::in_words(opinion, setup.true_depth_m())));
+        rows.push(("second opinion", statistics::in_words(opinion, setup.true_depth_m())));
     }
     rows.extend(readings::rows(setup, readings));
     let both = |of: &dyn Fn(&Frame) -> u64| {
@@ -77,7 +77,7 @@ fn many_pairs(log: &FrameLog) -> String {
     let count = log.pairs.as_ref().map_or(0, |pairs| pairs.statistics().count);
     let left = count.saturating_sub(log.rows.len() as u64 / 2);
     let header = ["pair", "codes dark", "codes lit", "least", "most"];
-    readings::many(&header, log, rows, left, readings::below_pairs(log, header.len()))
+    readings::many(&header, log, rows, left, readings::below(log, header.len(), None))
 }
 
 /// Returns the statistics of many pairs, a line each.

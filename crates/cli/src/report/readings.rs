@@ -43,7 +43,7 @@ pub fn many<'a>(
 }
 
 /// Of each estimator over all frames or pairs: mean, 2σ, mean error [mm], outliers, failures.
-pub fn below(log: &FrameLog) -> Vec<[String; 5]> {
+fn statistics(log: &FrameLog) -> Vec<[String; 5]> {
     let metres = |m: Option<f64>| number_or_dash(m, 6);
     let cells = |one: EstimatorStatistics| {
         let error = one.mean_error_m.map_or("-".to_owned(), |m| format!("{:+.3}", 1e3 * m));
@@ -54,19 +54,25 @@ pub fn below(log: &FrameLog) -> Vec<[String; 5]> {
     log.estimators().into_iter().map(cells).collect()
 }
 
-/// Rows of the same below pairs, of so many cells before the estimators'.
-pub fn below_pairs(log: &FrameLog, cells: usize) -> Vec<Vec<String>> {
-    let others = below(log);
-    if others.is_empty() {
-        return Vec::new();
-    }
+/// Rows of the same below frames or pairs, of so many cells before the estimators': a name, and in `own` the values of
+/// the firmware's own estimator.
+pub fn below(log: &FrameLog, cells: usize, own: Option<[String; 5]>) -> Vec<Vec<String>> {
+    let others = statistics(log);
+    let names = ["mean", "2σ", "error [mm]", "outliers", "failures"];
+    // The firmware always has a depth.
+    let shown = match (others.is_empty(), &own) {
+        (false, _) => names.len(),
+        (true, Some(_)) => names.len() - 1,
+        (true, None) => 0,
+    };
     let row = |(k, name): (usize, &str)| {
         let mut row = vec![name.to_owned()];
+        row.extend(own.iter().map(|five| five[k].clone()));
         row.resize(cells, String::new());
         row.extend(others.iter().map(|five| five[k].clone()));
         row
     };
-    ["mean", "2σ", "error [mm]", "outliers", "failures"].into_iter().enumerate().map(row).collect()
+    names.into_iter().enumerate().take(shown).map(row).collect()
 }
 
 /// A depth, and that of a second echo, or why there is none.

@@ -15,7 +15,6 @@ use crate::record::Record;
 use super::causes::{self, CAUSES, Causes};
 use super::events::Events;
 use super::frame_log::FrameLog;
-use super::histogram_svg;
 use super::pair_table;
 use super::sheet::Digits::Shortest;
 use super::sheet::Sheet;
@@ -129,13 +128,8 @@ impl<'a> RunFiles<'a> {
             None => Some(frame.depth_m()),
             Some(_) => log.readings[self.shown as usize].iter().find_map(|one| one.depth_m),
         };
-        let svg = histogram_svg::svg(
-            &title,
-            &self.causes,
-            &setup.scenario.tdc,
-            setup.true_depth_m(),
-            depth_m,
-        );
+        let svg =
+            causes::svg(&title, &self.causes, &setup.scenario.tdc, setup.true_depth_m(), depth_m);
         write_file(&folder.join(NAMES[0]), |file| summary.write(log, file))?;
         let csv = |text: String| self.record.comment_line() + &text;
         write_bytes(&folder.join(NAMES[1]), csv(histogram_csv(&frame.histogram)))?;

@@ -4,13 +4,12 @@ use serde_json::Value;
 
 use tofsim::sim::setup::Setup;
 
-use crate::page::document::{Document, commands, section, tiles};
-use crate::page::html::{escaped, figure, table, wide_figure};
+use crate::page::html::{Document, commands, escaped, figure, section, table, tiles, wide_figure};
 use crate::page::timing;
 use crate::page::trace::Trace;
 use crate::record::Record;
 
-use super::page::{accuracy, facts, frame, notes, verified};
+use super::page::{accuracy, facts, sections};
 
 /// A part of the page, or why it is not there.
 pub type ReportPart<T> = Result<T, String>;
@@ -41,10 +40,8 @@ pub struct ScenarioPage<'a> {
 impl ScenarioPage<'_> {
     /// The whole page; an error only if the plotting library fails.
     pub fn html(&self) -> tofsim::error::Result<String> {
-        let evaluation = match &self.evaluation {
-            Ok(evaluation) => accuracy::section(evaluation)?,
-            Err(why) => without(why),
-        };
+        let evaluation = self.evaluation.as_ref().map(accuracy::section);
+        let evaluation = evaluation.unwrap_or_else(|why| Ok(without(why)))?;
         let body = [
             self.tiles(),
             section("What it is", &facts::section(self.setup, &Value::Null)),
@@ -56,7 +53,7 @@ impl ScenarioPage<'_> {
             section("Depth error budget", &self.errors()),
             section("Accuracy over the range", &evaluation),
             section("What was verified", &self.verified()),
-            section("Notes", &notes::section(&self.notes)),
+            section("Notes", &sections::notes(&self.notes)),
             section("By hand", &commands(&self.commands)),
         ];
         let name = &self.setup.name;
@@ -85,23 +82,13 @@ impl ScenarioPage<'_> {
     }
 
     fn waveform(&self) -> String {
-        match &self.waveform {
-            Err(why) => without(why),
-            Ok(trace) => figure(
-                &timing::svg(trace),
-                "The first shots, as an analyser at clk_laser samples them. waveform.json beside is the same for WaveDrom.",
-            ),
-        }
+        let words = "The first shots, as an analyser at clk_laser samples them. waveform.json beside is the same for WaveDrom.";
+        shown(&self.waveform, |trace| figure(&timing::svg(trace), words))
     }
 
     fn frame(&self) -> String {
-        match &self.run {
-            Err(why) => without(why),
-            Ok((run, histogram)) => {
-                let words = "Its histogram, by what caused each count.";
-                frame::section(run, Some(histogram), words)
-            }
-        }
+        let words = "Its histogram, by what caused each count.";
+        shown(&self.run, |(run, histogram)| sections::frame(run, Some(histogram), words))
     }
 
     /// Returns the expected and the simulated duration of a frame.
@@ -153,24 +140,23 @@ impl ScenarioPage<'_> {
     }
 
     fn errors(&self) -> String {
-        match &self.errors {
-            Err(why) => without(why),
-            Ok((picture, text)) => {
-                let words = "What each effect alone adds to bias and variance; the line is what all together are.";
-                wide_figure(picture, words) + &format!("<pre>{}</pre>\n", escaped(text))
-            }
-        }
+        let words =
+            "What each effect alone adds to bias and variance; the line is what all together are.";
+        shown(&self.errors, |(picture, text)| {
+            wide_figure(picture, words) + &format!("<pre>{}</pre>\n", escaped(text))
+        })
     }
 
     fn verified(&self) -> String {
-        match &self.verified {
-            Err(why) => without(why),
-            Ok((verify, cycles)) => verified::section(verify, cycles),
-        }
+        shown(&self.verified, |(verify, cycles)| sections::verified(verify, cycles))
     }
 }
 
-/// Why a part is not there.
+/// Returns a part as HTML, or why it is not there.
+fn shown<T>(part: &ReportPart<T>, html: impl FnOnce(&T) -> String) -> String {
+    part.as_ref().map_or_else(|why| without(why), html)
+}
+
 fn without(why: &str) -> String {
     format!("<p class=\"reason\">Not shown: {}</p>\n", escaped(why))
 }

@@ -10,7 +10,7 @@ use crate::text::table::{facts, grouped, number_or_dash, table};
 
 use super::frame_log::{DepthSpread, FrameLog};
 use super::summary::TdcSummary;
-use super::{opinions, pair_table, readings};
+use super::{pair_table, readings, statistics};
 
 /// Returns the results of a run in a dozen lines.
 ///
@@ -30,7 +30,7 @@ pub fn run(setup: &Setup, log: &FrameLog, cycles: Option<u64>, wall: Duration) -
         text += &format!("\n\n{}", pair_table::lines(&pairs.statistics()).trim_end());
     }
     if let Some(second) = log.second_opinion() {
-        text += &format!("\n\n{}", opinions::line(&second));
+        text += &format!("\n\n{}", statistics::line(&second));
     }
     let wall_ms = wall.as_secs_f64() * 1e3;
     text += &match cycles {
@@ -52,9 +52,9 @@ fn one_frame(setup: &Setup, frame: &Frame, log: &FrameLog) -> String {
     if let Some(truth) = setup.true_depth_m() {
         rows.push(("true depth", format!("{truth:.6} m")));
     }
-    rows.push(("estimated", opinions::in_words(&frame.estimate(), setup.true_depth_m())));
+    rows.push(("estimated", statistics::in_words(&frame.estimate(), setup.true_depth_m())));
     if let Some(opinion) = &log.opinions[0] {
-        rows.push(("second opinion", opinions::in_words(opinion, setup.true_depth_m())));
+        rows.push(("second opinion", statistics::in_words(opinion, setup.true_depth_m())));
     }
     rows.extend(readings::rows(setup, &log.readings[0]));
     let cycles = grouped(frame.frame_cycles);
@@ -90,26 +90,12 @@ fn many_frames(log: &FrameLog) -> String {
 /// Returns the rows with the statistics of all frames, of `cells` cells and one for each other estimator.
 fn below(own: &DepthSpread, cells: usize, log: &FrameLog) -> Vec<Vec<String>> {
     let metres = |m: f64| format!("{m:.6}");
-    let mm = |m: Option<f64>| m.map_or("-".to_owned(), |m| format!("{:+.3}", 1e3 * m));
-    let others = readings::below(log);
-    let mut rows = vec![
-        ("mean", metres(own.mean_m)),
-        ("2σ", metres(own.two_sd_m)),
-        ("error [mm]", mm(own.mean_error_m)),
-        ("outliers", own.outliers.to_string()),
-        ("failures", "-".to_owned()),
-    ];
-    if others.is_empty() {
-        rows.pop();
-    }
+    let error = own.mean_error_m.map_or("-".to_owned(), |m| format!("{:+.3}", 1e3 * m));
+    let (mean, two_sd, outliers) =
+        (metres(own.mean_m), metres(own.two_sd_m), own.outliers.to_string());
+    let own_cells = [mean, two_sd, error, outliers, "-".to_owned()];
     let truth = own.true_depth_m.map(|m| vec!["truth".to_owned(), metres(m)]);
-    let row = |(k, (name, cell)): (usize, (&str, String))| {
-        let mut row = vec![name.to_owned(), cell];
-        row.resize(cells, String::new());
-        row.extend(others.iter().map(|five| five[k].clone()));
-        row
-    };
-    truth.into_iter().chain(rows.into_iter().enumerate().map(row)).collect()
+    truth.into_iter().chain(readings::below(log, cells, Some(own_cells))).collect()
 }
 
 /// Thesis Table 6.3.

@@ -9,9 +9,8 @@ use tofsim::error::Result;
 use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::{BlockReport, Verdict};
 
-use crate::text::colour::coloured_ends;
 use crate::text::junit::{self, JunitCase};
-use crate::text::table::{grouped, table};
+use crate::text::table::{coloured_ends, grouped, table};
 
 use super::sheet::Sheet;
 use super::writer::Findings;

@@ -9,7 +9,8 @@ use tofsim::error::Result;
 use tofsim::sim::setup::Setup;
 
 use crate::record::Record;
-use crate::verbs::terminal::{Talk, print_json};
+use crate::text::table::plain;
+use crate::verbs::terminal::{Talk, print, print_json};
 
 use super::sheet::NamedText;
 
@@ -47,6 +48,27 @@ pub trait Findings {
     fn plots(&self) -> Result<Vec<NamedText>> {
         Ok(Vec::new())
     }
+}
+
+/// Returns rows of words as an array of JSON objects with the given keys.
+pub fn objects<const N: usize>(keys: [&str; N], rows: &[[String; N]]) -> Value {
+    let pairs = |row: &[String; N]| {
+        let values = row.iter().map(|word| json!(word));
+        Value::Object(keys.iter().map(|key| (*key).to_owned()).zip(values).collect())
+    };
+    rows.iter().map(pairs).collect()
+}
+
+/// Prints rows of words: as an array of JSON objects, or as a table without a header.
+///
+/// # Errors
+/// When standard output is closed.
+pub fn print_list<const N: usize>(
+    keys: [&str; N],
+    rows: &[[String; N]],
+    as_json: bool,
+) -> Result<()> {
+    if as_json { print_json(&objects(keys, rows)) } else { print(&format!("{}\n", plain(rows))) }
 }
 
 /// Findings with what they come from and what limits them.

@@ -1,6 +1,7 @@
-//! An item evaluated: its rows, pictures and verdict.
+//! An item evaluated: its rows, pictures and verdict; and the object `tofsim.reproduce/1` of all.
 
 use serde::Serialize;
+use serde_json::json;
 
 use tofsim::error::{Input, Result};
 use tofsim::scenario;
@@ -8,14 +9,12 @@ use tofsim::scenario;
 use crate::page::plot::Plot;
 use crate::page::trace::Trace;
 
-use super::line::Line;
-use super::measured::{Drawing, Measured};
 use super::measures::measure;
 use super::study::Study;
-use super::sweeps::Sweeps;
+use super::sweeps::{Line, Sweeps};
 use super::table::{Item, LineSpec, Picture, RowSpec};
-use super::values::{Value, Values};
-use super::verdict::{Number, Row, Side, Verdict};
+use super::values::{Drawing, Measured, Value, Values};
+use super::verdict::{Number, RULE, Row, Side, Verdict};
 
 /// A picture with words below it.
 pub struct Figure {
@@ -212,6 +211,20 @@ fn row(spec: &RowSpec, values: &Values) -> Result<Row> {
         _ => side(printed, digits.unwrap_or(decimals)),
     });
     Ok(Row::new(what, &spec.unit, thesis.transpose()?, ours))
+}
+
+/// Returns the object, without the record.
+pub fn json(findings: &[Finding], quick: bool) -> serde_json::Value {
+    let [same, differs, none] = tally(findings).map(|(_, count)| count);
+    json!({
+        "schema": "tofsim.reproduce/1",
+        "quick": quick,
+        "rule": RULE,
+        "same": same,
+        "differs": differs,
+        "cannot_be_reproduced": none,
+        "items": findings,
+    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! The page of what was found.
 
-use crate::page::document::{Document, commands, section, tiles};
-use crate::page::html::{badge, comparison, escaped, figure, wide_figure};
+use crate::page::html::{
+    Document, badge, commands, comparison, escaped, figure, section, tiles, wide_figure,
+};
 use crate::page::timing;
 use crate::record::Record;
 

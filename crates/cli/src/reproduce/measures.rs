@@ -1,34 +1,30 @@
 //! Measurements of the items that are no sweep, one file for each subject.
 
-mod counts;
 mod estimator;
-mod failures;
 mod fixed_point;
 mod histograms;
 mod laser;
 mod network;
-mod optics;
 mod oscilloscope;
 mod parameters;
 mod peak;
 mod subtraction;
-mod tdc;
 
 use tofsim::error::Result;
 
-use super::measured::Measured;
 use super::study::Study;
+use super::values::Measured;
 
 /// A measurement.
 pub type Measure = fn(&Study) -> Result<Measured>;
 
 /// The measurement of each item that has one.
 const MEASURES: [(&str, Measure); 36] = [
-    ("eq-3.3", optics::eye_safety),
-    ("table-3.1", optics::emission_limits),
-    ("table-3.2", optics::specifications),
+    ("eq-3.3", parameters::eye_safety),
+    ("table-3.1", parameters::emission_limits),
+    ("table-3.2", parameters::specifications),
     ("fig-3.3", histograms::model),
-    ("table-4.3", failures::failures),
+    ("table-4.3", peak::failures),
     ("fig-4.1", histograms::peak_shift),
     ("listing-5.3", peak::compensation),
     ("table-5.1", parameters::findpeaks),
@@ -37,7 +33,7 @@ const MEASURES: [(&str, Measure); 36] = [
     ("table-5.4", parameters::training),
     ("table-5.5", network::floating_point),
     ("fig-5.1", histograms::by_cause),
-    ("fig-5.3", failures::failed_histogram),
+    ("fig-5.3", peak::failed_histogram),
     ("fig-5.4", peak::examples),
     ("fig-5.5", subtraction::subtraction),
     ("fig-5.7a", network::depths),
@@ -45,16 +41,16 @@ const MEASURES: [(&str, Measure); 36] = [
     ("clocks", estimator::clocks),
     ("table-6.1", laser::rates),
     ("table-6.2", laser::modes),
-    ("table-6.3", tdc::delay_cells),
+    ("table-6.3", laser::delay_cells),
     ("table-6.4", fixed_point::formats),
     ("table-6.5", network::hardware),
     ("fig-6.3", laser::rates),
     ("fig-6.6", laser::trigger),
     ("fig-6.7", oscilloscope::screen),
-    ("fig-6.9", tdc::timing),
-    ("fig-6.12", counts::preload),
-    ("fig-6.13", counts::words),
-    ("fig-6.14", counts::printed),
+    ("fig-6.9", laser::timing),
+    ("fig-6.12", estimator::preload),
+    ("fig-6.13", estimator::words),
+    ("fig-6.14", estimator::printed),
     ("fig-6.16a", fixed_point::weights),
     ("fig-6.16b", fixed_point::activation),
     ("fig-6.17", network::both),

@@ -9,7 +9,7 @@ use tofsim_learn::estimation::peak_detection::PeakDetection;
 
 use crate::page::plot::{BLUE, GREY, Layer, ORANGE, Shape};
 
-use super::peaks::SHOTS;
+use super::peaks::{Peaks, SHOTS};
 use super::study::Study;
 
 /// Width of a bin [ns].
@@ -72,9 +72,16 @@ pub fn bars(counts: &[f64]) -> Layer {
     Layer::new("histogram", GREY, Shape::Bars, points.chain([end]))
 }
 
-/// An upright line at a time.
-pub fn upright(name: String, ns: f64, height: f64) -> Layer {
-    Layer::between(name, ORANGE, [(ns, 0.0), (ns, height)])
+/// The largest count [hits].
+pub fn height(counts: &[f64]) -> f64 {
+    counts.iter().copied().fold(0.0, f64::max)
+}
+
+/// An upright line where the echo of a target arrives, as high as the histogram.
+pub fn target(distance_m: f64, counts: &[f64]) -> Layer {
+    let ns = 1e-3 * Peaks::arrival_ps(distance_m);
+    let ends = [(ns, 0.0), (ns, height(counts))];
+    Layer::between(format!("target: {ns:.3} ns"), ORANGE, ends)
 }
 
 /// The smoothed curve of Listing 5.1.

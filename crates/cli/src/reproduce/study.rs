@@ -5,12 +5,18 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::network::Histogram;
 use tofsim::optics::BinProbabilities;
 use tofsim::scenario;
+use tofsim::sim::Run;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::shot_recorder::Shot;
+use tofsim_captures::ila::{AnalyserSetup, Capture};
 use tofsim_learn::dataset::{HistogramSource, Scene};
+
+use crate::page::trace::captured;
 
 use super::networks::Networks;
 use super::peaks::Peaks;
@@ -60,6 +66,46 @@ impl Study {
     /// As [`Study::setup`].
     pub fn ideal(&self) -> Result<Setup> {
         self.setup(scenario::DEFAULT, &["tdc.profile=ideal", "estimator.network=ideal"])
+    }
+
+    /// Captures what a built-in probe configuration sees of its own scenario, with more keys set.
+    ///
+    /// # Errors
+    /// When there is no such configuration, it never triggers, or the run is stopped.
+    pub fn captured(&self, name: &str, set: &[&str]) -> Result<(Setup, Capture)> {
+        self.capture(&AnalyserSetup::load(name)?, set)
+    }
+
+    /// Captures the same by the text of a probe configuration.
+    ///
+    /// # Errors
+    /// As [`Study::captured`].
+    pub fn captured_by(&self, text: &str, set: &[&str]) -> Result<(Setup, Capture)> {
+        self.capture(&AnalyserSetup::parse("scope", "set-up", text)?, set)
+    }
+
+    fn capture(&self, set_up: &AnalyserSetup, set: &[&str]) -> Result<(Setup, Capture)> {
+        let own = set_up.file.set.iter().map(String::as_str);
+        let set: Vec<_> = own.chain(set.iter().copied()).collect();
+        let setup = self.setup(&set_up.file.scenario, &set)?;
+        let seen = captured(&setup, set_up, self.stop())?;
+        let seen = seen.ok_or_else(|| Input::new(&set_up.name, "never triggered"))?;
+        Ok((setup, seen))
+    }
+
+    /// Simulates a frame through every register, and returns its shots.
+    ///
+    /// # Errors
+    /// When it is stopped.
+    pub fn shots(&self, setup: &Setup) -> Result<Vec<Shot>> {
+        let mut shots = Vec::new();
+        let mut take = |shot: &Shot| {
+            shots.push(*shot);
+            Ok(())
+        };
+        let watch = Observers { shots: Some(&mut take), stop: self.stop(), ..Observers::default() };
+        Run::new(setup).observe(1, watch)?;
+        Ok(shots)
     }
 
     /// Returns the distribution of its histograms.

@@ -1,4 +1,4 @@
-//! Values of an item by name, and the formulas and sentences of the item table that use them.
+//! Results of measurements: values by name, with the formulas and sentences of the item table that use them, and drawings.
 
 use std::collections::BTreeMap;
 
@@ -7,6 +7,9 @@ use serde_json::Value as Json;
 
 use tofsim::error::{Input, Result, hint};
 use tofsim_studies::limit::Relation;
+
+use crate::page::plot::Layer;
+use crate::page::trace::Trace;
 
 /// A value that a measurement gives a name.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +46,18 @@ impl Values {
             Json::String(words) => self.put_words(name, words),
             _ => (),
         }
+    }
+
+    /// Returns, for each wave, its number of `rises`, the instant of the first one (`first_ns`), and its `high` samples.
+    pub fn of_trace(trace: &Trace) -> Self {
+        let mut values = Values::default();
+        for wave in &trace.waves {
+            let (name, rises) = (&wave.name, trace.rises_ns(&wave.name));
+            values.put(format!("{name}.rises"), rises.len() as f64);
+            values.put(format!("{name}.first_ns"), rises.first().copied().unwrap_or(f64::NAN));
+            values.put(format!("{name}.high"), trace.high(name) as f64);
+        }
+        values
     }
 
     /// Gives a value a name.
@@ -177,6 +192,51 @@ impl Values {
             _ => number(self.number(formula)?),
         })
     }
+}
+
+/// Result of an item's measurement: values by name, and pictures in the order of the item's.
+#[derive(Default)]
+pub struct Measured {
+    /// Values that rows, pictures and the reason name.
+    pub values: Values,
+    /// Pictures without their words.
+    pub drawings: Vec<Drawing>,
+}
+
+impl From<Values> for Measured {
+    fn from(values: Values) -> Self {
+        Measured { values, drawings: Vec::new() }
+    }
+}
+
+impl Measured {
+    /// Adds a plot.
+    pub fn layers(mut self, layers: Vec<Layer>) -> Self {
+        self.drawings.push(Drawing::Layers(layers));
+        self
+    }
+
+    /// Adds a whole picture.
+    pub fn svg(mut self, svg: String) -> Self {
+        self.drawings.push(Drawing::Svg(svg));
+        self
+    }
+
+    /// Adds a timing diagram.
+    pub fn trace(mut self, trace: Trace) -> Self {
+        self.drawings.push(Drawing::Trace(trace));
+        self
+    }
+}
+
+/// A picture without its words.
+pub enum Drawing {
+    /// Layers of a plot.
+    Layers(Vec<Layer>),
+    /// A whole picture, drawn for a wide page.
+    Svg(String),
+    /// A timing diagram.
+    Trace(Trace),
 }
 
 #[cfg(test)]

@@ -16,18 +16,14 @@ use super::draws::{MOST_THREADS, use_threads};
 use super::interrupt::look_no_more;
 use super::terminal::{RunCommand, Talk, print_json};
 
-mod accuracy;
-mod cost;
+mod design;
 mod files;
-mod frame;
 mod journal;
+mod measured;
 mod network;
 mod page;
-mod proofs;
 mod site;
 mod step;
-mod vectors;
-mod verilog;
 
 use journal::{Journal, StepRecord};
 use site::Site;
@@ -81,8 +77,8 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     instrument.write(Path::new("."))?;
     let journal = Journal::read()?;
     let mut build = Build { site, journal, args, talk };
-    let asked = if args.steps.is_empty() { Step::ALL.to_vec() } else { args.steps.clone() };
-    for step in Step::ALL.into_iter().filter(|step| asked.contains(step)) {
+    let asked = if args.steps.is_empty() { Step::all().to_vec() } else { args.steps.clone() };
+    for step in Step::all().into_iter().filter(|step| asked.contains(step)) {
         build.take(step)?;
     }
     let Build { journal, .. } = build;
@@ -125,11 +121,11 @@ impl Build<'_> {
     /// Does a step, unless it has been done.
     fn take(&mut self, step: Step) -> Result<()> {
         for need in step.needs() {
-            if !self.journal.is_whole(*need) {
+            if !self.journal.is_whole(need) {
                 let expected = format!(
                     "{step} needs {need}, which is not there: add it, or leave --steps out"
                 );
-                if step != Step::Report && self.journal.missing(*need).is_none() {
+                if step != Step::Report && self.journal.missing(need).is_none() {
                     return Err(Input::new("--steps", expected).value(step).into());
                 }
             }
@@ -150,14 +146,14 @@ impl Build<'_> {
         let site = &self.site;
         let outcome = match step {
             Step::Network => network::run(site, self.args.force),
-            Step::Verilog => verilog::run(site),
-            Step::Constraints => verilog::constraints(site),
-            Step::Vectors => vectors::run(site),
-            Step::Cycles => proofs::cycles(site),
-            Step::Verify => proofs::verify(site),
-            Step::Frame => frame::run(site),
-            Step::Accuracy => accuracy::run(site),
-            Step::Cost => cost::run(site),
+            Step::Verilog => design::verilog(site),
+            Step::Constraints => design::constraints(site),
+            Step::Vectors => design::vectors(site),
+            Step::Cycles => design::cycles(site),
+            Step::Verify => design::verify(site),
+            Step::Frame => measured::frame(site),
+            Step::Accuracy => measured::accuracy(site),
+            Step::Cost => design::cost(site),
             Step::Report => page::run(site, &self.journal),
         };
         look_no_more();

@@ -181,12 +181,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             (Source::simulation(setup, frames), b)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
-        (Some(_), _) => {
-            let expected = "expected one file: the other side is the scenario's";
-            return Err(Input::new("compare", expected).into());
-        }
-        (None, _) => {
-            let expected = "expected two files, or one and --scenario";
+        (given, _) => {
+            let expected = match given {
+                Some(_) => "expected one file: the other side is the scenario's",
+                None => "expected two files, or one and --scenario",
+            };
             return Err(Input::new("compare", expected).into());
         }
     };

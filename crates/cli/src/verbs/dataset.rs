@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use serde_json::json;
+use serde::Serialize;
+use serde_json::{Value, json};
 
+use tofsim::Note;
 use tofsim::error::{Error, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::scenario;
@@ -13,11 +15,12 @@ use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
 use tofsim_learn::dataset::{Axis, DatasetDescription, Grid, GridPurpose, Sample};
 
 use crate::choice::{self, words};
+use crate::report::writer::{Findings, Report};
 use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
 use super::scenes::Scenes;
-use super::terminal::{Talk, print_json, stop_signal};
+use super::terminal::{Talk, stop_signal};
 
 /// Draw histograms of many scenes, for training and tests
 #[derive(Debug, clap::Args)]
@@ -76,14 +79,18 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         .on_threads(rows.count(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
     written.iter().for_each(|path| talk.wrote(path));
 
-    let files: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
-    if args.json {
-        let mut report = json!(description);
-        report["files"] = json!(files);
-        report["notes"] = json!(notes);
-        return print_json(&report);
-    }
-    talk.report(&table(&description, &files))
+    let files = written.iter().map(|path| path.display().to_string()).collect();
+    let findings = DatasetFindings { description, files, notes };
+    Report::without_record(findings).deliver(None, args.json, talk)
+}
+
+/// A dataset that was written.
+#[derive(Serialize)]
+struct DatasetFindings {
+    #[serde(flatten)]
+    description: DatasetDescription,
+    files: Vec<String>,
+    notes: Vec<Note>,
 }
 
 /// Writes a block while the next one is drawn.
@@ -106,23 +113,33 @@ fn write(
     files.finish()
 }
 
-fn table(description: &DatasetDescription, files: &[String]) -> String {
-    let choice = if description.subset { "random scenes of " } else { "" };
-    let shots = description.shots_per_frame.map(|shots| format!("{} each", grouped(shots.into())));
-    let rows = [
-        ("scenario", description.scenario.clone()),
-        ("chain", description.profile.clone()),
-        ("grid", format!("{choice}{}", description.grid)),
-        ("histograms", grouped(description.rows)),
-        ("shots", shots.unwrap_or("as in the grid".to_owned())),
-        ("seed", description.seed.to_string()),
-    ];
-    let axes = description.axes.iter().flatten();
-    let axes = axes.map(|Axis { key, text, .. }| ("", format!("{key} = {text}")));
-    let files = files.iter().map(|file| ("file", file.clone()));
-    let (head, tail) = rows.split_at(3);
-    format!(
-        "{}\n",
-        facts(head.iter().cloned().chain(axes).chain(tail.iter().cloned()).chain(files))
-    )
+impl Findings for DatasetFindings {
+    const SCHEMA: &'static str = "tofsim.dataset/1";
+
+    fn json(&self) -> Value {
+        json!(self)
+    }
+
+    fn text(&self) -> String {
+        let description = &self.description;
+        let choice = if description.subset { "random scenes of " } else { "" };
+        let shots =
+            description.shots_per_frame.map(|shots| format!("{} each", grouped(shots.into())));
+        let rows = [
+            ("scenario", description.scenario.clone()),
+            ("chain", description.profile.clone()),
+            ("grid", format!("{choice}{}", description.grid)),
+            ("histograms", grouped(description.rows)),
+            ("shots", shots.unwrap_or("as in the grid".to_owned())),
+            ("seed", description.seed.to_string()),
+        ];
+        let axes = description.axes.iter().flatten();
+        let axes = axes.map(|Axis { key, text, .. }| ("", format!("{key} = {text}")));
+        let files = self.files.iter().map(|file| ("file", file.clone()));
+        let (head, tail) = rows.split_at(3);
+        format!(
+            "{}\n",
+            facts(head.iter().cloned().chain(axes).chain(tail.iter().cloned()).chain(files))
+        )
+    }
 }

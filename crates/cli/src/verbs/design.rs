@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use tofsim::error::{Input, Result};
-use tofsim_rtl::verify::Rtl;
 use tofsim_rtl::verify::rtl::Sources;
+use tofsim_rtl::verify::{Rtl, yosys};
 
 use super::terminal::Talk;
 
@@ -34,6 +34,17 @@ impl Design {
     /// Whether none is named: then it is our own.
     pub fn is_ours(&self) -> bool {
         self.rtl.is_empty() && self.list.is_empty() && self.relative_list.is_empty()
+    }
+
+    /// Checks that Yosys can read a design; the error names `source`.
+    ///
+    /// # Errors
+    /// When it has a source or a library that is no Verilog.
+    pub fn check_for_yosys(rtl: &Rtl, source: &str) -> Result<()> {
+        let Some(path) = yosys::unread(rtl) else { return Ok(()) };
+        let expected =
+            "expected Verilog sources only, without libraries: Yosys reads no others here";
+        Err(Input::new(source, expected).value(path.display()).into())
     }
 
     /// The design; what its lists have beside sources is noted.

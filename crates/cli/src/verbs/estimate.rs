@@ -4,12 +4,12 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::firmware::tof_top::slot::EstimateWords;
-use tofsim::network::{self, estimate};
+use tofsim::network::{self, Network, estimate};
 use tofsim::scenario;
 use tofsim::sim::estimates::digits;
 use tofsim::sim::setup::Setup;
@@ -19,12 +19,12 @@ use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
 use tofsim_learn::quantize::{ExplainedLikelihood, Explanation, LikelihoodExplainer, explain};
 
 use crate::choice::words;
-use crate::record::Record;
-use crate::report::{explained_likelihood, explanation, readings};
+use crate::report::writer::{Findings, Report};
+use crate::report::{explanation, readings};
 use crate::text;
 
 use super::draws::from_here;
-use super::terminal::{Talk, print_json};
+use super::terminal::Talk;
 
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
@@ -106,28 +106,43 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             rows.push(Row { index, file, numbers, estimates, explanation, likelihood_explanation });
         }
     }
-    if !args.json && args.explain {
-        return talk.report(&rows.iter().map(explained).collect::<Vec<_>>().join("\n"));
-    }
-    if !args.json {
-        return talk.report(
-            &rows
-                .chunks(TABLE)
-                .map(|rows| table(rows, network.datapath.w1.fraction, names.len() > 1))
-                .collect::<String>(),
-        );
-    }
-    let mut report = json!({ "schema": "tofsim.estimate/1", "network": network.name });
-    // Once more for scripts, if there is just one histogram.
-    if let [row] = &rows[..] {
-        let numbers = json!(row.numbers);
-        for key in ["depth_raw", "depth_m", "l1_in"] {
-            report[key] = numbers[key].clone();
+    let (several, explain) = (names.len() > 1, args.explain);
+    let findings = EstimateFindings { network, rows, several, explain };
+    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
+}
+
+/// Estimates of all histograms.
+struct EstimateFindings<'a> {
+    network: &'a Network,
+    rows: Vec<Row<'a>>,
+    /// Whether there are several files.
+    several: bool,
+    /// Whether people see every value of the datapath.
+    explain: bool,
+}
+
+impl Findings for EstimateFindings<'_> {
+    const SCHEMA: &'static str = "tofsim.estimate/1";
+
+    fn json(&self) -> Value {
+        let mut json = json!({ "network": self.network.name, "histograms": self.rows });
+        // Once more for scripts, if there is just one histogram.
+        if let [row] = &self.rows[..] {
+            let numbers = json!(row.numbers);
+            for key in ["depth_raw", "depth_m", "l1_in"] {
+                json[key] = numbers[key].clone();
+            }
         }
+        json
     }
-    report["histograms"] = json!(rows);
-    Record::new(&setup, &talk.command).put_into(&mut report, &notes);
-    print_json(&report)
+
+    fn text(&self) -> String {
+        if self.explain {
+            return self.rows.iter().map(explained).collect::<Vec<_>>().join("\n");
+        }
+        let fraction = self.network.datapath.w1.fraction;
+        self.rows.chunks(TABLE).map(|rows| table(rows, fraction, self.several)).collect()
+    }
 }
 
 impl Args {
@@ -187,12 +202,12 @@ fn explained(row: &Row) -> String {
     let Row { index, file, numbers, .. } = row;
     let (depth_m, depth_raw) = (numbers.depth_m(), numbers.depth_raw());
     let network = row.explanation.as_ref().map(|of| {
-        format!("{file} #{index}: {depth_m:.6} m ({depth_raw})\n{}", explanation::text(of))
+        format!("{file} #{index}: {depth_m:.6} m ({depth_raw})\n{}", explanation::network(of))
     });
     let likelihood = row.likelihood_explanation.as_ref().map(|of| {
         let ExplainedLikelihood { depth_raw, depth_m, sigma_m, .. } = of;
         let name = EstimatorKind::LikelihoodEstimator.name();
-        let text = explained_likelihood::text(of);
+        let text = explanation::likelihood(of);
         format!("{file} #{index}: {depth_m:.6} m ({depth_raw}), {name}, sd {sigma_m:.6} m\n{text}")
     });
     network.into_iter().chain(likelihood).collect::<Vec<_>>().join("\n")

@@ -3,11 +3,17 @@
 pub mod capture;
 pub mod info;
 pub mod replay;
-pub mod set_ups;
 
 use clap::Subcommand;
+use schemars::schema_for;
 
 use tofsim::error::Result;
+use tofsim_captures::compare::SignalMap;
+use tofsim_captures::ila::setup::AnalyserSetupFile;
+use tofsim_captures::ila::{AnalyserSetup, builtin};
+
+use crate::report::writer::print_list;
+use crate::verbs::terminal::print;
 
 use super::terminal::Talk;
 
@@ -48,8 +54,34 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         Verb::Capture(args) => capture::run(args, talk),
         Verb::Info(args) => info::run(args, talk),
         Verb::Replay(args) => replay::run(args, talk),
-        Verb::List { json } => set_ups::list(*json),
-        Verb::Show { set_up } => set_ups::show(set_up),
-        Verb::Schema { map } => set_ups::schema(*map),
+        Verb::List { json } => list(*json),
+        Verb::Show { set_up } => show(set_up),
+        Verb::Schema { map } => schema(*map),
     }
+}
+
+/// Prints the built-in set-ups and what they show.
+fn list(as_json: bool) -> Result<()> {
+    let row = |(name, _): &(&str, _)| {
+        let file = AnalyserSetup::load(name)?.file;
+        Ok([name.to_string(), file.scenario, file.description])
+    };
+    let rows = builtin::SET_UPS.iter().map(row).collect::<Result<Vec<_>>>()?;
+    print_list(["name", "scenario", "description"], &rows, as_json)
+}
+
+/// Prints a set-up as a file to begin one's own with.
+fn show(name: &str) -> Result<()> {
+    match builtin::set_up(name) {
+        Some(text) => print(text),
+        None => AnalyserSetup::load(name)
+            .and_then(|_| tofsim::error::read_text(std::path::Path::new(name)))
+            .and_then(|text| print(&text)),
+    }
+}
+
+/// Prints the JSON Schema of set-ups, or of maps.
+fn schema(of_maps: bool) -> Result<()> {
+    let schema = if of_maps { schema_for!(SignalMap) } else { schema_for!(AnalyserSetupFile) };
+    print(&format!("{:#}\n", schema.as_value()))
 }

@@ -1,6 +1,6 @@
 //! `tofsim report`: a page of a scenario.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use serde_json::{Value, json};
@@ -17,21 +17,19 @@ use tofsim_learn::error_budget::Plan;
 use tofsim_learn::estimation::EstimatorKind;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
-use crate::page::scope;
-use crate::page::trace::Trace;
-use crate::page::wavejson::wavejson;
-use crate::record::Record;
+use crate::page::trace::{Trace, captured, wavejson};
+use crate::record::{Record, read_object};
 use crate::report::error_budget::DepthBudgets;
+use crate::report::link_budget::LinkBudget;
 use crate::report::scenario_page::{ReportPart, ScenarioPage};
 use crate::report::tdc::TdcFindings;
 use crate::report::verification::{CycleCounts, Verified};
 use crate::report::writer::Findings as _;
 
-use super::budget::findings::Findings;
-use super::budget::table;
 use super::draws::{MOST_THREADS, use_threads};
 use super::interrupt::look_no_more;
 use super::options::ScenarioArgs;
+use super::progress::Progress;
 use super::terminal::{RunCommand, Talk, print_json, stop_signal};
 use super::verify;
 
@@ -96,7 +94,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     let setup = Setup::new(loaded.clone())?;
     let mut notes = setup.notes()?;
     notes.extend(notes_of_firmware(&setup));
-    let findings = Findings::of(setup.clone());
+    let findings = LinkBudget::of(setup.clone());
     notes.extend(findings.eye_safety_notes());
     talk.heed(&notes)?;
     let _held = FolderLock::take(&args.output)?;
@@ -109,18 +107,13 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     let parts =
         Parts { quick: args.quick, words, talk, run_command, loaded: &loaded, setup: &setup };
     let progress = talk.progress(6, "parts");
-    let waveform = made(parts.waveform())?;
-    progress.inc(1);
-    let run = made(parts.run())?;
-    progress.inc(1);
-    let tdc = made(parts.tdc())?;
-    progress.inc(1);
-    let errors = made(parts.errors())?;
-    progress.inc(1);
-    let evaluation = made(parts.evaluation())?;
-    progress.inc(1);
+    let waveform = made(parts.waveform(), &progress)?;
+    let run = made(parts.run(), &progress)?;
+    let tdc = made(parts.tdc(), &progress)?;
+    let errors = made(parts.errors(), &progress)?;
+    let evaluation = made(parts.evaluation(), &progress)?;
     let (verified, passed) = if args.verify {
-        parts.verified()?
+        parts.verified(&progress)?
     } else {
         (Err("it was not asked for; --verify runs it".to_owned()), true)
     };
@@ -132,7 +125,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
         setup: &setup,
         record: &record,
         notes: notes.iter().map(ToString::to_string).collect(),
-        budget: table::rows(&findings),
+        budget: findings.rows(),
         waveform,
         run,
         tdc,
@@ -158,11 +151,11 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
 }
 
 /// Returns the JSON object; parts that are missing are null.
-fn object(quick: bool, findings: &Findings, page: &ScenarioPage) -> Value {
+fn object(quick: bool, findings: &LinkBudget, page: &ScenarioPage) -> Value {
     json!({
         "schema": "tofsim.report/1",
         "quick": quick,
-        "budget": findings.json(),
+        "budget": findings.object(),
         "run": page.run.as_ref().ok().map(|(run, _)| run),
         "tdc": page.tdc.as_ref().ok().map(|(tdc, _)| tdc),
         "evaluation": page.evaluation.as_ref().ok(),
@@ -170,8 +163,9 @@ fn object(quick: bool, findings: &Findings, page: &ScenarioPage) -> Value {
     })
 }
 
-/// Keeps an input error as the reason why a part is missing, so that the report goes on.
-fn made<T>(part: Result<T>) -> Result<ReportPart<T>> {
+/// Keeps an input error as the reason why a part is missing, so that the report goes on to the next one.
+fn made<T>(part: Result<T>, progress: &Progress) -> Result<ReportPart<T>> {
+    progress.inc(1);
     match part {
         Ok(part) => Ok(Ok(part)),
         Err(Error::Input(why)) => Ok(Err(why.to_string())),
@@ -193,20 +187,26 @@ impl Parts<'_> {
         if self.quick { SIZES[part] / 10 } else { SIZES[part] }
     }
 
-    /// Another verb's files of these names, in a folder of their own.
-    fn files(&self, mut words: Vec<String>, names: &[&str]) -> Result<Vec<String>> {
+    /// Runs another verb, and returns what `read` finds in the folder of its files.
+    fn files<T>(
+        &self,
+        mut words: Vec<String>,
+        more: &[&str],
+        read: impl Fn(&Path) -> Result<T>,
+    ) -> Result<T> {
         let scratch = ScratchFolder::new()?;
         let folder = scratch.path().join("made");
+        words.extend(more.iter().map(|&word| word.to_owned()));
         words.extend(["-o".to_owned(), folder.display().to_string()]);
         let words: Vec<_> = words.iter().map(String::as_str).collect();
         (self.run_command)(&words, self.talk)?;
-        names.iter().map(|name| read_text(&folder.join(name))).collect()
+        read(&folder)
     }
 
     fn waveform(&self) -> Result<Trace> {
         let set_up = AnalyserSetup::parse("report", "set-up", SCOPE)?;
         let stop = stop_signal();
-        let seen = scope::captured(self.setup, &set_up, stop.as_deref())?;
+        let seen = captured(self.setup, &set_up, stop.as_deref())?;
         let none = || Input::new("waveform", "no shot begins in the run");
         let seen = seen.ok_or_else(none)?;
         let step_ns = self.setup.cycle().fs() as f64 * 0.5e-6;
@@ -216,11 +216,10 @@ impl Parts<'_> {
     }
 
     fn run(&self) -> Result<(Value, String)> {
-        let mut words = self.words.of(&["run"]);
-        words.extend(["--waves", "none"].map(str::to_owned));
-        let files = self.files(words, &["summary.json", "histogram.svg"])?;
-        let [run, histogram] = <[String; 2]>::try_from(files).unwrap_or_default();
-        Ok((parsed("summary.json", &run)?, histogram))
+        self.files(self.words.of(&["run"]), &["--waves", "none"], |folder| {
+            let histogram = read_text(&folder.join("histogram.svg"))?;
+            Ok((read_object(&folder.join("summary.json"))?, histogram))
+        })
     }
 
     fn tdc(&self) -> Result<(Value, Vec<String>)> {
@@ -248,16 +247,15 @@ impl Parts<'_> {
     }
 
     fn evaluation(&self) -> Result<Value> {
-        let mut words = self.words.evaluation();
         let kind = EstimatorKind::in_socket(&self.loaded.scenario).name();
         let rows = self.size(2).to_string();
-        words.extend(["--estimator", kind, "--check", "2", "--rows", &rows].map(str::to_owned));
-        let files = self.files(words, &["evaluation.json"])?;
-        parsed("evaluation.json", &files.concat())
+        let more = ["--estimator", kind, "--check", "2", "--rows", &rows];
+        let read = |folder: &Path| read_object(&folder.join("evaluation.json"));
+        self.files(self.words.evaluation(), &more, read)
     }
 
     /// Blocks and cycle counts of the Verilog in rtl_ref, and whether all is well.
-    fn verified(&self) -> Result<(ReportPart<(Value, Value)>, bool)> {
+    fn verified(&self, progress: &Progress) -> Result<(ReportPart<(Value, Value)>, bool)> {
         let mut words = self.words.of(&["verify", "--scenario"]);
         words.remove(0);
         let words: Vec<_> = words.iter().map(String::as_str).collect();
@@ -272,13 +270,9 @@ impl Parts<'_> {
             let counts = CycleCounts { rtl: &counted, counts: &counts };
             Ok((blocks.object(), counts.object(), passed))
         };
-        Ok(match made(checked())? {
+        Ok(match made(checked(), progress)? {
             Ok((blocks, counts, passed)) => (Ok((blocks, counts)), passed),
             Err(why) => (Err(why), false),
         })
     }
-}
-
-fn parsed(name: &str, text: &str) -> Result<Value> {
-    serde_json::from_str(text).map_err(|error| Input::new(name, error).into())
 }

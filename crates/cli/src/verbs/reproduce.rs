@@ -2,24 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
-
 use tofsim::error::{Input, Result, nearest};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
 
-use crate::page::wavejson::wavejson;
+use crate::page::trace::wavejson;
 use crate::record::Record;
+use crate::report::writer::print_list;
 use crate::reproduce::finding::Finding;
 use crate::reproduce::study::Study;
 use crate::reproduce::table::{self, Item};
-use crate::reproduce::{html, json, text};
-use crate::text::table::facts;
+use crate::reproduce::{finding, html, text};
 
 use super::draws::{MOST_THREADS, use_threads};
 use super::interrupt::look_no_more;
-use super::terminal::{Talk, print, print_json, stop_signal};
+use super::terminal::{Talk, print_json, stop_signal};
 
 /// Make the tables and figures of the thesis again, each with a verdict: same, differs, cannot be reproduced
 ///
@@ -60,7 +58,8 @@ pub struct Args {
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let items = chosen(&args.items)?;
     if args.list {
-        return list(&items, args.json);
+        let rows: Vec<_> = items.into_iter().map(|item| [item.id, item.title]).collect();
+        return print_list(["id", "title"], &rows, args.json);
     }
     use_threads(args.threads)?;
     let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
@@ -76,7 +75,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     look_no_more();
     let setup = study.ideal()?;
     let record = Record::new(&setup, &talk.command);
-    let mut object = json::json(&made, args.quick);
+    let mut object = finding::json(&made, args.quick);
     record.put_into(&mut object, &setup.notes()?);
     if let Some(folder) = &args.output {
         let stage = StagedFolder::new(folder)?;
@@ -116,12 +115,4 @@ fn chosen(names: &[String]) -> Result<Vec<Item>> {
         }
     }
     Ok(all.into_iter().filter(|item| names.is_empty() || names.contains(&item.id)).collect())
-}
-
-fn list(items: &[Item], as_json: bool) -> Result<()> {
-    if as_json {
-        let object = |item: &Item| json!({ "id": item.id, "title": item.title });
-        return print_json(&items.iter().map(object).collect());
-    }
-    print(&format!("{}\n", facts(items.iter().map(|item| (item.id.as_str(), item.title.clone())))))
 }

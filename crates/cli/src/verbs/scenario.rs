@@ -7,7 +7,7 @@ use tofsim::error::Result;
 use tofsim::scenario::{self, builtin, show};
 use tofsim::sim::setup::Setup;
 
-use crate::text::table::facts;
+use crate::report::writer::print_list;
 
 use super::options::ScenarioArgs;
 use super::terminal::{Talk, print, print_json};
@@ -75,13 +75,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 }
 
 fn list(as_json: bool) -> Result<()> {
-    let mut rows = Vec::new();
-    for (name, _) in builtin::scenarios() {
-        rows.push((name, scenario::load(name, &[])?.scenario.description));
-    }
-    if as_json {
-        let object = |(name, description): &(&str, String)| json!({ "name": name, "description": description });
-        return print_json(&rows.iter().map(object).collect());
-    }
-    print(&format!("{}\n", facts(rows)))
+    let row = |(name, _): (&'static str, _)| {
+        Ok([name.to_owned(), scenario::load(name, &[])?.scenario.description])
+    };
+    let rows = builtin::scenarios().map(row).collect::<Result<Vec<_>>>()?;
+    print_list(["name", "description"], &rows, as_json)
 }

@@ -21,7 +21,6 @@ use super::draws::{MOST_THREADS, use_threads};
 use super::terminal::{Talk, print_json, stop_signal};
 
 mod catalogue;
-mod merge;
 
 /// Evaluate a scenario over a parameter grid, or search for the value that just meets a limit
 #[derive(Debug, clap::Args)]
@@ -46,7 +45,7 @@ pub struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Action {
-    Merge(merge::Args),
+    Merge(catalogue::MergeArgs),
     List(catalogue::ListArgs),
     Show(catalogue::ShowArgs),
     Columns(catalogue::ColumnsArgs),
@@ -83,7 +82,7 @@ struct SweepArgs {
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match &args.action {
-        Some(Action::Merge(args)) => merge::run(args, talk),
+        Some(Action::Merge(args)) => catalogue::merge(args, talk),
         Some(Action::List(args)) => catalogue::list(args, talk),
         Some(Action::Show(args)) => catalogue::show(args),
         Some(Action::Columns(args)) => catalogue::columns(args, talk),
@@ -200,14 +199,13 @@ fn read(sweep: &Sweep, folder: &Path) -> Result<Finished> {
 
 /// Returns the description that a table carries, the same for all shards.
 pub fn about(plan: &Plan, record: &Record) -> Value {
-    let column = |column: &tofsim_studies::columns::Column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning });
     let mut about = json!({
         "schema": "tofsim.sweep/1",
         "plan": plan.name,
         "plan_text": plan.text,
         "plan_digest": format!("{:016x}", digest(0, plan.text.as_bytes())),
         "points": plan.points.count(),
-        "columns": plan.outputs.iter().map(column).collect::<Vec<_>>(),
+        "columns": plan.outputs,
     });
     if let (Some(object), Value::Object(own)) = (about.as_object_mut(), json!(record)) {
         object.extend(own);

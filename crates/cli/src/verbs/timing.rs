@@ -15,7 +15,7 @@ use tofsim_rtl::timing::record::{BlockTiming, Record};
 use tofsim_rtl::timing::versions::version;
 use tofsim_rtl::timing::{self, BLOCKS, Measurement, TimedBlock, nextpnr};
 use tofsim_rtl::verify::process::{Limits, Tool, YOSYS};
-use tofsim_rtl::verify::{Rtl, strays, yosys};
+use tofsim_rtl::verify::{Rtl, strays};
 
 use crate::choice::{self, words};
 use crate::report::timing::DesignTiming;
@@ -117,11 +117,7 @@ fn design(args: &Args, work: &Path, talk: &Talk) -> Result<(PathBuf, Rtl)> {
         let here = std::env::current_dir().map_err(Error::io(".".as_ref(), "read"))?;
         (here, args.design.read(talk)?)
     };
-    if let Some(path) = yosys::unread(&rtl) {
-        let expected =
-            "expected Verilog sources only, without libraries: Yosys reads no others here";
-        return Err(Input::new("timing", expected).value(path.display().to_string()).into());
-    }
+    Design::check_for_yosys(&rtl, "timing")?;
     Ok((folder, rtl))
 }
 

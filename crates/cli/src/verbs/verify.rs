@@ -14,14 +14,12 @@ use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::task::{DEFAULT, run_all};
-use tofsim_rtl::verify::{
-    BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, strays, yosys,
-};
+use tofsim_rtl::verify::{BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, strays};
 
 use crate::choice::{self, words};
 use crate::report::verification::{CycleCounts, Verified, write_junit};
 use crate::report::writer::Report;
-use crate::text::colour::coloured;
+use crate::text::table::coloured;
 
 use super::design::{Design, present};
 use super::terminal::{Talk, stop_signal};
@@ -161,12 +159,7 @@ pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
     let rtl = args.rtl(&work, talk)?;
     let stop = stop_signal();
     let limits = args.limits(stop.as_deref());
-    if let Some(path) = yosys::unread(&rtl) {
-        let expected =
-            "expected Verilog sources only, without libraries: Yosys reads no others here";
-        let path = path.display().to_string();
-        return Err(Input::new("--cycle-counts", expected).value(path).into());
-    }
+    Design::check_for_yosys(&rtl, "--cycle-counts")?;
     let design = count::CountedDesign::of(&args.from.setting()?.setup);
     let counts = count::cycle_counts(&rtl, &design, &limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };

@@ -10,7 +10,7 @@ use tofsim_learn::error_budget::figures::ErrorChange;
 
 use crate::text::svg::{COLOURS, Canvas, Drawn, chart, picture};
 
-use super::budgets::DepthBudgets;
+use super::files::DepthBudgets;
 
 /// Width of the bars, where their places are 1 apart.
 const BAR: f64 = 0.6;

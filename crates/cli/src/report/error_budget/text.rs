@@ -6,7 +6,7 @@ use tofsim_learn::error_budget::{DepthBudget, EffectErrors};
 
 use crate::text::table::{grouped, number_or_dash, table};
 
-use super::budgets::DepthBudgets;
+use super::files::DepthBudgets;
 
 /// Columns of a terminal.
 const WIDTH: usize = 80;

@@ -4,9 +4,8 @@ use tofsim::error::Result;
 use tofsim::network::float::Float;
 
 use crate::page::plot::{BLUE, Layer, ORANGE, Shape};
-use crate::reproduce::measured::Measured;
 use crate::reproduce::study::Study;
-use crate::reproduce::values::Values;
+use crate::reproduce::values::{Measured, Values};
 
 pub(super) fn formats(study: &Study) -> Result<Measured> {
     let setup = study.ideal()?;

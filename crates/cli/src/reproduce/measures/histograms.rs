@@ -1,17 +1,13 @@
 //! Histograms of the model, and what they show: Fig. 3.3, 4.1 and 5.1.
 
 use tofsim::error::Result;
-use tofsim::sim::Run;
-use tofsim::sim::run::Observers;
-use tofsim::sim::shot_recorder::Shot;
 
 use crate::page::plot::{BLUE, Layer, Shape};
-use crate::report::{causes, histogram_svg};
-use crate::reproduce::measured::Measured;
+use crate::report::causes;
 use crate::reproduce::peaks::{Peaks, SHOTS};
-use crate::reproduce::scenes::{BIN_NS, View, bars, counts, detection, mean, upright};
+use crate::reproduce::scenes::{BIN_NS, View, bars, counts, detection, height, mean, target};
 use crate::reproduce::study::Study;
-use crate::reproduce::values::Values;
+use crate::reproduce::values::{Measured, Values};
 
 /// Half of what an echo takes, with room [ns].
 const ECHO_NS: f64 = 0.6;
@@ -55,7 +51,6 @@ pub(super) fn peak_shift(study: &Study) -> Result<Measured> {
     values.put("first", first);
     values.put("first_error", (first / 20.0).sqrt());
     values.put_figure("shift_mm", (mean_ps * MM_PER_PS, error_ps * MM_PER_PS));
-    let height = histogram.iter().copied().fold(0.0, f64::max);
     let (at, peak) = (arrival_ps * 1e-3, (arrival_ps + mean_ps) * 1e-3);
     // Shots that are left over times the rate.
     let (_, ambient_hz) = view.light();
@@ -66,8 +61,8 @@ pub(super) fn peak_shift(study: &Study) -> Result<Measured> {
     let found = format!("mean detected peak: {peak:.3} ns");
     let layers = vec![
         bars(&histogram),
-        upright(format!("target: {at:.3} ns"), at, height),
-        Layer::between(found, BLUE, [(peak, 0.0), (peak, height)]),
+        target(distance_m, &histogram),
+        Layer::between(found, BLUE, [(peak, 0.0), (peak, height(&histogram))]),
         Layer::new("background of the model", plotters::style::BLACK, Shape::Line, curve),
     ];
     Ok(Measured::from(values).layers(layers))
@@ -85,12 +80,7 @@ pub(super) fn by_cause(study: &Study) -> Result<Measured> {
     let set = ["tdc.profile=ideal", "estimator.network=ideal", "target.distance_m=0.3"];
     let setup = study.setup("kc705", &set)?;
     let mut causes: causes::Causes = std::array::from_fn(|_| vec![0; setup.params.histogram.bins]);
-    let mut take = |shot: &Shot| {
-        causes::count(&mut causes, shot);
-        Ok(())
-    };
-    let watch = Observers { shots: Some(&mut take), stop: study.stop(), ..Observers::default() };
-    Run::new(&setup).observe(1, watch)?;
+    study.shots(&setup)?.iter().for_each(|shot| causes::count(&mut causes, shot));
     let of = |name: &str| -> &[u32] {
         let place = causes::CAUSES.iter().position(|(_, known, _)| *known == name);
         place.map_or(&[], |place| &causes[place])
@@ -102,6 +92,6 @@ pub(super) fn by_cause(study: &Study) -> Result<Measured> {
     values.put("signal", f64::from(signal.iter().sum::<u32>()));
     values.put("ambient", f64::from(ambient.iter().sum::<u32>()));
     let title = "0.3 m, 34 %, 0.2 W/m^2/nm, through every register";
-    let svg = histogram_svg::svg(title, &causes, &setup.scenario.tdc, setup.true_depth_m(), None);
+    let svg = causes::svg(title, &causes, &setup.scenario.tdc, setup.true_depth_m(), None);
     Ok(Measured::from(values).svg(svg?))
 }

@@ -9,11 +9,10 @@ use tofsim_learn::evaluation::{Figures, Group};
 
 use crate::page::plot::{BLUE, GREY, Layer, ORANGE, Shape};
 use crate::report::box_plot::{BoxPlot, Limit, Series};
-use crate::reproduce::measured::Measured;
 use crate::reproduce::networks::{Networks, PATTERNS};
 use crate::reproduce::published::{Sample, compared};
 use crate::reproduce::study::Study;
-use crate::reproduce::values::Values;
+use crate::reproduce::values::{Measured, Values};
 
 /// Histograms at a distance of the thesis's test.
 const TEST: f64 = 2385.0;

@@ -3,14 +3,10 @@
 use plotters::style::RGBColor;
 
 use tofsim::error::Result;
-use tofsim::sim::Run;
-use tofsim::sim::run::Observers;
-use tofsim::sim::shot_recorder::Shot;
 
 use crate::page::plot::{BLUE, GREY, Layer, Shape};
-use crate::reproduce::measured::Measured;
 use crate::reproduce::study::Study;
-use crate::reproduce::values::Values;
+use crate::reproduce::values::{Measured, Values};
 
 /// Time constants of the path, each a low pass of the first order: the pad's driver into its pair, and the board with
 /// the probe. Our assumptions: edges of 0.4 and 0.9 ns from 10 to 90 % [ns].
@@ -34,14 +30,9 @@ fn edge(ns: f64) -> f64 {
 
 pub(super) fn screen(study: &Study) -> Result<Measured> {
     let setup = study.setup("kc705", &["target.distance_m=0.6"])?;
-    let mut arrivals = Vec::new();
-    let mut take = |shot: &Shot| {
-        arrivals.extend(shot.arrival_fs.map(|fs| fs as f64 * 1e-6));
-        Ok(())
-    };
-    let watch = Observers { shots: Some(&mut take), stop: study.stop(), ..Observers::default() };
-    Run::new(&setup).observe(1, watch)?;
-    arrivals.retain(|ns| (0.0..SCREEN_NS).contains(ns));
+    let shots = study.shots(&setup)?;
+    let arrivals = shots.iter().filter_map(|shot| Some(shot.arrival_fs? as f64 * 1e-6));
+    let arrivals: Vec<_> = arrivals.filter(|ns| (0.0..SCREEN_NS).contains(ns)).collect();
     let curve = |arrival: &f64| {
         let steps = (SCREEN_NS / STEP_NS) as usize;
         let at = move |k: usize| k as f64 * STEP_NS;

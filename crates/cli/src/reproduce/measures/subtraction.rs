@@ -9,10 +9,10 @@ use tofsim_learn::estimation::subtraction::Subtraction;
 use tofsim_learn::estimation::{Estimator, Failure, HistogramPair};
 
 use crate::page::plot::{BLUE, GREY, Layer, ORANGE, Shape};
-use crate::reproduce::measured::Measured;
 use crate::reproduce::peaks::{SHOTS, WRONG_M};
 use crate::reproduce::scenes::{BIN_NS, View, counts, detection};
 use crate::reproduce::study::Study;
+use crate::reproduce::values::Measured;
 
 use super::histograms::mean_of;
 

@@ -11,9 +11,8 @@ use tofsim::firmware::tof_top::FirmwareEstimator;
 use crate::record::Record;
 use crate::report::page::{Page, StepRow};
 
-use super::accuracy;
-use super::frame;
 use super::journal::Journal;
+use super::measured::{ACCURACY, FRAME};
 use super::site::Site;
 use super::step::{Outcome, Step};
 
@@ -42,7 +41,7 @@ pub fn run(site: &Site, journal: &Journal) -> Result<Outcome> {
         )
     });
     notes.extend(of_grid);
-    let steps = Step::ALL.into_iter().filter(|step| *step != Step::Report).map(|step| {
+    let steps = Step::Report.needs().into_iter().map(|step| {
         let record = journal.of(step);
         StepRow {
             name: step.name(),
@@ -62,10 +61,10 @@ pub fn run(site: &Site, journal: &Journal) -> Result<Outcome> {
         network: result(Step::Network),
         evaluation,
         errors: picture(
-            Path::new(accuracy::FOLDER)
+            Path::new(ACCURACY)
                 .join(format!("{}_by_distance_m.svg", setup.params.estimator.estimator())),
         ),
-        histogram: picture(Path::new(frame::FOLDER).join("histogram.svg")),
+        histogram: picture(Path::new(FRAME).join("histogram.svg")),
         frame: ran,
         cost: result(Step::Cost),
         verify: result(Step::Verify),

@@ -94,8 +94,8 @@ impl<'a> Site<'a> {
             Step::Report => format!("{description} {:?}", self.files.files),
             _ => String::new(),
         };
-        let needs: Vec<_> = (step.needs().iter())
-            .map(|need| journal.of(*need).map(|record| (&record.outputs, &record.summary)))
+        let needs: Vec<_> = (step.needs().into_iter())
+            .map(|need| journal.of(need).map(|record| (&record.outputs, &record.summary)))
             .collect();
         let version = env!("CARGO_PKG_VERSION");
         let (name, quick) = (&self.loaded.name, self.quick);

@@ -38,18 +38,9 @@ pub struct Outcome {
 
 impl Step {
     /// All, in their order.
-    pub const ALL: [Step; 10] = [
-        Step::Network,
-        Step::Verilog,
-        Step::Constraints,
-        Step::Vectors,
-        Step::Cycles,
-        Step::Verify,
-        Step::Frame,
-        Step::Accuracy,
-        Step::Cost,
-        Step::Report,
-    ];
+    pub fn all() -> [Step; 10] {
+        Step::CHOICES.map(|(_, step, _)| step)
+    }
 
     /// Their words on the command line.
     pub const CHOICES: [Choice<Step>; 10] = [
@@ -80,23 +71,13 @@ impl Step {
     }
 
     /// Steps whose outputs it reads.
-    pub fn needs(self) -> &'static [Step] {
+    pub fn needs(self) -> Vec<Step> {
         match self {
-            Step::Network | Step::Constraints => &[],
-            Step::Verilog | Step::Vectors | Step::Frame | Step::Accuracy => &[Step::Network],
-            Step::Cycles | Step::Cost => &[Step::Verilog],
-            Step::Verify => &[Step::Network, Step::Verilog],
-            Step::Report => &[
-                Step::Network,
-                Step::Verilog,
-                Step::Constraints,
-                Step::Vectors,
-                Step::Cycles,
-                Step::Verify,
-                Step::Frame,
-                Step::Accuracy,
-                Step::Cost,
-            ],
+            Step::Network | Step::Constraints => Vec::new(),
+            Step::Verilog | Step::Vectors | Step::Frame | Step::Accuracy => vec![Step::Network],
+            Step::Cycles | Step::Cost => vec![Step::Verilog],
+            Step::Verify => vec![Step::Network, Step::Verilog],
+            Step::Report => Step::all().into_iter().filter(|step| *step != Step::Report).collect(),
         }
     }
 

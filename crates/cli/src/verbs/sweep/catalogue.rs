@@ -1,16 +1,24 @@
-//! Plans that come with the program, and columns of a sweep.
+//! `tofsim sweep list`, `show` and `columns`: plans that come with the program, and columns of a table; `tofsim sweep merge`:
+//! one table of those of a sweep's shards.
+
+use std::path::PathBuf;
 
 use serde_json::json;
 
 use tofsim::error::{Input, Result, hint};
+use tofsim::files::output::create_directory;
 use tofsim_learn::estimation::EstimatorKind;
-use tofsim_studies::columns;
+use tofsim_studies::columns::Column;
+use tofsim_studies::merge::{Shards, files};
 use tofsim_studies::plan::builtin::{PLANS, plan};
 use tofsim_studies::plan::file::Fidelity;
-use tofsim_studies::{Plan, columns::Column};
+use tofsim_studies::sweep::ABOUT;
+use tofsim_studies::{Plan, columns};
 
 use crate::choice::words;
-use crate::text::table::{facts, table};
+use crate::record::Record;
+use crate::report::writer::objects;
+use crate::text::table::{plain, table};
 use crate::verbs::terminal::{Talk, print, print_json};
 
 /// List the plans that come with the program
@@ -41,16 +49,15 @@ pub struct ColumnsArgs {
 
 /// Lists the plans.
 pub fn list(args: &ListArgs, talk: &Talk) -> Result<()> {
-    let described = |(name, _): &(&'static str, &str)| -> Result<(&'static str, String)> {
-        Ok((*name, Plan::load(name, &[], None)?.file.description))
+    let described = |(name, _): &(&str, &str)| {
+        Ok([(*name).to_owned(), Plan::load(name, &[], None)?.file.description])
     };
-    let plans: Vec<_> = PLANS.iter().map(described).collect::<Result<_>>()?;
+    let plans = PLANS.iter().map(described).collect::<Result<Vec<_>>>()?;
     if args.json {
-        let plan = |(name, description): &(&str, String)| json!({ "name": name, "description": description });
-        let plans: Vec<_> = plans.iter().map(plan).collect();
+        let plans = objects(["name", "description"], &plans);
         return print_json(&json!({ "schema": "tofsim.sweep-list/1", "plans": plans }));
     }
-    talk.report(&(facts(plans) + "\n"))
+    talk.report(&(plain(plans) + "\n"))
 }
 
 /// Prints a plan.
@@ -69,11 +76,54 @@ pub fn show(args: &ShowArgs) -> Result<()> {
 pub fn columns(args: &ColumnsArgs, talk: &Talk) -> Result<()> {
     let columns = columns::all(Fidelity::Histogram, &args.estimator);
     if args.json {
-        let column = |column: &Column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning });
-        let columns: Vec<_> = columns.iter().map(column).collect();
         return print_json(&json!({ "schema": "tofsim.sweep-columns/1", "columns": columns }));
     }
     let row =
         |column: &Column| [column.name.clone(), column.unit.to_owned(), column.meaning.to_owned()];
     talk.report(&(table(["column", "unit", "what it is"], columns.iter().map(row), 9..) + "\n"))
+}
+
+/// Make one table of the shards of a sweep, when all are there
+#[derive(Debug, clap::Args)]
+pub struct MergeArgs {
+    /// The tables of the shards, or folders that have them
+    #[arg(required = true, value_name = "FILE|DIR")]
+    shards: Vec<PathBuf>,
+    /// Write sweep.parquet and sweep.csv there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Print one JSON object instead of nothing
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the verb.
+pub fn merge(args: &MergeArgs, talk: &Talk) -> Result<()> {
+    let files = files(&args.shards)?;
+    let shards = Shards::open(&files)?;
+    let record = record_of(&shards.about)?;
+    create_directory(&args.output)?;
+    let written = shards.write(&args.output, &record.comment_line())?;
+    written.iter().for_each(|path| talk.wrote(path));
+    if args.json {
+        let names = |paths: &[PathBuf]| {
+            paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>()
+        };
+        let object = json!({
+            "schema": "tofsim.sweep-merge/1",
+            "shards": names(&files),
+            "files": names(&written),
+            "set": record.set,
+            "hash": record.hash,
+            "notes": [],
+        });
+        print_json(&object)?;
+    }
+    Ok(())
+}
+
+/// Returns the record in the description of a sweep's table.
+fn record_of(about: &str) -> Result<Record> {
+    let record = Record::find(about.as_bytes());
+    record.ok_or_else(|| Input::new(ABOUT, "expected what a sweep says of itself").into())
 }

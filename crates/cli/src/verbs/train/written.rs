@@ -15,7 +15,7 @@ use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 
 use crate::record::Record;
-use crate::report::{learning_curve, training as report};
+use crate::report::training as report;
 use crate::verbs::terminal::Talk;
 
 /// Origin of a network.
@@ -48,8 +48,8 @@ pub fn write(
     };
     let points = &tournament.state.curve;
     let line = made.record.comment_line();
-    write("curve.csv", &(line.clone() + &learning_curve::csv(points)))?;
-    write("curve.svg", &made.record.in_svg(&learning_curve::svg(points)?))?;
+    write("curve.csv", &(line.clone() + &report::curve_csv(points)))?;
+    write("curve.svg", &made.record.in_svg(&report::curve_svg(points)?))?;
     let float = tournament.result();
     let rounded = float.round("trained network", &recipe.formats, Overflow::Saturate)?;
     if rounded.saturated > 0 {
