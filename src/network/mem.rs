@@ -5,12 +5,12 @@ use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward1::{Rom, Weight};
 use crate::firmware::forward2;
 use crate::firmware::likelihood_estimator;
-use crate::firmware::likelihood_estimator::params::WIDTH_BITS;
 use crate::firmware::likelihood_estimator::pulse::PulseWord;
 use crate::firmware::likelihood_estimator::tables::{LOG2, TABLES};
 use crate::firmware::tansig;
 use crate::firmware::tdc_decoder;
 use crate::kernel::WordFormat;
+use crate::kernel::sizes::likelihood::WIDTH_BITS;
 
 /// Name and text of a ROM file.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::firmware::histogram_builder;
 use crate::kernel::pulse::Pulse;
+use crate::kernel::sizes::likelihood::{self, EDGE_BITS, WIDTH_BITS};
 
 use super::pulse::{PulseWord, step_log2, words};
 use super::words::{DEPTH_FRACTION, UNITS};
@@ -13,12 +14,6 @@ use super::words::{DEPTH_FRACTION, UNITS};
 const BOX_SIGMA: f64 = 2.8;
 /// Bits of the word that turns time into distance.
 const METRES_BITS: i32 = 24;
-/// Fewest bits of a word of the solver: products of two of 16 bits, and 32 m.
-const FEWEST_WORD_BITS: u32 = 35;
-/// Bits of a bin's width in units.
-pub const WIDTH_BITS: u32 = 10;
-/// Bits of an edge above those that bins have, in half units.
-const EDGE_BITS: u32 = 8;
 
 /// Verilog parameters and what is in the ROMs.
 #[derive(Clone, PartialEq)]
@@ -128,14 +123,14 @@ impl Params {
         Params::of(&wanted)
     }
 
-    /// Bits of the words of the steps: those of a sum, [`Params::word_bits`].
+    /// Bits of a word of the solver.
     pub fn word_bits(&self) -> u32 {
         word_bits(&self.histogram)
     }
 
-    /// Bits of a weight: those of a count above its 6 fraction bits with two more, 24 at least.
+    /// Bits of a weight.
     pub fn weight_bits(&self) -> u32 {
-        (self.histogram.count_bits + 8).max(24)
+        likelihood::weight_bits(self.histogram.count_bits)
     }
 
     /// Bits of an edge in half units.
@@ -252,8 +247,7 @@ impl Wanted<'_> {
     }
 }
 
-/// Bits of a word of the solver: enough for sums over a fit, and for the exposure of all bins.
-pub fn word_bits(histogram: &histogram_builder::Params) -> u32 {
-    let counted = histogram.count_bits + 19.max(histogram.bins.ilog2() + WIDTH_BITS + 1);
-    counted.max(FEWEST_WORD_BITS)
+/// Bits of a word of the solver for such a histogram.
+fn word_bits(histogram: &histogram_builder::Params) -> u32 {
+    likelihood::word_bits(histogram.bins.ilog2(), histogram.count_bits)
 }
