@@ -19,7 +19,7 @@ use crate::signals;
 use super::likelihood_estimator::params::Params;
 use super::likelihood_estimator::pipeline::shift;
 use super::likelihood_estimator::tables::{Tables, length};
-use super::likelihood_estimator::words::WEIGHT_FRACTION;
+use super::likelihood_estimator::words::{MOST_TERM, WEIGHT_FRACTION};
 use super::likelihood_terms::{Expected, Residual, Share, Slope};
 
 mod accumulation;
@@ -31,8 +31,6 @@ pub type Weight = U<32>;
 const COUNT: i64 = 1 << WEIGHT_FRACTION;
 /// A quarter of a count, which a variance has more.
 const QUARTER: u64 = 16;
-/// The part of a chi-square's term that is kept: 16 bits and its fraction.
-const MOST_TERM: u64 = (1 << 24) - 1;
 
 signals! {
     /// Input ports.
@@ -265,7 +263,7 @@ impl LikelihoodSums {
         }
         shift(&mut d.variances, U::new(self.weight[0].get() + QUARTER));
         d.bits = U::new(length(self.variances[0].get() as i64).into());
-        d.over = U::new((self.square_over.get() >> short).min(MOST_TERM));
+        d.over = U::new((self.square_over.get() >> short).min(MOST_TERM as u64));
         d.reciprocal = U::new(Tables::reciprocal(self.aligned.get() as i64, 6) as u64);
         if i.check && self.singles[3] && square as i64 > self.tzz.get() {
             d.far = true;

@@ -1,12 +1,10 @@
 //! Keeps the blocks of bins with the lowest hazards.
 
 use crate::firmware::likelihood_estimator::pipeline::shift;
+use crate::firmware::likelihood_estimator::words::LEAST_EXPOSURE;
 use crate::kernel::S;
 
 use super::{In, Registers};
-
-/// A block counts with a 64th of the first one's exposure.
-const LEAST_EXPOSURE: i64 = 6 * 64;
 
 impl Registers {
     /// Keeps the blocks with the lowest hazards.

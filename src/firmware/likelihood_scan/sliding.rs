@@ -2,14 +2,10 @@
 
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::pipeline::shift;
+use crate::firmware::likelihood_estimator::words::{ADDED, NO_SCORE};
 use crate::kernel::{S, U};
 
 use super::{In, Kept, Registers};
-
-/// Score of a box in which less than expected ended.
-const NONE: i64 = -4096;
-/// Addition to the expected count of a bin while shots wait, 8 fraction bits: a tenth.
-const ADDED: i64 = 26;
 
 impl Registers {
     /// Begins a scan.
@@ -74,7 +70,7 @@ impl Registers {
     pub(super) fn judge(&self, d: &mut Self) {
         let above = self.excess[2].get() > 0;
         let score = 2 * self.upper_log.get() - self.lower_log.get() - 512;
-        d.score = S::new(if above { score } else { NONE });
+        d.score = S::new(if above { score } else { NO_SCORE });
         if self.boxed[3] && self.score.get() > self.best_score.get() {
             (d.best_score, d.best_from, d.best_until) = (self.score, self.from[3], self.until[3]);
             (d.best_excess, d.best_middle) = (self.excess[3], self.box_middle[3]);

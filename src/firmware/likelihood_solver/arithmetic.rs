@@ -2,17 +2,12 @@
 
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::tables::length;
+use crate::firmware::likelihood_estimator::words::{LEAST_SIGNAL, MOST_CHANCE, MOST_LEVEL};
 use crate::kernel::{S, U, wrapped};
 
 use super::instruction::{By, Clamp, Op};
 use super::{LOW_BITS, Registers};
 
-/// Largest S or b.
-const MOST: i64 = (1 << 24) - 1;
-/// Smallest S.
-const LEAST_SIGNAL: i64 = 16;
-/// Largest chance, a half.
-const MOST_CHANCE: i64 = 1 << 23;
 /// Limits of a step in log b: it falls to a half at most, and grows by three times.
 const GROWTH: [i64; 2] = [-(1 << 13), 3 << 14];
 
@@ -93,8 +88,8 @@ impl Params {
         match clamp {
             Clamp::Word => [-most, most - 1],
             Clamp::Positive => [1, most - 1],
-            Clamp::Signal => [LEAST_SIGNAL, MOST],
-            Clamp::Ambient => [1, MOST],
+            Clamp::Signal => [LEAST_SIGNAL, MOST_LEVEL],
+            Clamp::Ambient => [1, MOST_LEVEL],
             Clamp::Chance => [1, MOST_CHANCE],
             Clamp::Window => [0, self.end()],
             Clamp::Growth => GROWTH,

@@ -2,14 +2,13 @@
 
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::pipeline::shift;
+use crate::firmware::likelihood_estimator::words::FAR;
 use crate::kernel::{S, U, wrapped};
 
 use super::{COUNT, In, LikelihoodSums};
 
 /// Half of the 12 bits that are cut off a product, to round it.
 const HALF: i64 = 1 << 11;
-/// A residual of so many squared deviations is no chance.
-const FAR: i64 = 25;
 
 impl LikelihoodSums {
     /// Registers the four products. Their destination in the first cycle of a beat is kept for the second.

@@ -2,18 +2,13 @@
 
 use crate::firmware::likelihood_estimator::pipeline::shift;
 use crate::firmware::likelihood_estimator::tables::{Tables, length};
-use crate::firmware::likelihood_estimator::words::HAZARD_FRACTION;
+use crate::firmware::likelihood_estimator::words::{LEAST_HAZARD, MOST_HAZARD, WHOLE};
 use crate::kernel::U;
 
 use super::{In, LikelihoodTerms};
 
 /// Bits of a hazard's mantissa.
 const MANTISSA_BITS: u32 = 14;
-/// Smallest and largest hazard: 2^-20 and just below 16.
-const LEAST_HAZARD: u64 = 1 << (HAZARD_FRACTION - 20);
-const MOST_HAZARD: u64 = (16 << HAZARD_FRACTION) - 1;
-/// The whole of a hazard is signal: 12 fraction bits.
-const WHOLE: u64 = 4096;
 
 impl LikelihoodTerms {
     /// The hazards: that of the signal begins in the first cycle of a beat, that of ambient light in the second.
@@ -24,12 +19,15 @@ impl LikelihoodTerms {
         };
         d.level_product = U::new(self.level.get() * self.amount.get());
         d.level_times = U::new(self.level_product.get() + 256);
-        d.light = U::new((self.level_times.get() >> 9).min(MOST_HAZARD));
+        d.light = U::new((self.level_times.get() >> 9).min(MOST_HAZARD as u64));
         d.lit_first = self.light;
         if i.phase {
             d.lit = self.lit_first;
             d.sum = U::new(self.lit_first.get() + self.light.get());
-            shift(&mut d.hazard, U::new(self.sum.get().clamp(LEAST_HAZARD, MOST_HAZARD)));
+            shift(
+                &mut d.hazard,
+                U::new(self.sum.get().clamp(LEAST_HAZARD as u64, MOST_HAZARD as u64)),
+            );
             shift(&mut d.signal_hazard, self.lit);
         }
     }
@@ -68,7 +66,7 @@ impl LikelihoodTerms {
         d.grown = U::new(self.begun.get() + (rest << 6));
         let bits = MANTISSA_BITS - 3;
         let rounded = (self.grown.get() >> bits) + (self.grown.get() >> (bits - 1) & 1);
-        d.share_first = U::new(rounded.min(WHOLE));
+        d.share_first = U::new(rounded.min(WHOLE as u64));
         if i.phase {
             d.k_before = U::new(Tables::k_before(hazard) as u64);
             d.k = self.k_before + (self.grown.get() >> 10 & 2047);
