@@ -3,7 +3,7 @@
 //! Mirrors `rtl_ref/likelihood_solver.v`. An instruction goes through nine cycles: operands, products with the low
 //! 17 bits of `b` and with the others, their sum, two shifts, the sum with `c`, its limits, and the memory. Others begin
 //! before, as far as they do not need what it gives: each says when the next one begins. A reciprocal takes 17 cycles
-//! more, a root 25, a bit of each at a time. The programs are in [`program`]: the ambient light of a block, a point
+//! more, a root 25, a bit of each at a time. The programs are in [`program`], and from there in the ROM: the ambient light of a block, a point
 //! from the box, a step of Fisher scoring, and what comes out at the end.
 //!
 //! `sequence` begins instructions and moves them on, `operands` reads and writes words, and between the two are
@@ -34,10 +34,6 @@ const LOW_BITS: u32 = 17;
 /// Bits of a magnitude that are not kept: a step is shifted if it has more of them, and the information if it has
 /// two more.
 const LEAST_MAGNITUDE: u32 = 14;
-/// Number of the mark of a magnitude.
-const MAGNITUDE: u64 = 1;
-/// Number of the mark of the first flag.
-const FLAGS: u64 = 8;
 
 signals! {
     /// Input ports.

@@ -71,6 +71,11 @@ impl Clamp {
     ];
 }
 
+/// Number of the mark of a magnitude.
+pub const MAGNITUDE: u64 = 1;
+/// Number of the mark of the first flag.
+pub const FLAGS: u64 = 8;
+
 /// Further property of a result that is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
@@ -80,6 +85,17 @@ pub enum Mark {
     Magnitude,
     /// Its sign is that flag.
     Flag(u8),
+}
+
+impl Mark {
+    /// Its number.
+    pub fn number(self) -> u64 {
+        match self {
+            Mark::Nothing => 0,
+            Mark::Magnitude => MAGNITUDE,
+            Mark::Flag(flag) => FLAGS + u64::from(flag),
+        }
+    }
 }
 
 /// An instruction.
@@ -107,4 +123,27 @@ pub struct Instruction {
     pub mark: Mark,
     /// Cycles until the next one begins.
     pub wait: u8,
+}
+
+impl Instruction {
+    /// Bits of a word of the ROM.
+    pub const BITS: u32 = 49;
+
+    /// The word of the ROM: all fields in their order, the operation on top.
+    pub fn word(&self) -> u64 {
+        let fields = [
+            (self.op as u64, 3),
+            (self.to.into(), 6),
+            (self.a.into(), 6),
+            (self.b.into(), 6),
+            (self.c.into(), 6),
+            (self.minus.into(), 1),
+            (self.shift.into(), 5),
+            (self.by as u64, 3),
+            (self.clamp as u64, 3),
+            (self.mark.number(), 4),
+            (self.wait.into(), 6),
+        ];
+        fields.into_iter().fold(0, |word, (field, bits)| word << bits | field)
+    }
 }

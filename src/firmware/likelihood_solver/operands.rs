@@ -3,9 +3,9 @@
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::kernel::{S, U, wrapped};
 
-use super::instruction::Op;
+use super::instruction::{FLAGS, MAGNITUDE, Op};
 use super::program::{self, ONE};
-use super::{FLAGS, In, LEAST_MAGNITUDE, LOW_BITS, LikelihoodSolver, MAGNITUDE, Registers, WORDS};
+use super::{In, LEAST_MAGNITUDE, LOW_BITS, LikelihoodSolver, Registers, WORDS};
 
 impl LikelihoodSolver {
     /// Reads the operands; c comes late.

@@ -1,4 +1,4 @@
-//! The solver's program, instruction by instruction.
+//! The solver's program, instruction by instruction; `solver.mem` has it for the Verilog.
 
 use super::instruction::{By, Clamp, Instruction, Mark, Op};
 

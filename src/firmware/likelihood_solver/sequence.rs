@@ -3,9 +3,9 @@
 use crate::firmware::likelihood_estimator::tables::length;
 use crate::kernel::U;
 
-use super::instruction::{Instruction, Mark, Op};
+use super::instruction::{Instruction, Op};
 use super::program::PROGRAM;
-use super::{FLAGS, In, LEAST_MAGNITUDE, MAGNITUDE, Registers};
+use super::{In, LEAST_MAGNITUDE, Registers};
 
 impl Registers {
     /// The instruction that is in a cycle.
@@ -81,10 +81,6 @@ impl Registers {
         (d.from_c, d.alu) = (U::new(now.c.into()), now.op == Op::Alu);
         let now = self.instruction(7);
         d.to = U::new(now.to.into());
-        d.mark = U::new(match now.mark {
-            Mark::Nothing => 0,
-            Mark::Magnitude => MAGNITUDE,
-            Mark::Flag(flag) => FLAGS + u64::from(flag),
-        });
+        d.mark = U::new(now.mark.number());
     }
 }
