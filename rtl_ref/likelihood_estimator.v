@@ -5,9 +5,6 @@
 //
 // A load of the histogram, a scan for the start, six passes over the bins around the echo with a step after each,
 // one to see how well they fit, and a scan of all others.
-// Words are extended and cut as what they are assigned to is wide; some bits are not needed.
-// verilator lint_off WIDTH
-// verilator lint_off UNUSEDSIGNAL
 module likelihood_estimator #(
     parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROMs
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
@@ -26,7 +23,8 @@ module likelihood_estimator #(
     parameter EdgesFile = "rtl_ref/edges.mem",
     parameter PulseFile = "rtl_ref/pulse.mem",
     parameter HazardFile = "rtl_ref/hazard.mem",
-    parameter LogFile = "rtl_ref/log2.mem"
+    parameter LogFile = "rtl_ref/log2.mem",
+    parameter ProgramFile = "rtl_ref/solver.mem"
 ) (
     input wire clk_sys,
     input wire rst,
@@ -51,7 +49,10 @@ module likelihood_estimator #(
     localparam integer ScanCycles = 2 * (Bins + BoxBins - BoxBins / 2 - 1 + Beats);
     localparam integer FitCycles = 2 * (BinsBefore + 1 + BinsAfter + Beats), LoadCycles = Bins + 12;
     localparam integer WaitBits = BinBits + 3;
+    // Numbers of bins are integers elsewhere.
+    // verilator lint_off WIDTH
     localparam [BinBits:0] All = Bins, Before = BinsBefore, After = BinsAfter + 1;
+    // verilator lint_on WIDTH
 
     reg [3:0] state;                  // what it does
     reg [WaitBits-1:0] waited;   // cycles in this state
@@ -309,6 +310,7 @@ module likelihood_estimator #(
     );
 
     likelihood_solver #(
+        .Used(Used),
         .BinBits(BinBits),
         .CountBits(CountBits),
         .Kappa(Kappa),
@@ -316,7 +318,8 @@ module likelihood_estimator #(
         .PulseSigma(PulseSigma),
         .WindowEnd(WindowEnd),
         .Metres(Metres),
-        .MetresShift(MetresShift)
+        .MetresShift(MetresShift),
+        .ProgramFile(ProgramFile)
     ) likelihood_solver (
         .clk_sys(clk_sys),
         .rst(rst),
@@ -348,5 +351,3 @@ module likelihood_estimator #(
         .cut(cut)
     );
 endmodule
-// verilator lint_on UNUSEDSIGNAL
-// verilator lint_on WIDTH

@@ -5,9 +5,6 @@
 //
 // A load reads the histogram once, in order. A pass goes over bins in beats of two cycles, phase low and high:
 // an edge, the bins after it, and then all other bins as one or, in a scan, what lets the box leave.
-// Words are extended and cut as what they are assigned to is wide; some bits are not needed.
-// verilator lint_off WIDTH
-// verilator lint_off UNUSEDSIGNAL
 module likelihood_memory #(
     parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROMs
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
@@ -45,7 +42,10 @@ module likelihood_memory #(
 );
     localparam integer Bins = 1 << BinBits, EdgeBits = BinBits + 8, RestBits = CountBits + BinBits;
     localparam integer ExposureBits = RestBits + 10, KeptBits = 2 * CountBits + ExposureBits;
+    // Numbers of bins are integers elsewhere.
+    // verilator lint_off WIDTH
     localparam [BinBits:0] All = Bins, Tail = BoxBins - BoxBins / 2 - 1;
+    // verilator lint_on WIDTH
 
     reg taken;                              // a word has been read in the last cycle
     reg [BinBits-1:0] taken_bin;            // its bin
@@ -122,23 +122,35 @@ module likelihood_memory #(
     wire last_tail = !scanning || tail == Tail;
 
     // Written as differences, as those of likelihood_sums are.
+    // The lowest bit is the carry that went in.
+    // verilator lint_off UNUSEDSIGNAL
     wire [RestBits:0] rest_ended_next = {rest_ended, 1'b0} - {block_done ? ~block_ended
         : phase ? {RestBits{1'b0}} : {{BinBits{1'b0}}, read_ended}, block_done};
+    // verilator lint_on UNUSEDSIGNAL
+    // The lowest bit is the carry that went in.
+    // verilator lint_off UNUSEDSIGNAL
     wire [ExposureBits:0] rest_exposure_next = {rest_exposure, 1'b0} - {block_done ? ~block_exposure
         : phase ? {ExposureBits{1'b0}} : read_exposure, block_done};
+    // verilator lint_on UNUSEDSIGNAL
 
     wire [RestBits-1:0] rest_waiting
         = rest_exposure[ExposureBits-1:RestBits+6] != 4'd0 ? {RestBits{1'b1}} : rest_exposure[RestBits+5:6];
 
     // Shots times a width, in fabric, as multipliers are needed elsewhere: two bits of the width at a time, and the
     // lowest bits of the sum are done with. Two rows come before a register, three after it.
+    // Both are extended to the sum.
+    // verilator lint_off WIDTH
     wire [CountBits+1:0] three = taken_waiting + {taken_waiting, 1'b0};
+    // verilator lint_on WIDTH
     wire [CountBits+1:0] first_row = row(fetched_width[1:0], taken_waiting, three);
     wire [CountBits+1:0] first_rows = (first_row >> 2) + row(fetched_width[3:2], taken_waiting, three);
     reg [CountBits+1:0] rest;
     reg [CountBits+9:0] exposure;
     always @* begin
+        // Its highest bits are none.
+        // verilator lint_off WIDTH
         rest = begun_exposure >> 2;
+        // verilator lint_on WIDTH
         exposure[3:0] = begun_exposure[3:0];
         for (i = 0; i < 6; i = i + 2) begin
             rest = (rest >> 2) + row(begun_width[i +: 2], begun_waiting, begun_three);
@@ -147,7 +159,10 @@ module likelihood_memory #(
         exposure[CountBits+9:10] = rest[CountBits+1:2];
     end
     function [CountBits+1:0] row(input [1:0] two, input [CountBits-1:0] once, input [CountBits+1:0] thrice);
+        // Each is extended to the row.
+        // verilator lint_off WIDTH
         row = !two[1] ? (two[0] ? once : {CountBits + 2{1'b0}}) : two[0] ? thrice : {once, 1'b0};
+        // verilator lint_on WIDTH
     endfunction
 
     always @(posedge clk_sys) if (written) ram[written_bin] <= {written_exposure, written_waiting, written_ended};
@@ -193,7 +208,10 @@ module likelihood_memory #(
             written_bin <= begun_bin;
             written_ended <= begun_ended;
             written_waiting <= begun_waiting;
+            // Bins of all sizes have an exposure that is extended.
+            // verilator lint_off WIDTH
             written_exposure <= exposure;
+            // verilator lint_on WIDTH
 
             // Sums over a block
             block_done <= written && (&written_bin[BinBits-4:0]);
@@ -251,5 +269,3 @@ module likelihood_memory #(
         end
     end
 endmodule
-// verilator lint_on UNUSEDSIGNAL
-// verilator lint_on WIDTH

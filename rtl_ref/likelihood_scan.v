@@ -5,9 +5,6 @@
 //
 // In a scan a box slides over the bins; a memory keeps what entered it until it leaves. One unit takes
 // logarithms: of excess and of what is expected, in the two cycles of a beat, and of blocks of bins in a load.
-// Words are extended and cut as what they are assigned to is wide; some bits are not needed.
-// verilator lint_off WIDTH
-// verilator lint_off UNUSEDSIGNAL
 module likelihood_scan #(
     parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROMs
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
@@ -27,7 +24,10 @@ module likelihood_scan #(
     input wire phase,                            // second cycle of a beat
     input wire slide,                            // a bin of a scan, or a beat after the last one, comes
     input wire signed [CountBits+8:0] residual,  // n k - R lambda [2^-4 counts], 0 of what is no bin
+    // The box counts in 256ths.
+    // verilator lint_off UNUSEDSIGNAL
     input wire [CountBits+17:0] predicted,        // R lambda [2^-12 counts]
+    // verilator lint_on UNUSEDSIGNAL
     input wire [CountBits:0] middle,             // twice the shots that wait in the middle of the bin
     input wire waits,                            // shots wait at it
     // The highest box
@@ -45,7 +45,10 @@ module likelihood_scan #(
     localparam integer ExcessBits = RestBits + 14, BoxExpectedBits = RestBits + 14, MiddleBits = CountBits + 1;
     localparam integer BoxMiddleBits = MiddleBits + BinBits, LogBits = BoxExpectedBits;
     localparam integer BoxTermBits = CountBits + 15, KeptBits = 2 * BoxTermBits + MiddleBits;
+    // Numbers of bins are integers elsewhere.
+    // verilator lint_off WIDTH
     localparam [BinBits:0] All = Bins, Box = BoxBins, Back = BoxBins - BoxBins / 2;
+    // verilator lint_on WIDTH
 
     reg [BinBits:0] count;                           // bins that have come
     reg [BinBits-1:0] newest;                        // the last of them
@@ -111,12 +114,18 @@ module likelihood_scan #(
     reg [5:0] leading;
     always @* begin
         case ({scan, scan ? phase : block_done})
+            // The largest of these numbers is as long as the word; the others are extended.
+            // verilator lint_off WIDTH
             2'b00: value = held_exposure;
             2'b01: value = block_ended;
+            // verilator lint_on WIDTH
             2'b10: value = $unsigned(excess_0);  // that of a negative one is of no use
             default: value = held_expected;
         endcase
+        // It is extended, to be raised.
+        // verilator lint_off WIDTH
         raised = log_number;
+        // verilator lint_on WIDTH
         raised_on = log_value;
         middle_bits[3:2] = log_high;
         for (i = 3; i >= 2; i = i - 1) begin
@@ -131,7 +140,10 @@ module likelihood_scan #(
         end
     end
     wire some_high = |raised[63:32];
+    // Only the top of a number has to do with its logarithm.
+    // verilator lint_off UNUSEDSIGNAL
     wire [47:0] half_raised = some_high ? raised[63:16] : {raised[31:0], 16'd0};
+    // verilator lint_on UNUSEDSIGNAL
     wire some_low = |half_raised[47:32];
     wire signed [13:0] log = !mantissa[21] && !log_expected_2 ? -14'sd64
         : $signed({2'd0, leading, 6'd0}) + $signed({7'd0, logs[mantissa[20:15]]});
@@ -158,7 +170,10 @@ module likelihood_scan #(
         input signed [ExcessBits-1:0] sum, input signed [ExcessBits-1:0] enters, input signed [ExcessBits-1:0] leaves,
         input second
     );
+        // The lowest bit is the carry that went in.
+        // verilator lint_off UNUSEDSIGNAL
         reg signed [ExcessBits:0] doubled;
+        // verilator lint_on UNUSEDSIGNAL
         begin
             doubled = {sum, 1'b0} - {second ? leaves : ~enters, !second};
             changed = doubled[ExcessBits:1];
@@ -204,18 +219,24 @@ module likelihood_scan #(
         lone <= exposed == 4'd1;
 
         if (entered) begin
+            // What enters and what leaves are extended to the box's sums.
+            // verilator lint_off WIDTH
             excess_0 <= changed(excess_0, entering_excess, leaving_excess, phase);
             box_expected <= changed(box_expected, $signed({1'b0, entering_expected}),
                                     $signed({1'b0, leaving_expected}), phase);
             box_middle_0 <= changed(box_middle_0, $signed({1'b0, entering_middle}),
                                     $signed({1'b0, leaving_middle}), phase);
+            // verilator lint_on WIDTH
         end
         {held_excess, held_expected, held_middle} <= {excess_0, box_expected, box_middle_0};
         if (phase) begin
             entered <= slide;
             if (slide) begin
+                // Both are extended by the addition.
+                // verilator lint_off WIDTH
                 entering_excess <= $signed({residual, 4'd0}) - added;
                 entering_expected <= predicted[CountBits+17:4] + $unsigned(added);
+                // verilator lint_on WIDTH
                 entering_middle <= middle;
                 {leaving_excess, leaving_expected, leaving_middle} <= full ? leaving : {KeptBits{1'b0}};
                 newest <= count[BinBits-1:0];
@@ -247,5 +268,3 @@ module likelihood_scan #(
         end
     end
 endmodule
-// verilator lint_on UNUSEDSIGNAL
-// verilator lint_on WIDTH

@@ -4,9 +4,8 @@
 // Sums over the bins of a fit: information and score of (mu, log S, log b), or how well the fit does.
 //
 // What a bin says goes on for nine beats of two cycles each; four multipliers work twice a beat.
-// Words are extended and cut as what they are assigned to is wide; some bits are not needed.
+// Words are extended and cut as what they are assigned to is wide.
 // verilator lint_off WIDTH
-// verilator lint_off UNUSEDSIGNAL
 module likelihood_sums #(
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
     parameter integer CountBits = 16             // of a word of the histogram, 8 to 24
@@ -17,7 +16,10 @@ module likelihood_sums #(
     input wire phase,                            // second cycle of a beat
     // likelihood_terms
     input wire signed [CountBits+8:0] residual,  // v [2^-4 counts], 0 of what is no bin
+    // A weight counts in 128ths.
+    // verilator lint_off UNUSEDSIGNAL
     input wire [CountBits+17:0] predicted,        // R lambda [2^-12 counts]
+    // verilator lint_on UNUSEDSIGNAL
     input wire [12:0] gain,                      // lambda / (exp(lambda) - 1) [2^-12]
     input wire [12:0] share,                     // s, the signal's in the hazard [2^-12]
     input wire signed [8:0] slope,               // z
@@ -120,7 +122,10 @@ module likelihood_sums #(
 
     // The fourth: a share of the share times its slope, and times it again, or how far a square may be
     wire signed [16:0] nearest = check ? Far * $signed(Count[7:0]) : 17'sd0;
+    // A product is as long as its word, but for one of a check.
+    // verilator lint_off UNUSEDSIGNAL
     wire signed [WeightBits+9:0] fourth = fourth_product + nearest;
+    // verilator lint_on UNUSEDSIGNAL
 
     // The square over its variance. Shifts go in steps, the longest first: the others have fewer bits to look at.
     reg [5:0] length;
@@ -139,7 +144,10 @@ module likelihood_sums #(
     // One adder for the sums of a pair. It is written as a difference: of an addition synthesis may swap the operands,
     // and one that is selected takes a LUT a bit more where the carries have the other.
     function signed [CountBits+23:0] plus(input signed [CountBits+23:0] sum, input signed [CountBits+23:0] more);
+        // The lowest bit is the carry that went in.
+        // verilator lint_off UNUSEDSIGNAL
         reg signed [CountBits+24:0] doubled;
+        // verilator lint_on UNUSEDSIGNAL
         begin
             doubled = {sum, 1'b0} - {~more, 1'b1};
             plus = doubled[CountBits+24:1];
@@ -149,7 +157,10 @@ module likelihood_sums #(
     // To the last sum w (1 - s) comes first, and then w s (1 - s) leaves it; in a check a term of the chi-square comes.
     wire signed [LastBits-1:0] comes = check ? $signed({1'b0, twice}) : others;
     wire signed [LastBits-1:0] changes = phase ? comes : check ? {LastBits{1'b1}} : ~mixed;
+    // The lowest bit is the carry that went in.
+    // verilator lint_off UNUSEDSIGNAL
     wire [LastBits:0] last_doubled = {last_sum, 1'b0} - {~changes, phase};
+    // verilator lint_on UNUSEDSIGNAL
 
     wire is_far = $signed({1'b0, square_2}) > tzz;
 
@@ -224,5 +235,4 @@ module likelihood_sums #(
         end
     end
 endmodule
-// verilator lint_on UNUSEDSIGNAL
 // verilator lint_on WIDTH

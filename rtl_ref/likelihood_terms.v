@@ -4,9 +4,6 @@
 // What a bin says of a point, in the likelihood estimator: residual, what is expected, and the signal's share.
 //
 // A bin goes on for sixteen beats of two cycles each; two multipliers work twice a beat.
-// Words are extended and cut as what they are assigned to is wide; some bits are not needed.
-// verilator lint_off WIDTH
-// verilator lint_off UNUSEDSIGNAL
 module likelihood_terms #(
     parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROMs
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
@@ -66,7 +63,10 @@ module likelihood_terms #(
     reg signed [8:0] fetched_slope, fetched_first, low_slope_0, low_slope_1, low_first_0, low_first_1;
     reg [3:0] sixteenths_0, sixteenths_1;        // how far the time is from one to the other
     reg [16:0] rise;                             // from the one part to the other
+    // What is below a part of the pulse is cut off.
+    // verilator lint_off UNUSEDSIGNAL
     reg [20:0] risen;                            // up to the time [1 / 16]
+    // verilator lint_on UNUSEDSIGNAL
     reg [16:0] pulse_part;                       // part of the pulse before the word's end
     reg signed [8:0] pulse_slope, pulse_first;   // slope there, and that of the part
     reg [16:0] last_part;                        // the same at the end of the bin before
@@ -76,10 +76,16 @@ module likelihood_terms #(
     reg [23:0] level;                            // of the signal and of ambient light in turn
     reg [16:0] amount;                           // of it in the bin
     reg [40:0] level_product;                    // their product
+    // What is below a hazard is cut off.
+    // verilator lint_off UNUSEDSIGNAL
     reg [41:0] level_times;                      // and half of what is cut off it
+    // verilator lint_on UNUSEDSIGNAL
     reg [25:0] light, lit_first, lit;            // hazards of both in turn, and of the signal
     reg [26:0] sum;                              // of both
+    // Of the last one only what k is less by is used.
+    // verilator lint_off UNUSEDSIGNAL
     reg [25:0] hazard_0, hazard_1, hazard_2, hazard_3, hazard_4;  // within its limits
+    // verilator lint_on UNUSEDSIGNAL
     reg [25:0] signal_hazard_0, signal_hazard_1;
     reg [4:0] bits_0, bits_1, bits_2, bits_3, bits_4;  // of the hazard
     reg [13:0] mantissa_first, mantissa_0, mantissa_1, mantissa_2;  // the hazard's
@@ -91,7 +97,10 @@ module likelihood_terms #(
     reg [3:0] few_left;                          // the others
     reg [16:0] many_left;
     reg [18:0] triple_left;
+    // What is below k is cut off.
+    // verilator lint_off UNUSEDSIGNAL
     reg [23:0] grown;                            // what k grows by within a quarter, and then the share
+    // verilator lint_on UNUSEDSIGNAL
     reg [16:0] k_before, k;                      // lambda / (1 - exp(-lambda)) [2^-12], and at the quarter before
     reg [12:0] gains_0, gains_1, gains_2;
     reg [12:0] share_first, shares_0, shares_1, shares_2;
@@ -120,7 +129,10 @@ module likelihood_terms #(
         if (Used) $readmemh(PulseFile, pulse);
         if (Used) $readmemh(HazardFile, hazards);
         // 1024 over 1 + (i + 1/2) / 64, rounded
+        // A reciprocal is computed as an integer.
+        // verilator lint_off WIDTH
         for (i = 0; i < 64; i = i + 1) reciprocals[i] = (262144 + 129 + 2 * i) / (2 * (129 + 2 * i));
+        // verilator lint_on WIDTH
     end
 
     initial begin
@@ -155,16 +167,25 @@ module likelihood_terms #(
     wire below = steps[TimeBits-1] && !(&steps[TimeBits-2:10]);
     wire above = !steps[TimeBits-1] && (|steps[TimeBits-2:10] || &steps[9:0]);
     wire [10:0] low_place = below ? 11'd0 : above ? 11'd2046 : {!steps[10], steps[9:0]};
+    // Only the sixteenths of a step are used.
+    // verilator lint_off UNUSEDSIGNAL
     wire signed [TimeBits-1:0] fine_steps = from_arrival >>> StepLog2;
+    // verilator lint_on UNUSEDSIGNAL
 
     // In fabric, two bits of a factor at a time
+    // Both are extended to the sum.
+    // verilator lint_off WIDTH
     wire [18:0] thrice_rise = rise + {rise, 1'b0};
+    // verilator lint_on WIDTH
     wire [18:0] rise_low = row(sixteenths_1[1:0], rise, thrice_rise);
     wire [18:0] rise_high = (rise_low >> 2) + row(sixteenths_1[3:2], rise, thrice_rise);
 
     // What of it is in the bin, and the slope between its ends
     wire none = edge_alone_2 && first_2;
+    // Half of the sum is used.
+    // verilator lint_off UNUSEDSIGNAL
     wire signed [9:0] slopes = {pulse_slope[8], pulse_slope} + {last_slope[8], last_slope};
+    // verilator lint_on UNUSEDSIGNAL
 
     // The hazard
     wire [25:0] light_limited = |level_times[41:35] ? MostHazard : level_times[34:9];
@@ -189,7 +210,10 @@ module likelihood_terms #(
     wire [16:0] many_next = phase ? {3'd0, aligned} : {6'd0, hazard_word[10:0]};
     reg [18:0] sums_low, sums_high;
     reg [22:0] begun_next;
+    // No product and no share is so large.
+    // verilator lint_off UNUSEDSIGNAL
     reg [26:0] grown_next;
+    // verilator lint_on UNUSEDSIGNAL
     always @* begin
         sums_low = 19'd0;
         begun_next = 23'd0;
@@ -198,18 +222,27 @@ module likelihood_terms #(
             begun_next[i +: 2] = sums_low[1:0];
         end
         begun_next[22:6] = sums_low[18:2];
+        // It is extended to the rows.
+        // verilator lint_off WIDTH
         sums_high = begun[22:6] + row(few_left[1:0], many_left, triple_left);
+        // verilator lint_on WIDTH
         grown_next[7:0] = {sums_high[1:0], begun[5:0]};
         sums_high = (sums_high >> 2) + row(few_left[3:2], many_left, triple_left);
         grown_next[26:8] = sums_high;
     end
     function [18:0] row(input [1:0] two, input [16:0] once, input [18:0] thrice);
+        // Each is extended to the row.
+        // verilator lint_off WIDTH
         row = !two[1] ? (two[0] ? once : 19'd0) : two[0] ? thrice : {once, 1'b0};
+        // verilator lint_on WIDTH
     endfunction
     wire [13:0] share_rounded = {1'b0, grown[23:11]} + {13'd0, grown[10]};
 
     // Shots times k or the mantissa
+    // The half is extended to the product.
+    // verilator lint_off WIDTH
     wire [EndedBits-1:0] times = shots_product + half;
+    // verilator lint_on WIDTH
 
     // R lambda from its mantissa
     reg [WaitingProductBits+1:0] expected_next, expected;
@@ -226,7 +259,10 @@ module likelihood_terms #(
     wire [ResidualBits-1:0] surplus_limited = surplus_fits ? surplus[ResidualBits+7:8]
         : {surplus[EndedBits], {ResidualBits - 1{!surplus[EndedBits]}}};
     wire [CountBits:0] twice = {waiting_11[CountBits-1:0], 1'b0};
+    // Twice the other has a bit more.
+    // verilator lint_off WIDTH
     wire [CountBits:0] once = ended_11[CountBits-1:0];
+    // verilator lint_on WIDTH
     wire [CountBits+1:0] between = {1'b0, twice} - {1'b0, once};
 
     always @(posedge clk_sys) begin
@@ -241,13 +277,19 @@ module likelihood_terms #(
         level <= phase ? ambient : strength;
         amount <= phase ? {6'd0, width_3, 1'b0} : part;
         level_product <= level * amount;
+        // Both are extended to the sum.
+        // verilator lint_off WIDTH
         level_times <= level_product + 9'd256;
+        // verilator lint_on WIDTH
         light <= light_limited;
         lit_first <= light;
         mantissa_first <= shifted[25:12];
         few <= phase ? reciprocal : hazard_2[19:10];
         many <= many_next;
+        // Both are extended to the sum.
+        // verilator lint_off WIDTH
         triple <= many_next + {many_next, 1'b0};
+        // verilator lint_on WIDTH
         begun <= begun_next;
         few_left <= few[9:6];
         {many_left, triple_left} <= {many, triple};
@@ -305,7 +347,10 @@ module likelihood_terms #(
             aligned <= shifted[25:12];
 
             k_before <= hazard_word[27:11];
+            // What k grows by is extended to it.
+            // verilator lint_off WIDTH
             k <= k_before + grown[20:10];
+            // verilator lint_on WIDTH
             {gains_2, gains_1} <= {gains_1, gains_0};
             gains_0 <= k[12:0] - hazard_4[22:10];
             {shares_2, shares_1, shares_0} <= {shares_1, shares_0, share_first};
@@ -330,5 +375,3 @@ module likelihood_terms #(
         end
     end
 endmodule
-// verilator lint_on UNUSEDSIGNAL
-// verilator lint_on WIDTH

@@ -78,6 +78,7 @@ module tof_top #(
     parameter PulseFile = "rtl_ref/pulse.mem",
     parameter HazardFile = "rtl_ref/hazard.mem",
     parameter LogFile = "rtl_ref/log2.mem",
+    parameter ProgramFile = "rtl_ref/solver.mem",
     parameter CodeFile = "rtl_ref/codes.mem",
     parameter HistogramFile = "rtl_ref/histogram.mem"
 ) (
@@ -408,7 +409,8 @@ module tof_top #(
         .EdgesFile(EdgesFile),
         .PulseFile(PulseFile),
         .HazardFile(HazardFile),
-        .LogFile(LogFile)
+        .LogFile(LogFile),
+        .ProgramFile(ProgramFile)
     ) likelihood_estimator (
         .clk_sys(clk_sys),
         .rst(rst_dsp),

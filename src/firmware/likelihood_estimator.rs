@@ -15,12 +15,15 @@
 //! (`docs/accuracy.md`).
 //! The unit of time is a 64th of a bin; words are as `docs/model.md` has them.
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::U;
 use crate::{connect, signals, states};
 
+mod duration;
 pub mod params;
 pub mod pipeline;
 pub mod pulse;
+mod sequence;
+mod slotted;
 pub mod tables;
 pub mod words;
 
@@ -28,17 +31,9 @@ use super::forward2::Depth;
 use super::histogram_builder::Count;
 use super::likelihood_memory::{self, LikelihoodMemory, Place};
 use super::likelihood_scan::{self, LikelihoodScan};
-use super::likelihood_solver::program::{
-    AMBIENT_PROGRAM, END_PROGRAM, START_PROGRAM, STEP_PROGRAM, program_cycles,
-};
 use super::likelihood_solver::{self, LikelihoodSolver};
 use super::likelihood_sums::{self, LikelihoodSums};
 use super::likelihood_terms::{self, LikelihoodTerms};
-use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
-use super::tof_top::status::{Status, StatusSet};
-
-use params::Params;
-use words::{ANOTHER_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE};
 
 states! {
     /// States of the estimator.
@@ -242,197 +237,10 @@ connect! {
     }
 }
 
-/// Beats from a bin in the memory to the sums, or to the highest box, with one for the edge.
-const BEATS: u64 = 29;
-/// Cycles from the last word of a load to the block that it completes.
-const LOADED: u64 = 12;
-impl Params {
-    /// Cycles of a load.
-    pub fn load_cycles(&self) -> u64 {
-        self.histogram.bins as u64 + LOADED
-    }
-
-    /// From the edge that takes `algo_start` to the one that raises `algo_done`: a load, two scans, a pass for
-    /// each step and one to check, each of bins, and the programs between them, which are as long whatever is in
-    /// the histogram [cycles of clk_sys].
-    pub fn done(&self) -> u64 {
-        let passes = STEPS as u64 + 1;
-        let programs = program_cycles(AMBIENT_PROGRAM)
-            + program_cycles(START_PROGRAM)
-            + STEPS as u64 * program_cycles(STEP_PROGRAM)
-            + program_cycles(END_PROGRAM);
-        let states = 1 + 2 + passes;
-        self.load_cycles() + 2 * self.scan_cycles() + passes * self.fit_cycles() + programs + states
-    }
-
-    /// Cycles of a scan.
-    pub fn scan_cycles(&self) -> u64 {
-        2 * (self.histogram.bins as u64 + self.scan_tail() + BEATS)
-    }
-
-    /// Cycles of a pass over the bins of a fit.
-    pub fn fit_cycles(&self) -> u64 {
-        2 * (self.fitted() as u64 + BEATS)
-    }
-}
-
-impl From<SlotIn> for In {
-    fn from(SlotIn { rst, algo_start, mode, count }: SlotIn) -> Self {
-        In { rst, algo_start, mode, count }
-    }
-}
-
-impl SlotEstimator for LikelihoodEstimator {
-    type In = In;
-    type Params = Params;
-    const STATES_SIGMA: bool = true;
-
-    fn rise(&mut self, i: &In, p: &Params) {
-        let (memory, terms) = (Wires::likelihood_memory(self, i), Wires::likelihood_terms(self, i));
-        let (sums, scan) = (Wires::likelihood_sums(self, i), Wires::likelihood_scan(self, i));
-        let solver = Wires::likelihood_solver(self, i);
-        let registers = if i.rst { Registers::default() } else { self.next(i, p) };
-
-        self.likelihood_memory.rise(&memory, p);
-        self.likelihood_terms.tick(&terms, p);
-        self.likelihood_sums.tick(&sums, p);
-        self.likelihood_scan.rise(&scan, p);
-        self.likelihood_solver.rise(&solver, p);
-        self.registers = registers;
-    }
-
-    #[inline(always)]
-    fn outputs(&self) -> SlotOut {
-        let memory = &self.likelihood_memory.registers;
-        let (read_en, read_addr) = (memory.read_en, memory.read_addr);
-        let Registers { depth, sigma, status, valid, algo_done, .. } = self.registers;
-        let words = EstimateWords { depth, sigma, status, valid };
-        SlotOut { read_en, read_addr, words, algo_done }
-    }
-
-    fn cycles(p: &Params) -> u64 {
-        p.done()
-    }
-
-    fn phase(&self, _: &Params) -> Option<u64> {
-        let working = self.registers.state != State::Idle || self.registers.algo_done;
-        working.then_some(if self.registers.load { 0 } else { 1 })
-    }
-
-    fn rests(&self, i: &In, p: &Params) -> bool {
-        self.registers.state == State::Idle
-            && self.next(i, p) == self.registers
-            && self.likelihood_solver.rests(&Wires::likelihood_solver(self, i), p)
-            && self.likelihood_memory.rests(&Wires::likelihood_memory(self, i), p)
-            && self.likelihood_scan.rests(&Wires::likelihood_scan(self, i), p)
-            && self.likelihood_terms.next(&Wires::likelihood_terms(self, i), p)
-                == self.likelihood_terms
-            && self.likelihood_sums.next(&Wires::likelihood_sums(self, i), p)
-                == self.likelihood_sums
-    }
-}
-
 impl LikelihoodEstimator {
     /// Returns the state.
     pub fn state(&self) -> State {
         self.registers.state
-    }
-
-    fn next(&self, i: &In, p: &Params) -> Registers {
-        let q = &self.registers;
-        let mut d = *q;
-        (d.load, d.pass, d.sums, d.run, d.algo_done) = Default::default();
-        d.free |= i.mode;
-        let passes = [State::Scan, State::Fit, State::Check, State::Rescan].contains(&q.state);
-        d.phase = passes && !q.pass && !q.phase;
-        d.waited = q.waited + 1;
-        let after = |cycles: u64| q.waited == cycles;
-        let ran = self.likelihood_solver.registers.ran;
-        match q.state {
-            State::Idle if i.algo_start => {
-                (d.state, d.load) = (State::Load, true);
-                (d.fit_begin, d.fit_end, d.steps) = Default::default();
-                (d.unarmed, d.free) = (d.free, i.mode);
-            }
-            State::Load if after(p.load_cycles()) => d.solve(State::Ambient, AMBIENT_PROGRAM),
-            State::Ambient if ran => d.slide(State::Scan),
-            State::Scan if after(p.scan_cycles()) => {
-                d.start_score = self.likelihood_scan.registers.best_score;
-                d.solve(State::Start, START_PROGRAM);
-            }
-            State::Start if ran => self.fit(State::Fit, p, &mut d),
-            State::Fit if after(p.fit_cycles()) => d.solve(State::Step, STEP_PROGRAM),
-            State::Step if ran => {
-                let last = q.steps == STEPS as u64 - 1;
-                d.steps = q.steps + 1;
-                self.fit(if last { State::Check } else { State::Fit }, p, &mut d);
-            }
-            State::Check if after(p.fit_cycles()) => d.slide(State::Rescan),
-            State::Check => self.look(&mut d),
-            State::Rescan if after(p.scan_cycles()) => d.solve(State::End, END_PROGRAM),
-            State::End if ran => self.give(p, &mut d),
-            _ => {}
-        }
-        if d.state == State::Idle || d.state != q.state || d.pass {
-            d.waited = U::new(0);
-        }
-        d
-    }
-
-    /// Begins a pass over the bins around the arrival.
-    fn fit(&self, state: State, p: &Params, d: &mut Registers) {
-        let bins = p.histogram.bins as u64;
-        let centre = (self.likelihood_solver.registers.arrival.get() >> 10).min(bins - 1);
-        d.fit_begin = U::new(centre.saturating_sub(p.before as u64));
-        d.fit_end = U::new((centre + p.after as u64 + 1).min(bins));
-        (d.pass, d.sums, d.state) = (true, true, state);
-        d.check = state == State::Check;
-        d.seen = false;
-    }
-
-    /// Looks at the first bin of the check.
-    fn look(&self, d: &mut Registers) {
-        let memory = &self.likelihood_memory.registers;
-        if memory.word_bin && !self.registers.seen {
-            d.seen = true;
-            d.used_up = memory.word_waiting.get() < LEAST_WAITING;
-        }
-    }
-
-    /// Gives what has come out.
-    fn give(&self, p: &Params, d: &mut Registers) {
-        let solver = &self.likelihood_solver.registers;
-        let flag = |flag: u64| solver.flags.get() >> flag & 1 != 0;
-        let unsure = flag(1) && d.start_score.get() < SURE_SCORE;
-        let no_echo = unsure || flag(0) || flag(2) || d.start_score.get() < LEAST_SCORE;
-        let reasons = [
-            (no_echo, Status::NoEcho),
-            (flag(3) || flag(4), Status::CutOff),
-            (d.used_up, Status::UsedUp),
-            (self.likelihood_scan.registers.best_score.get() > ANOTHER_SCORE, Status::Another),
-            (solver.cut != 0 || flag(5) || flag(6), Status::NotSettled),
-            (self.likelihood_sums.far, Status::NoFit),
-            (d.unarmed, Status::Unarmed),
-        ];
-        d.status = U::new(StatusSet::of(&reasons).bits().into());
-        d.valid = d.status == 0;
-        // An arrival counts from the laser edge, a depth from where the light leaves.
-        (d.depth, d.sigma) = (Depth::new(solver.depth.get() - p.delay), solver.sigma);
-        d.chi_square = self.likelihood_sums.chi_square;
-        (d.algo_done, d.scan, d.state) = (true, false, State::Idle);
-    }
-}
-
-impl Registers {
-    /// Begins a program.
-    fn solve(&mut self, state: State, program: u64) {
-        (self.state, self.run, self.entry) = (state, true, U::new(program));
-        self.scan = false;
-    }
-
-    /// Begins a scan.
-    fn slide(&mut self, state: State) {
-        (self.state, self.pass, self.scan, self.check) = (state, true, true, false);
     }
 }
 

@@ -19,20 +19,12 @@ use crate::signals;
 
 use super::histogram_builder::{Bin, Count, MOST_BINS};
 use super::likelihood_estimator::params::Params;
-use super::likelihood_estimator::pipeline::shift;
-use super::likelihood_estimator::tables::LOG2;
 use super::likelihood_memory::{Exposure, Place, Waiting};
 use super::likelihood_terms::{Expected, Residual};
 
-/// Score of a box in which less than expected ended.
-const NONE: i64 = -4096;
-/// Addition to the expected count of a bin while shots wait, 8 fraction bits: a tenth.
-const ADDED: i64 = 26;
-/// A block counts with a 64th of the first one's exposure.
-const LEAST_EXPOSURE: i64 = 6 * 64;
-
-/// Bits that are kept of a number whose logarithm is taken, of which the upper 16 have its leading one.
-const TOP_BITS: u32 = 22;
+mod blocks;
+mod logarithm;
+mod sliding;
 
 /// 64 times a logarithm to base 2, or a sum of such.
 pub type Log = S<14>;
@@ -287,156 +279,5 @@ impl LikelihoodScan {
             d.begin(p);
         }
         d
-    }
-}
-
-impl Registers {
-    /// Begins a scan.
-    fn begin(&mut self, p: &Params) {
-        (self.count, self.entered) = (U::new(0), false);
-        (self.oldest, self.centre) = (S::new(-(p.box_bins as i64)), S::new(-(p.box_back() as i64)));
-        self.boxed = [false; 4];
-        (self.from, self.until) = Default::default();
-        (self.excess[0], self.box_expected, self.box_middle) = Default::default();
-        self.best_score = S::new(i64::from(i16::MIN) / 4);
-    }
-
-    /// The unit that takes logarithms.
-    fn log(&self, i: &In, p: &Params, d: &mut Self) {
-        let value = match (i.scan, i.block_done, i.phase) {
-            (false, true, _) => i.block_ended.get(),
-            (false, false, _) => self.held_exposure.get(),
-            // That of a negative one is of no use.
-            (true, _, false) => {
-                let bits = p.histogram.count_bits + p.histogram.bins.ilog2() + 14;
-                self.excess[0].get() as u64 & (u64::MAX >> (64 - bits))
-            }
-            (true, _, true) => self.held_expected.get(),
-        };
-        d.log_number = U::new(value);
-        let number = self.log_number.get();
-        let high = number.max(1).ilog2() / 16;
-        d.log_value = U::new(number << (48 - 16 * high) >> (u64::BITS - TOP_BITS));
-        d.log_high = U::new(high.into());
-        let value = self.log_value.get();
-        let middle = (value >> (TOP_BITS - 16)).max(1).ilog2() / 4;
-        d.log_mantissa = U::new(value << (12 - 4 * middle));
-        d.log_middle = U::new(self.log_high.get() * 4 + u64::from(middle));
-        shift(&mut d.log_expected, i.scan && i.phase);
-        let value = self.log_mantissa.get();
-        let low = (value >> (TOP_BITS - 4)).max(1).ilog2();
-        let aligned = value << (3 - low) >> (TOP_BITS - 7);
-        let log = match value {
-            0 if !self.log_expected[2] => -64,
-            _ => {
-                (self.log_middle.get() as i64 * 4 + i64::from(low)) * 64
-                    + LOG2[(aligned & 63) as usize]
-            }
-        };
-        if if i.scan { i.phase } else { self.block[2] } {
-            d.upper_log = S::new(log);
-        }
-        if if i.scan { !i.phase } else { self.block[3] } {
-            d.lower_log = S::new(log);
-        }
-    }
-
-    /// Keeps the blocks with the lowest hazards.
-    fn blocks(&self, i: &In, d: &mut Self) {
-        shift(&mut d.block, i.block_done);
-        d.held_exposure = i.block_exposure;
-        if i.block_done {
-            d.block_count = self.block_count + 1;
-        }
-        if self.block[4] {
-            self.insert(d);
-        }
-        if i.load {
-            (d.block_count, d.judged, d.exposed) = Default::default();
-            d.lowest = [S::new(8191); 3];
-            d.threshold = S::new(-8192);
-        }
-    }
-
-    /// Puts a block into its place.
-    fn insert(&self, d: &mut Self) {
-        let (hazard, exposure) =
-            (self.upper_log.get() - self.lower_log.get(), self.lower_log.get());
-        d.judged = self.judged + 1;
-        let first = self.judged == 0;
-        if first {
-            d.threshold = S::new(exposure - LEAST_EXPOSURE);
-        }
-        if !first && exposure <= self.threshold.get() {
-            return;
-        }
-        d.exposed = self.exposed + 1;
-        let lower = |k: usize| hazard < self.lowest[k].get();
-        for k in 0..3 {
-            if k > 0 && lower(k - 1) {
-                (d.lowest[k], d.which[k]) = (self.lowest[k - 1], self.which[k - 1]);
-            } else if lower(k) {
-                (d.lowest[k], d.which[k]) = (S::new(hazard), self.judged);
-            }
-        }
-    }
-
-    /// Takes a bin, and what leaves the box for it.
-    fn enter(&self, i: &In, p: &Params, kept: &Kept, d: &mut Self) {
-        d.entered = i.slide;
-        if !i.slide {
-            return;
-        }
-        let added = if i.waits { ADDED } else { 0 };
-        d.entering_excess = S::new((i.residual.get() << 4) - added);
-        d.entering_expected = U::new((i.predicted.get() >> 4) + added as u64);
-        d.entering_middle = i.middle;
-        let left = if self.oldest.get() >= 0 { *kept } else { Kept::default() };
-        d.leaving_excess = left.excess;
-        (d.leaving_expected, d.leaving_middle) = (left.predicted, left.middle);
-        d.newest = U::new(self.count.get() % p.histogram.bins as u64);
-        d.count = self.count + 1;
-        (d.oldest, d.centre) = (self.oldest + 1, self.centre + 1);
-    }
-
-    /// Adds what enters to the box, and in the second cycle of a beat subtracts what leaves.
-    fn change(&self, i: &In, d: &mut Self) {
-        (d.held_excess, d.held_expected) = (self.excess[0], self.box_expected);
-        d.held_middle = self.box_middle[0];
-        if !self.entered {
-            return;
-        }
-        let more = |enters: i64, leaves: i64| if i.phase { -leaves } else { enters };
-        d.excess[0] = self.excess[0] + more(self.entering_excess.get(), self.leaving_excess.get());
-        let [entering, leaving] =
-            [self.entering_expected, self.leaving_expected].map(|word| word.get() as i64);
-        d.box_expected = self.box_expected + more(entering, leaving) as u64;
-        let [entering, leaving] =
-            [self.entering_middle, self.leaving_middle].map(|word| word.get() as i64);
-        d.box_middle[0] = self.box_middle[0] + more(entering, leaving) as u64;
-    }
-
-    /// Slides the box on.
-    fn slide(&self, p: &Params, d: &mut Self) {
-        (d.excess[1], d.excess[2], d.excess[3]) =
-            (self.held_excess, self.excess[1], self.excess[2]);
-        (d.box_middle[1], d.box_middle[2], d.box_middle[3]) =
-            (self.held_middle, self.box_middle[1], self.box_middle[2]);
-        // The box ends with the bin that entered.
-        let bins = p.histogram.bins as i64;
-        shift(&mut d.from, U::new(self.oldest.get().max(0) as u64));
-        shift(&mut d.until, U::new(self.count.get().min(bins as u64)));
-        shift(&mut d.boxed, self.entered && (0..bins).contains(&self.centre.get()));
-    }
-
-    /// Compares a box with the highest one.
-    fn judge(&self, d: &mut Self) {
-        let above = self.excess[2].get() > 0;
-        let score = 2 * self.upper_log.get() - self.lower_log.get() - 512;
-        d.score = S::new(if above { score } else { NONE });
-        if self.boxed[3] && self.score.get() > self.best_score.get() {
-            (d.best_score, d.best_from, d.best_until) = (self.score, self.from[3], self.until[3]);
-            (d.best_excess, d.best_middle) = (self.excess[3], self.box_middle[3]);
-        }
     }
 }

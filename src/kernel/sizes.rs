@@ -4,6 +4,9 @@
 //! parameter of the same name.
 
 mod design;
+pub mod likelihood;
+
+use likelihood::{EDGE_BITS, WIDTH_BITS};
 
 pub use design::Sizes;
 
@@ -155,11 +158,11 @@ sizes! { s:
     /// Bits of a sum of bin counts.
     RestBits = s.rest_bits();
     /// Bits of an exposure.
-    ExposureBits = s.rest_bits() + 10;
+    ExposureBits = s.rest_bits() + WIDTH_BITS;
     /// Bits of a bin's width.
-    WidthBits = 10;
+    WidthBits = WIDTH_BITS;
     /// Bits of a bin's edge [half units].
-    EdgeBits = s.bin_bits() + 8;
+    EdgeBits = s.bin_bits() + EDGE_BITS;
     /// Bits of an arrival.
     ArrivalBits = s.bin_bits() + 11;
     /// Bits of a signed time from an arrival.
@@ -229,21 +232,21 @@ sizes! { s:
     /// Bits of a count of the likelihood estimator's cycles.
     WaitBits = s.bin_bits() + 3;
     /// Bits of a word of the solver.
-    WordBits = s.word_bits;
+    WordBits = s.word_bits();
     /// Bits of the product of a word's lower part.
-    LowProductBits = s.word_bits + 18;
+    LowProductBits = s.word_bits() + 18;
     /// Bits of a term of lower parts.
-    LowTermBits = s.word_bits + 1;
+    LowTermBits = s.word_bits() + 1;
     /// Bits of a term of upper parts.
-    HighTermBits = 2 * (s.word_bits - 17);
+    HighTermBits = 2 * (s.word_bits() - 17);
     /// Bits of a word before its last bits are dropped.
-    FineBits = s.word_bits + 18;
+    FineBits = s.word_bits() + 18;
     /// Bits of a sum of words.
-    SumOfWordBits = s.word_bits + 3;
+    SumOfWordBits = s.word_bits() + 3;
     /// Bits of a magnitude's upper part.
-    MagnitudeBits = s.word_bits - 14;
+    MagnitudeBits = s.word_bits() - 14;
     /// Bits of a shifted word.
-    ShiftedBits = s.word_bits + 2;
+    ShiftedBits = s.word_bits() + 2;
 }
 
 impl Size {

@@ -5,12 +5,14 @@ use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward1::{Rom, Weight};
 use crate::firmware::forward2;
 use crate::firmware::likelihood_estimator;
-use crate::firmware::likelihood_estimator::params::WIDTH_BITS;
 use crate::firmware::likelihood_estimator::pulse::PulseWord;
 use crate::firmware::likelihood_estimator::tables::{LOG2, TABLES};
+use crate::firmware::likelihood_solver::instruction::Instruction;
+use crate::firmware::likelihood_solver::program::PROGRAM;
 use crate::firmware::tansig;
 use crate::firmware::tdc_decoder;
 use crate::kernel::WordFormat;
+use crate::kernel::sizes::likelihood::WIDTH_BITS;
 
 /// Name and text of a ROM file.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,8 +62,8 @@ pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
 }
 
 /// Formats the ROMs of the likelihood estimator: for each bin boundary its time and the width of the bin before it,
-/// the pulse, k with its slope, and the logarithm.
-pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [Mem; 4] {
+/// the pulse, k with its slope, the logarithm, and the solver's program.
+pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [Mem; 5] {
     let edge_bits = params.edge_bits();
     let edge = |place: usize| {
         let (width, end) = params.rom_word(place);
@@ -79,7 +81,14 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [M
         Mem { name: "pulse.mem", text: lines(pulse, digits(35)) },
         Mem { name: "hazard.mem", text: lines(hazard, digits(28)) },
         Mem { name: "log2.mem", text: lines(log, digits(7)) },
+        likelihood_solver(),
     ]
+}
+
+/// Formats the ROM of the likelihood estimator's solver: its program, an instruction a line.
+pub fn likelihood_solver() -> Mem {
+    let words = PROGRAM.iter().map(Instruction::word);
+    Mem { name: "solver.mem", text: lines(words, digits(Instruction::BITS)) }
 }
 
 /// Concatenates words of `width` bits into one, the first in the low bits.

@@ -120,7 +120,13 @@ fn likelihood_estimator_shows_where_each_step_leads_and_what_comes_out() {
         assert_eq!(found, wanted, "step {taken}");
     }
     let found = expected.found;
-    let wanted = [found.depth.bits(), found.sigma, found.status.bits().into(), found.chi_square, 1];
+    let wanted = [
+        found.words().depth.bits(),
+        found.sigma as u64,
+        found.status.bits().into(),
+        found.chi_square as u64,
+        1,
+    ];
     let ends = ["Depth", "SIGMA", "STATUS", "CHI_SQUARE", "VALID"].map(|name| of(name)[at]);
     assert_eq!(ends, wanted);
 }

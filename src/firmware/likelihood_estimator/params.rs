@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::firmware::histogram_builder;
 use crate::kernel::pulse::Pulse;
+use crate::kernel::sizes::likelihood::{self, EDGE_BITS, WIDTH_BITS};
 
 use super::pulse::{PulseWord, step_log2, words};
 use super::words::{DEPTH_FRACTION, UNITS};
@@ -13,12 +14,6 @@ use super::words::{DEPTH_FRACTION, UNITS};
 const BOX_SIGMA: f64 = 2.8;
 /// Bits of the word that turns time into distance.
 const METRES_BITS: i32 = 24;
-/// Fewest bits of a word of the solver: products of two of 16 bits, and 32 m.
-const FEWEST_WORD_BITS: u32 = 35;
-/// Bits of a bin's width in units.
-pub const WIDTH_BITS: u32 = 10;
-/// Bits of an edge above those that bins have, in half units.
-const EDGE_BITS: u32 = 8;
 
 /// Verilog parameters and what is in the ROMs.
 #[derive(Clone, PartialEq)]
@@ -49,6 +44,25 @@ pub struct Params {
     pub metres_shift: u32,
     /// Distance that light would go, there and back, in the laser's delay [2^-29 m].
     pub delay: i64,
+}
+
+/// Numbers that times and distances are reckoned with, as words or without rounding.
+#[derive(Clone, Copy, Debug)]
+pub struct Scales<T> {
+    /// 16 times the square of the pulse's deviation, which is 24 to 48 of what z counts.
+    pub kappa: T,
+    /// What a step in mu is multiplied with [2^-17 units / 16].
+    pub stride: T,
+    /// The pulse's deviation [units].
+    pub sigma: T,
+    /// Distance of a 16th of a unit, with `metres_shift` more fraction bits than a depth.
+    pub metres: T,
+    /// Additional fraction bits of `metres`.
+    pub metres_shift: u32,
+    /// Distance that light would go, there and back, in the laser's delay [2^-29 m].
+    pub delay: T,
+    /// End of the last bin [units / 16].
+    pub end: T,
 }
 
 /// Properties of an instrument that the estimator uses.
@@ -128,14 +142,14 @@ impl Params {
         Params::of(&wanted)
     }
 
-    /// Bits of the words of the steps: those of a sum, [`Params::word_bits`].
+    /// Bits of a word of the solver.
     pub fn word_bits(&self) -> u32 {
         word_bits(&self.histogram)
     }
 
-    /// Bits of a weight: those of a count above its 6 fraction bits with two more, 24 at least.
+    /// Bits of a weight.
     pub fn weight_bits(&self) -> u32 {
-        (self.histogram.count_bits + 8).max(24)
+        likelihood::weight_bits(self.histogram.count_bits)
     }
 
     /// Bits of an edge in half units.
@@ -146,6 +160,12 @@ impl Params {
     /// 16 times `kappa`'s distance: what a step in mu is multiplied with [2^-17 units / 16].
     pub fn stride(&self) -> i64 {
         self.kappa << self.step_log2
+    }
+
+    /// The numbers that times and distances are reckoned with.
+    pub fn scales(&self) -> Scales<i64> {
+        let Params { kappa, sigma, metres, metres_shift, delay, .. } = *self;
+        Scales { kappa, stride: self.stride(), sigma, metres, metres_shift, delay, end: self.end() }
     }
 
     /// Returns the end of the last bin [units / 16].
@@ -181,37 +201,57 @@ impl Params {
 
     /// For one that it fits.
     fn of(wanted: &Wanted) -> Self {
-        let Wanted { histogram, shots, bin_ps, pulse, metres_per_ps, .. } = wanted;
-        let (unit_ps, sigma_ps) = (wanted.unit_ps(), pulse.sigma_ps());
+        let Wanted { histogram, shots, bin_ps, pulse, .. } = wanted;
+        let (scales, step_log2) = (wanted.scales(), wanted.step_log2());
         let [before, after] = wanted.reach();
-        let step_log2 = step_log2(pulse, unit_ps);
-        let deviation = sigma_ps / unit_ps / f64::from(1u32 << step_log2) / 4.0;
-        let depth_word = f64::from(DEPTH_FRACTION).exp2();
-        let distance = metres_per_ps * unit_ps / 16.0 * depth_word;
-        let metres_shift = (METRES_BITS - 1) - libm::floor(libm::log2(distance)) as i32;
         Params {
             histogram: *histogram,
             shots: *shots,
             edges: wanted.edges().into(),
-            pulse: words(pulse, unit_ps, step_log2).into(),
+            pulse: words(pulse, wanted.unit_ps(), step_log2).into(),
             step_log2,
             before,
             after,
-            box_bins: (libm::round(BOX_SIGMA * sigma_ps / bin_ps) as usize)
+            box_bins: (libm::round(BOX_SIGMA * pulse.sigma_ps() / bin_ps) as usize)
                 .clamp(2, histogram.bins / 2),
-            kappa: libm::round(16.0 * deviation * deviation) as i64,
-            sigma: libm::round(sigma_ps / unit_ps) as i64,
-            metres: libm::round(distance * (metres_shift as f64).exp2()) as i64,
-            metres_shift: metres_shift as u32,
-            delay: libm::round(metres_per_ps * wanted.delay_ps * depth_word) as i64,
+            kappa: libm::round(scales.kappa) as i64,
+            sigma: libm::round(scales.sigma) as i64,
+            metres: libm::round(scales.metres) as i64,
+            metres_shift: scales.metres_shift,
+            delay: libm::round(scales.delay) as i64,
         }
     }
 }
 
 impl Wanted<'_> {
     /// Unit of time [ps].
-    fn unit_ps(&self) -> f64 {
+    pub fn unit_ps(&self) -> f64 {
         self.bin_ps / UNITS as f64
+    }
+
+    /// Logarithm of the step of the pulse's ROM [units].
+    fn step_log2(&self) -> u32 {
+        step_log2(&self.pulse, self.unit_ps())
+    }
+
+    /// The numbers that times and distances are reckoned with, without rounding.
+    pub fn scales(&self) -> Scales<f64> {
+        let (sigma, step) =
+            (self.pulse.sigma_ps() / self.unit_ps(), f64::from(1u32 << self.step_log2()));
+        let deviation = sigma / step / 4.0;
+        let kappa = 16.0 * deviation * deviation;
+        let depth_word = f64::from(DEPTH_FRACTION).exp2();
+        let distance = self.metres_per_ps * self.unit_ps() / 16.0 * depth_word;
+        let metres_shift = (METRES_BITS - 1) - libm::floor(libm::log2(distance)) as i32;
+        Scales {
+            kappa,
+            stride: kappa * step,
+            sigma,
+            metres: distance * f64::from(metres_shift).exp2(),
+            metres_shift: metres_shift as u32,
+            delay: self.metres_per_ps * self.delay_ps * depth_word,
+            end: self.edges_ps.last().unwrap_or(&0.0) / self.unit_ps() * 16.0,
+        }
     }
 
     /// Edges of the bins [half units].
@@ -252,8 +292,7 @@ impl Wanted<'_> {
     }
 }
 
-/// Bits of a word of the solver: enough for sums over a fit, and for the exposure of all bins.
-pub fn word_bits(histogram: &histogram_builder::Params) -> u32 {
-    let counted = histogram.count_bits + 19.max(histogram.bins.ilog2() + WIDTH_BITS + 1);
-    counted.max(FEWEST_WORD_BITS)
+/// Bits of a word of the solver for such a histogram.
+fn word_bits(histogram: &histogram_builder::Params) -> u32 {
+    likelihood::word_bits(histogram.bins.ilog2(), histogram.count_bits)
 }

@@ -1,6 +1,8 @@
 //! Tests of the status at the limits of the scores.
 
+use super::words::{ANOTHER_SCORE, LEAST_SCORE, SURE_SCORE};
 use super::*;
+use crate::firmware::tof_top::status::Status;
 use crate::kernel::S;
 use crate::sim::setup::Setup;
 

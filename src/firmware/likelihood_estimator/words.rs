@@ -1,4 +1,4 @@
-//! Number formats and status bits of the likelihood estimator.
+//! Number formats and limits of the likelihood estimator.
 
 use fixed::FixedU64;
 use fixed::types::extra::U8;
@@ -23,6 +23,32 @@ pub const DEPTH_FRACTION: u32 = 29;
 pub type ChiSquare = FixedU64<U8>;
 /// Fraction bits of a chi-square [1].
 pub const CHI_FRACTION: u32 = ChiSquare::FRAC_NBITS;
+/// Fraction bits of an excess over the ambient light [counts].
+pub const EXCESS_FRACTION: u32 = 8;
+/// Blocks of bins that show the ambient light.
+pub const BLOCKS: usize = 8;
+/// A block counts with a 64th of the first one's exposure, in 64ths of powers of two.
+pub const LEAST_EXPOSURE: i64 = 6 * 64;
+/// Largest chance that a block is taken to show: a half, 24 fraction bits.
+pub const MOST_CHANCE: i64 = 1 << 23;
+/// Addition to the expected count of a bin while shots wait: a tenth, 8 fraction bits.
+pub const ADDED: i64 = 26;
+/// Score of a box in which less than expected ended.
+pub const NO_SCORE: i64 = -4096;
+/// Smallest hazard of a bin, 2^-20.
+pub const LEAST_HAZARD: i64 = 1 << (HAZARD_FRACTION - 20);
+/// Largest hazard of a bin, just below 16.
+pub const MOST_HAZARD: i64 = (16 << HAZARD_FRACTION) - 1;
+/// The whole of a hazard is signal: 12 fraction bits.
+pub const WHOLE: i64 = 4096;
+/// Smallest S.
+pub const LEAST_SIGNAL: i64 = 16;
+/// Largest S or b.
+pub const MOST_LEVEL: i64 = (1 << 24) - 1;
+/// A residual of so many squared deviations is no chance.
+pub const FAR: i64 = 25;
+/// The part of a chi-square's term that is kept: 16 bits and its fraction.
+pub const MOST_TERM: i64 = (1 << 24) - 1;
 /// Fisher steps of an estimation.
 pub const STEPS: usize = 6;
 /// Shots that have to wait at the fit's first bin.

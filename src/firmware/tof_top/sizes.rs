@@ -6,8 +6,7 @@ use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward2::NEURONS;
 use crate::firmware::tdc_decoder::{COUNT_STAGES, TimeScale};
 use crate::firmware::{
-    centroid_estimator, estimator_ctrl, frame_ctrl, histogram_builder, likelihood_estimator,
-    vcsel_driver,
+    centroid_estimator, estimator_ctrl, frame_ctrl, histogram_builder, vcsel_driver,
 };
 use crate::kernel::sizes::Sizes;
 
@@ -91,6 +90,5 @@ fn usual(
         centroid_cycles: centroid.done() as u32,
         position_bits: centroid_estimator::position_bits(histogram),
         likelihood_cycles: 0,
-        word_bits: likelihood_estimator::params::word_bits(histogram),
     }
 }

@@ -2,6 +2,8 @@
 
 use crate::kernel::word_format::WordFormat;
 
+use super::likelihood;
+
 /// Independent numbers of a design, from which every [`Size`] follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
@@ -61,8 +63,6 @@ pub struct Sizes {
     pub position_bits: u32,
     /// Latency of the likelihood estimator [cycles of clk_sys].
     pub likelihood_cycles: u32,
-    /// Bits of a word of the likelihood estimator's solver.
-    pub word_bits: u32,
 }
 
 impl Sizes {
@@ -76,8 +76,13 @@ impl Sizes {
         self.count_bits + self.bin_bits()
     }
 
-    /// Bits of a weight: those of a count above 6 fraction bits with two more, 24 at least.
+    /// Bits of a weight of the likelihood estimator.
     pub(super) fn weight_bits(&self) -> u32 {
-        (self.count_bits + 8).max(24)
+        likelihood::weight_bits(self.count_bits)
+    }
+
+    /// Bits of a word of its solver.
+    pub(super) fn word_bits(&self) -> u32 {
+        likelihood::word_bits(self.bin_bits(), self.count_bits)
     }
 }

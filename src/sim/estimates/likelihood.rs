@@ -1,10 +1,15 @@
-//! Maximum likelihood in integers, without its clock: bit for bit what
-//! [`likelihood_estimator`](crate::firmware::likelihood_estimator) computes.
+//! Maximum likelihood without a clock: in integers, bit for bit what
+//! [`likelihood_estimator`](crate::firmware::likelihood_estimator) computes, and in double precision.
+//!
+//! The algorithm is one text over a [`Number`] and what is known of an [`Instrument`] in such numbers.
 
-mod arithmetic;
 mod histogram;
+mod instrument;
+mod number;
+mod point;
 mod scan;
 mod step;
+mod sums;
 mod terms;
 mod verdict;
 
@@ -16,29 +21,33 @@ use crate::firmware::tof_top::slot::EstimateWords;
 use super::Clockless;
 
 use histogram::Shots;
+use scan::scan;
 use step::step;
 use verdict::verdict;
 
 pub use histogram::{Ambient, Block};
+pub use instrument::Instrument;
+pub use number::Number;
+pub use point::Point;
 pub use scan::Best;
-pub use step::{Information, Point};
+pub use step::Information;
 pub use verdict::Found;
 
 /// An estimate with its intermediate results.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trace {
+pub struct Trace<N> {
     /// Ambient light by blocks of bins.
-    pub ambient: Ambient,
+    pub ambient: Ambient<N>,
     /// The highest place of the box.
-    pub start: Best,
+    pub start: Best<N>,
     /// First point of the fit.
-    pub begin: Point,
+    pub begin: Point<N>,
     /// The point and the information of each step.
-    pub steps: [(Point, Information); STEPS],
+    pub steps: [(Point<N>, Information<N>); STEPS],
     /// The highest place of the box outside of the fit.
-    pub other: Best,
+    pub other: Best<N>,
     /// The result.
-    pub found: Found,
+    pub found: Found<N>,
 }
 
 impl Clockless for LikelihoodEstimator {
@@ -47,24 +56,24 @@ impl Clockless for LikelihoodEstimator {
     }
 }
 
-/// Estimates the depth of a histogram.
+/// Estimates the depth of a histogram in integers.
 pub fn estimate(p: &Params, histogram: &[u32]) -> Found {
     trace(p, histogram).found
 }
 
 /// Estimates the depth of a histogram, and returns each stage's result.
-pub fn trace(p: &Params, histogram: &[u32]) -> Trace {
+pub fn trace<I: Instrument>(p: &I, histogram: &[u32]) -> Trace<I::Number> {
     let shots = Shots::new(p, histogram);
     let ambient = shots.ambient(p);
-    let start = scan::scan(p, &shots, ambient.hazard, 0..0);
+    let start = scan(p, &shots, ambient.hazard, 0..0);
     let begin = Point::start(p, &start, ambient.hazard);
     let (mut point, mut information) = (begin, Information::default());
     let steps = std::array::from_fn(|_| {
         (point, information) = step(p, &shots, &point);
         (point, information)
     });
-    let other = scan::scan(p, &shots, point.ambient, point.window(p));
-    let found = verdict(p, &shots, &start, &other, &point, &information);
+    let other = scan(p, &shots, point.ambient, p.window(point.arrival));
+    let found = verdict(p, &shots, [&start, &other], &point, &information);
     Trace { ambient, start, begin, steps, other, found }
 }
 

@@ -106,7 +106,7 @@ fn the_likelihood_estimator_s_verilog_finds_the_integers_in_10_000_histograms() 
     let mut statuses = [0; 64];
     for (k, (histogram, line)) in histograms.iter().zip(&lines).enumerate() {
         let found = estimate(&params, histogram);
-        let (depth, status) = (found.depth.bits(), found.status.bits());
+        let (depth, status) = (found.words().depth.bits(), found.status.bits());
         let expected = format!(
             "{depth:09x} {} {:09x} {status:02x} {:09x} {:b}",
             params.done(),

@@ -1,13 +1,9 @@
 //! Stages of the likelihood estimator: its integers compared with the same algorithm in double precision.
 //!
-//! The double-precision version is independent from the histogram on, so that a difference includes all previous
-//! roundings.
+//! Both go from the histogram to the depth each by itself, so that a difference includes all previous roundings. They
+//! are one text ([`trace`]); `tests/estimators/likelihood_estimator/twin.rs` compares it with another one.
 
 mod model;
-mod scan;
-mod shots;
-mod step;
-mod twin;
 
 use serde::Serialize;
 
@@ -18,13 +14,15 @@ use tofsim::firmware::likelihood_estimator::words::{
 use tofsim::firmware::tof_top::status::StatusSet;
 use tofsim::optics::Bins;
 use tofsim::sim::estimates::digits;
-use tofsim::sim::estimates::likelihood::{Best, Point, Trace, trace};
+use tofsim::sim::estimates::likelihood::{Ambient, Best, Found, Point, trace};
 use tofsim::sim::setup::Setup;
 
 use model::Model;
-use twin::Twin;
 
-/// A word of the estimator and its twin.
+/// Value of one in an ambient hazard's word [1 / bin].
+const AMBIENT_UNIT: f64 = UNITS as f64 / (1u64 << AMBIENT_FRACTION) as f64;
+
+/// A word of the estimator and its counterpart in double precision.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StageValue {
     /// Stage of the value: `ambient`, `scan`, `start`, `step 1` to `step 6`, `rescan`, `end`.
@@ -84,32 +82,32 @@ impl LikelihoodExplainer {
 
     /// The depth in double precision [m], and its status.
     pub fn float(&self, histogram: &[u32]) -> (f64, StatusSet) {
-        let twin = Twin::new(&self.0, histogram);
-        (twin.depth_m, twin.status)
+        let found = trace(&self.0, histogram).found;
+        (found.depth_m(), found.status)
     }
 
     /// Explains the estimation of a histogram.
     pub fn explain(&self, histogram: &[u32]) -> ExplainedLikelihood {
         let model = &self.0;
-        let (fixed, float) = (trace(&model.words, histogram), Twin::new(model, histogram));
+        let (fixed, float) = (trace(&model.words, histogram), trace(model, histogram));
         let mut values = Values { model, stage: String::new(), all: Vec::new() };
-        values.ambient(&fixed, &float);
+        values.ambient(&fixed.ambient, &float.ambient);
         values.best("scan", &fixed.start, &float.start);
         values.stage = "start".to_owned();
         values.point(&fixed.begin, &float.begin);
         for (k, (fixed, float)) in fixed.steps.iter().zip(&float.steps).enumerate() {
             values.stage = format!("step {}", k + 1);
             values.point(&fixed.0, &float.0);
-            values.add("shortened by", "bits", fixed.1.cut.into(), 1.0, float.1.cut.into());
+            values.add("shortened by", "bits", fixed.1.cut.into(), float.1.cut.into(), 1.0);
         }
         values.best("rescan", &fixed.other, &float.other);
-        values.end(&fixed, &float);
+        values.end(&fixed.found, &float.found);
         ExplainedLikelihood {
             depth_raw: digits(fixed.found.words().depth_m()),
-            depth_m: fixed.found.depth.to_f64(),
+            depth_m: fixed.found.depth_m(),
             sigma_m: fixed.found.sigma_m(),
             status: fixed.found.status,
-            status_float: float.status,
+            status_float: float.found.status,
             values: values.all,
         }
     }
@@ -123,61 +121,62 @@ struct Values<'a> {
 }
 
 impl Values<'_> {
-    /// Adds a word of which one stands for so much.
-    fn add(&mut self, value: &str, unit: &'static str, word: i64, one: f64, float: f64) {
-        self.add_as(value, unit, word, word as f64 * one, float);
+    /// Adds a word and its counterpart, of which one stands for so much.
+    fn add(&mut self, value: &str, unit: &'static str, word: i64, float: f64, one: f64) {
+        self.add_by(value, unit, word, float, |number| number * one);
     }
 
-    fn add_as(&mut self, value: &str, unit: &'static str, word: i64, fixed: f64, float: f64) {
+    /// Adds a word and its counterpart by what they stand for.
+    fn add_by(
+        &mut self,
+        value: &str,
+        unit: &'static str,
+        word: i64,
+        float: f64,
+        stands_for: impl Fn(f64) -> f64,
+    ) {
+        let [fixed, float] = [word as f64, float].map(stands_for);
         let (stage, value, difference) = (self.stage.clone(), value.to_owned(), fixed - float);
         self.all.push(StageValue { stage, value, unit, word, fixed, float, difference });
     }
 
-    fn ambient(&mut self, fixed: &Trace, float: &Twin) {
+    fn ambient(&mut self, fixed: &Ambient<i64>, float: &Ambient<f64>) {
         self.stage = "ambient".to_owned();
-        let Trace { ambient, .. } = fixed;
-        for (k, (block, float)) in ambient.blocks.iter().zip(&float.ambient.blocks).enumerate() {
-            let level = (block.level as f64 / 64.0).exp2() * UNITS as f64;
-            self.add_as(&format!("block {k}"), "1/bin", block.level, level, *float);
+        for (k, (block, float)) in fixed.blocks.iter().zip(&float.blocks).enumerate() {
+            let level = |log: f64| (log / 64.0).exp2() * UNITS as f64;
+            self.add_by(&format!("block {k}"), "1/bin", block.level, float.level, level);
         }
-        self.add("believed", "block", ambient.chosen as i64, 1.0, float.ambient.chosen as f64);
-        self.add("b", "1/bin", ambient.hazard, self.ambient_unit(), float.ambient.hazard);
+        self.add("believed", "block", fixed.chosen as i64, float.chosen as f64, 1.0);
+        self.add("b", "1/bin", fixed.hazard, float.hazard, AMBIENT_UNIT);
     }
 
-    fn best(&mut self, stage: &str, fixed: &Best, float: &scan::Best) {
+    fn best(&mut self, stage: &str, fixed: &Best<i64>, float: &Best<f64>) {
         self.stage = stage.to_owned();
-        let (from, until) = float.bins;
-        let middle = (from + until) as f64 / 2.0;
-        self.add("box's middle", "bin", (fixed.bins.0 + fixed.bins.1) as i64, 0.5, middle);
-        let score = (fixed.score as f64 / 64.0).exp2();
-        self.add_as("score", "sd^2", fixed.score, score, float.score);
+        let [fixed_sum, float_sum] = [fixed.bins, float.bins].map(|(from, until)| from + until);
+        self.add("box's middle", "bin", fixed_sum as i64, float_sum as f64, 0.5);
+        let squared = |log: f64| (log / 64.0).exp2();
+        self.add_by("score", "sd^2", fixed.score, float.score, squared);
     }
 
-    fn point(&mut self, fixed: &Point, float: &step::Point) {
-        let unit_ps = self.model.bin_ps / UNITS as f64 / 16.0;
-        let metres = self.model.metres_per_ps;
-        self.add("mu", "ps", fixed.arrival, unit_ps, float.arrival_ps);
-        self.add("mu", "m", fixed.arrival, unit_ps * metres, float.arrival_ps * metres);
+    fn point(&mut self, fixed: &Point<i64>, float: &Point<f64>) {
+        let one_ps = self.model.unit_ps / 16.0;
+        self.add("mu", "ps", fixed.arrival, float.arrival, one_ps);
+        let one_m = one_ps * self.model.metres_per_ps;
+        self.add("mu", "m", fixed.arrival, float.arrival, one_m);
         let one = (-f64::from(SIGNAL_FRACTION)).exp2();
-        self.add("S", "photons", fixed.signal, one, float.signal);
-        self.add("b", "1/bin", fixed.ambient, self.ambient_unit(), float.ambient);
+        self.add("S", "photons", fixed.signal, float.signal, one);
+        self.add("b", "1/bin", fixed.ambient, float.ambient, AMBIENT_UNIT);
     }
 
-    fn end(&mut self, fixed: &Trace, float: &Twin) {
+    fn end(&mut self, fixed: &Found, float: &Found<f64>) {
         self.stage = "end".to_owned();
         let metre = (-f64::from(DEPTH_FRACTION)).exp2();
         let one = (-f64::from(CHI_FRACTION)).exp2();
-        let found = &fixed.found;
-        self.add("chi-square", "1", found.chi_square as i64, one, float.chi_square);
+        self.add("chi-square", "1", fixed.chi_square, float.chi_square, one);
         let status = f64::from(float.status.bits());
-        self.add("status", "bits", found.status.bits().into(), 1.0, status);
-        self.add("sigma", "mm", found.sigma as i64, 1e3 * metre, 1e3 * float.sigma_m);
-        self.add("depth", "m", found.depth.get(), metre, float.depth_m);
-    }
-
-    /// Returns the value of one in an ambient hazard's word [1 / bin].
-    fn ambient_unit(&self) -> f64 {
-        UNITS as f64 * (-f64::from(AMBIENT_FRACTION)).exp2()
+        self.add("status", "bits", fixed.status.bits().into(), status, 1.0);
+        self.add("sigma", "mm", fixed.sigma, float.sigma, 1e3 * metre);
+        self.add("depth", "m", fixed.depth, float.depth, metre);
     }
 }
 

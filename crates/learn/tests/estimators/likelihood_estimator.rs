@@ -107,7 +107,7 @@ impl Tally {
             self.raised += 1.0;
             return;
         }
-        let error_m = found.depth.to_f64() - distance_m;
+        let error_m = found.depth_m() - distance_m;
         let deviations = error_m / found.sigma_m();
         self.kept += 1.0;
         self.sum_m += error_m;

@@ -198,7 +198,7 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Pa
         ("MetresShift", number(params.metres_shift.into())),
         ("LaserDelay", number(params.delay as u64)),
     ];
-    let names = ["EdgesFile", "PulseFile", "HazardFile", "LogFile"];
+    let names = ["EdgesFile", "PulseFile", "HazardFile", "LogFile", "ProgramFile"];
     list.extend(files(names, mem::likelihood_estimator(params)));
     list
 }

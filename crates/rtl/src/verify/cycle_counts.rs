@@ -17,10 +17,14 @@ mod tests;
 pub use design::CountedDesign;
 use promises::Promise;
 
+use std::path::Path;
+
 use serde::Serialize;
 
 use tofsim::error::Result;
+use tofsim::files::output::{create_directory, write_bytes};
 use tofsim::files::staged::ScratchFolder;
+use tofsim::network::mem;
 
 use super::process::Limits;
 use super::rtl::Rtl;
@@ -76,6 +80,7 @@ fn count(
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let folder = ScratchFolder::new()?;
+    write_program(folder.path())?;
     let simulated = simulate::measure(promises, rtl, design, folder.path(), limits)?;
     let modelled = model::measure(design);
     let count = |promise: &Promise| {
@@ -94,4 +99,11 @@ fn count(
         Ok(count)
     };
     promises.iter().map(count).collect()
+}
+
+/// Writes the ROM whose words decide how long something takes, where `rtl_ref` looks for it.
+fn write_program(folder: &Path) -> Result<()> {
+    let (program, rtl_ref) = (mem::likelihood_solver(), folder.join("rtl_ref"));
+    create_directory(&rtl_ref)?;
+    write_bytes(&rtl_ref.join(program.name), program.text)
 }

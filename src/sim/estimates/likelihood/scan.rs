@@ -2,66 +2,85 @@
 
 use std::ops::Range;
 
-use crate::firmware::likelihood_estimator::params::Params;
-use crate::firmware::likelihood_estimator::tables::log2_64;
-use crate::firmware::likelihood_estimator::words::{AMBIENT_FRACTION, HAZARD_FRACTION};
+use crate::firmware::likelihood_estimator::words::{
+    ADDED, AMBIENT_FRACTION, EXCESS_FRACTION, HAZARD_FRACTION, NO_SCORE,
+};
 
-use super::arithmetic::shifted;
 use super::histogram::Shots;
+use super::instrument::Instrument;
+use super::number::Number;
 use super::terms::Bin;
 
-/// Score of a box in which less than expected ended.
-const NONE: i64 = -4096;
-/// Addition to the expected count of a bin while shots wait, 8 fraction bits: a tenth.
-const ADDED: i64 = 26;
+/// What [`ADDED`] stands for: a tenth of a count, 8 fraction bits.
+const A_TENTH: f64 = 25.6;
 
 /// The highest place of the box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Best {
+pub struct Best<N> {
     /// 64 log2 of the squared excess over what is expected.
-    pub score: i64,
+    pub score: N,
     /// First bin of the box and the one after its last.
     pub bins: (usize, usize),
     /// More than expected, 8 fraction bits [counts].
-    pub excess: i64,
+    pub excess: N,
     /// Twice the shots that wait in the middle of a bin, over its bins.
-    pub waiting: i64,
+    pub waiting: N,
 }
 
 /// Slides the box over all bins but those that are blanked; the first of the highest places is the one.
-pub fn scan(p: &Params, shots: &Shots, ambient: i64, blanked: Range<usize>) -> Best {
-    let bins = shots.ended.len();
+pub fn scan<I: Instrument>(
+    p: &I,
+    shots: &Shots<I::Number>,
+    ambient: I::Number,
+    blanked: Range<usize>,
+) -> Best<I::Number> {
+    let (bins, box_bins) = (shots.bins(), p.words().box_bins);
     // What has come before each bin.
     let mut before = Vec::with_capacity(bins + 1);
-    let mut sum = [0; 3];
+    let mut sum = [I::Number::default(); 3];
     before.push(sum);
     for bin in 0..bins {
-        if !blanked.contains(&bin) && p.width(bin) > 0 {
+        if !blanked.contains(&bin) && p.has(bin) {
             let own = of_bin(p, shots, ambient, bin);
             sum = [0, 1, 2].map(|which| sum[which] + own[which]);
         }
         before.push(sum);
     }
-    let half = p.box_bins / 2;
-    let mut best = Best { score: i64::MIN, bins: (0, 0), excess: 0, waiting: 0 };
-    for place in 0..bins {
+    let half = box_bins / 2;
+    let place = |place: usize| {
         let from = place.saturating_sub(half);
-        let until = (place + p.box_bins - half).min(bins);
-        let sum = |which: usize| before[until][which] - before[from][which];
-        let (excess, expected) = (sum(0), sum(1).max(1));
-        let score = if excess > 0 { 2 * log2_64(excess) - log2_64(expected) - 512 } else { NONE };
-        if score > best.score {
-            best = Best { score, bins: (from, until), excess, waiting: sum(2) };
-        }
+        let until = (place + box_bins - half).min(bins);
+        let [excess, expected, waiting] =
+            [0, 1, 2].map(|which| before[until][which] - before[from][which]);
+        Best { score: score(excess, expected), bins: (from, until), excess, waiting }
+    };
+    let higher =
+        |best: Best<_>, other: Best<_>| if other.score > best.score { other } else { best };
+    (1..bins).map(place).fold(place(0), higher)
+}
+
+/// Score of a box.
+fn score<N: Number>(excess: N, expected: N) -> N {
+    if excess > N::default() {
+        let expected = expected.at_least(N::whole(1));
+        let fraction = N::whole(64 * i64::from(EXCESS_FRACTION));
+        excess.log2_64() + excess.log2_64() - expected.log2_64() - fraction
+    } else {
+        N::whole(NO_SCORE)
     }
-    best
 }
 
 /// Excess, expected count and twice the shots that wait in the middle of a bin.
-fn of_bin(p: &Params, shots: &Shots, ambient: i64, bin: usize) -> [i64; 3] {
-    let (ended, waiting) = (i64::from(shots.ended[bin]), shots.waiting[bin]);
-    let ambient = shifted(ambient * p.width(bin), i64::from(AMBIENT_FRACTION - HAZARD_FRACTION));
-    let terms = Bin { ended, waiting, signal: 0, ambient }.terms(p.histogram.count_bits);
-    let added = if waiting > 0 { ADDED } else { 0 };
-    [(terms.residual << 4) - added, (terms.expected >> 4) + added, (2 * waiting - ended).max(0)]
+fn of_bin<I: Instrument>(
+    p: &I,
+    shots: &Shots<I::Number>,
+    ambient: I::Number,
+    bin: usize,
+) -> [I::Number; 3] {
+    let (ended, waiting, none) = (shots.ended(bin), shots.waiting(bin), I::Number::default());
+    let ambient = (ambient * p.width(bin)).shifted(i64::from(AMBIENT_FRACTION - HAZARD_FRACTION));
+    let terms = Bin { ended, waiting, signal: none, ambient }.terms(p.words().histogram.count_bits);
+    let added = if waiting > none { I::Number::constant(ADDED, A_TENTH) } else { none };
+    let middle = (waiting + waiting - ended).at_least(none);
+    [terms.residual.floored(-4) - added, terms.expected.floored(4) + added, middle]
 }

@@ -1,65 +1,62 @@
 //! Terms of a bin at a point: its residual, its weight, and the signal's share of its hazard.
 
-use crate::firmware::likelihood_estimator::tables::{Tables, length};
-use crate::firmware::likelihood_estimator::words::{HAZARD_FRACTION, RESIDUAL_FRACTION};
+use crate::firmware::likelihood_estimator::words::{LEAST_HAZARD, MOST_HAZARD, RESIDUAL_FRACTION};
 
-use super::arithmetic::{clamped, shifted};
+use super::number::Number;
 
-/// Smallest and largest hazard: 2^-20 and just below 16.
-const LEAST_HAZARD: i64 = 1 << (HAZARD_FRACTION - 20);
-const MOST_HAZARD: i64 = (16 << HAZARD_FRACTION) - 1;
-/// Bits of a hazard's mantissa.
-const MANTISSA_BITS: i64 = 14;
 /// Fraction bits of k and of an expected count.
 const FRACTION: i64 = 12;
-/// The whole of a hazard is signal: 12 fraction bits.
-pub const WHOLE: i64 = 4096;
 
 /// A bin, or all bins outside of the fit as one.
 #[derive(Clone, Copy, Debug)]
-pub struct Bin {
+pub struct Bin<N> {
     /// Shots that end in it.
-    pub ended: i64,
+    pub ended: N,
     /// Shots that wait when it begins.
-    pub waiting: i64,
+    pub waiting: N,
     /// Hazard of the signal [1, 22 fraction bits].
-    pub signal: i64,
+    pub signal: N,
     /// Hazard of ambient light.
-    pub ambient: i64,
+    pub ambient: N,
 }
 
 /// Terms of a bin.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Terms {
+pub struct Terms<N> {
     /// Expected count R lambda, 12 fraction bits.
-    pub expected: i64,
+    pub expected: N,
     /// v, 4 fraction bits.
-    pub residual: i64,
+    pub residual: N,
     /// w, 6 fraction bits.
-    pub weight: i64,
+    pub weight: N,
     /// s, 12 fraction bits.
-    pub share: i64,
+    pub share: N,
 }
 
-impl Bin {
+impl<N: Number> Bin<N> {
     /// With words for counts of so many bits.
-    pub fn terms(&self, count_bits: u32) -> Terms {
-        let hazard = (self.signal + self.ambient).clamp(LEAST_HAZARD, MOST_HAZARD);
-        let signal = self.signal.min(hazard);
-        // Both are shifted so that the hazard's leading one is the mantissa's.
-        let excess = i64::from(length(hazard)) - MANTISSA_BITS;
-        let align = |value: i64| if excess > 0 { value >> excess } else { value << -excess };
-        let (mantissa, signal) = (align(hazard), align(signal));
-        let share = signal * Tables::reciprocal(mantissa, MANTISSA_BITS as u32 - 1);
-        let share = shifted(share, MANTISSA_BITS - 1 + 10 - FRACTION).min(WHOLE);
-        let most_expected = (1 << (count_bits + 18)) - 1;
-        let expected =
-            shifted(self.waiting * mantissa, i64::from(HAZARD_FRACTION) - FRACTION - excess);
-        let expected = expected.min(most_expected);
-        let k = Tables::k(hazard);
-        let residual = shifted(self.ended * k - expected, FRACTION - i64::from(RESIDUAL_FRACTION));
-        let gain = (k - (hazard >> 10)).max(0);
-        let weight = shifted((expected >> 5).min((1 << (count_bits + 8)) - 1) * gain, 13);
-        Terms { expected, residual: clamped(residual, count_bits + 9), weight, share }
+    pub fn terms(&self, count_bits: u32) -> Terms<N> {
+        let hazard = (self.signal + self.ambient).within([LEAST_HAZARD, MOST_HAZARD].map(N::whole));
+        let share = N::share(self.signal.at_most(hazard), hazard);
+        let expected = N::expected(self.waiting, hazard).filled(count_bits + 18);
+        let k = N::k(hazard);
+        let surplus = self.ended * k - expected;
+        let residual = surplus.shifted(FRACTION - i64::from(RESIDUAL_FRACTION));
+        let gain = (k - hazard.floored(10)).at_least(N::default());
+        let weight = (expected.floored(5).filled(count_bits + 8) * gain).shifted(13);
+        Terms { expected, residual: residual.kept(count_bits + 9), weight, share }
+    }
+}
+
+impl<N: Number> Terms<N> {
+    /// The residual's square, 6 fraction bits as weights have.
+    pub fn squared(&self, count_bits: u32) -> N {
+        let residual = self.residual.abs().filled(count_bits + 1);
+        (residual * residual).floored(2)
+    }
+
+    /// The residual's square over its variance, a quarter of a count more; 8 fraction bits.
+    pub fn chi_square(&self, count_bits: u32) -> N {
+        N::over(self.squared(count_bits), self.weight + N::whole(16))
     }
 }

@@ -24,10 +24,10 @@ fn step(block: &mut LikelihoodEstimator, p: &Params, histogram: &[u32]) -> (Foun
     }
     let now = &block.registers;
     let found = Found {
-        depth: now.depth,
-        sigma: now.sigma.get(),
+        depth: now.depth.get(),
+        sigma: now.sigma.get() as i64,
         status: now.status.into(),
-        chi_square: now.chi_square.get(),
+        chi_square: now.chi_square.get() as i64,
     };
     (found, edges)
 }

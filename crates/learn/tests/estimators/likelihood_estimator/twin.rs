@@ -200,7 +200,7 @@ fn loses_little(distances_m: &[f64]) {
             let scene = instrument.scene(place, SHOTS).unwrap();
             for _ in 0..8 {
                 let histogram = scene.draw(&mut random);
-                let own_m = scene.look(&histogram).depth.to_f64();
+                let own_m = scene.look(&histogram).depth_m();
                 let twin_m = twin.distance_m(&histogram);
                 let terms =
                     [own_m - distance_m, twin_m - distance_m, own_m - twin_m, scene.bound_m];

@@ -53,7 +53,7 @@ impl Outcomes {
     fn add(&mut self, found: &Found, distances_m: [f64; 2], bounds_m: [f64; 2], bins: usize) {
         self.drawn += 1.0;
         self.unfit += f64::from(found.status.contains(Status::NoFit));
-        let [first_m, second_m] = distances_m.map(|m| (found.depth.to_f64() - m).abs());
+        let [first_m, second_m] = distances_m.map(|m| (found.depth_m() - m).abs());
         let far_m = FAR * found.sigma_m();
         let believed = Found { status: StatusSet::default(), ..*found };
         match &found.status.words()[..] {

@@ -66,8 +66,8 @@ static CENTROID: Properties = Properties {
     ..Properties::new("check_centroid", "bench_centroid", of_estimator!("check_centroid.sv"))
 };
 
-/// The solver's program is a large `case`, which `proc` would make a memory, and no proof reads memories. What only
-/// feeds the open blocks and the solver's memory is taken away: it is much, and what they do is anything already.
+/// No proof reads memories, so the solver's program, a ROM or a large `case`, becomes logic. What only feeds the open
+/// blocks and the solver's memory is taken away, with that memory: it is much, and what they do is anything already.
 static LIKELIHOOD: Properties = Properties {
     open: &["likelihood_memory", "likelihood_terms", "likelihood_sums", "likelihood_scan"],
     registers: &[
@@ -81,8 +81,8 @@ static LIKELIHOOD: Properties = Properties {
         "likelihood_solver.counter",
         "likelihood_solver.pause",
     ],
-    logic: "proc -norom; delete */t:likelihood_memory */t:likelihood_terms */t:likelihood_sums */t:likelihood_scan \
-            */t:$memwr*",
+    logic: "proc -norom; memory -nomap; memory_map -rom-only; delete */t:likelihood_memory */t:likelihood_terms \
+            */t:likelihood_sums */t:likelihood_scan */t:$mem*",
     steps: 2,
     ..Properties::new("check_likelihood", "bench_likelihood", of_estimator!("check_likelihood.sv"))
 };

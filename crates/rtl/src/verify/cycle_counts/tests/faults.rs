@@ -33,7 +33,7 @@ fn a_fault_of_the_likelihood_estimator_is_counted_and_not_proven() {
     let solver = |from, to| [["likelihood_solver.v", from, to]];
     fault("likelihood_latency", &control("Bins + 12", "Bins + 13"), 3780);
     fault("likelihood_latency", &control("steps == 3'd5", "steps == 3'd4"), 3449);
-    let root = solver("6'd34}", "6'd33}");
+    let root = solver("next_one[5:0] - 6'd1", "next_one[5:0] - (op == Root ? 6'd2 : 6'd1)");
     fault("likelihood_latency", &root, 3778);
     // What only one operand in a billion does is not counted, but neither is it proven.
     let rare = solver("pause == 6'd0;", "pause == 6'd0 && a !== 987654321;");

@@ -1,0 +1,111 @@
+//! The order of loads, scans, passes and programs, and the result.
+
+use crate::firmware::forward2::Depth;
+use crate::firmware::likelihood_solver::program::{
+    AMBIENT_PROGRAM, END_PROGRAM, START_PROGRAM, STEP_PROGRAM,
+};
+use crate::firmware::tof_top::status::{Status, StatusSet};
+use crate::kernel::U;
+
+use super::params::Params;
+use super::words::{ANOTHER_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE};
+use super::{In, LikelihoodEstimator, Registers, State};
+
+impl LikelihoodEstimator {
+    pub(super) fn next(&self, i: &In, p: &Params) -> Registers {
+        let q = &self.registers;
+        let mut d = *q;
+        (d.load, d.pass, d.sums, d.run, d.algo_done) = Default::default();
+        d.free |= i.mode;
+        let passes = [State::Scan, State::Fit, State::Check, State::Rescan].contains(&q.state);
+        d.phase = passes && !q.pass && !q.phase;
+        d.waited = q.waited + 1;
+        let after = |cycles: u64| q.waited == cycles;
+        let ran = self.likelihood_solver.registers.ran;
+        match q.state {
+            State::Idle if i.algo_start => {
+                (d.state, d.load) = (State::Load, true);
+                (d.fit_begin, d.fit_end, d.steps) = Default::default();
+                (d.unarmed, d.free) = (d.free, i.mode);
+            }
+            State::Load if after(p.load_cycles()) => d.solve(State::Ambient, AMBIENT_PROGRAM),
+            State::Ambient if ran => d.slide(State::Scan),
+            State::Scan if after(p.scan_cycles()) => {
+                d.start_score = self.likelihood_scan.registers.best_score;
+                d.solve(State::Start, START_PROGRAM);
+            }
+            State::Start if ran => self.fit(State::Fit, p, &mut d),
+            State::Fit if after(p.fit_cycles()) => d.solve(State::Step, STEP_PROGRAM),
+            State::Step if ran => {
+                let last = q.steps == STEPS as u64 - 1;
+                d.steps = q.steps + 1;
+                self.fit(if last { State::Check } else { State::Fit }, p, &mut d);
+            }
+            State::Check if after(p.fit_cycles()) => d.slide(State::Rescan),
+            State::Check => self.look(&mut d),
+            State::Rescan if after(p.scan_cycles()) => d.solve(State::End, END_PROGRAM),
+            State::End if ran => self.give(p, &mut d),
+            _ => {}
+        }
+        if d.state == State::Idle || d.state != q.state || d.pass {
+            d.waited = U::new(0);
+        }
+        d
+    }
+
+    /// Begins a pass over the bins around the arrival.
+    fn fit(&self, state: State, p: &Params, d: &mut Registers) {
+        let bins = p.histogram.bins as u64;
+        let centre = (self.likelihood_solver.registers.arrival.get() >> 10).min(bins - 1);
+        d.fit_begin = U::new(centre.saturating_sub(p.before as u64));
+        d.fit_end = U::new((centre + p.after as u64 + 1).min(bins));
+        (d.pass, d.sums, d.state) = (true, true, state);
+        d.check = state == State::Check;
+        d.seen = false;
+    }
+
+    /// Looks at the first bin of the check.
+    fn look(&self, d: &mut Registers) {
+        let memory = &self.likelihood_memory.registers;
+        if memory.word_bin && !self.registers.seen {
+            d.seen = true;
+            d.used_up = memory.word_waiting.get() < LEAST_WAITING;
+        }
+    }
+
+    /// Gives what has come out.
+    fn give(&self, p: &Params, d: &mut Registers) {
+        let solver = &self.likelihood_solver.registers;
+        let flag = |flag: u64| solver.flags.get() >> flag & 1 != 0;
+        let unsure = flag(1) && d.start_score.get() < SURE_SCORE;
+        let no_echo = unsure || flag(0) || flag(2) || d.start_score.get() < LEAST_SCORE;
+        let reasons = [
+            (no_echo, Status::NoEcho),
+            (flag(3) || flag(4), Status::CutOff),
+            (d.used_up, Status::UsedUp),
+            (self.likelihood_scan.registers.best_score.get() > ANOTHER_SCORE, Status::Another),
+            (solver.cut != 0 || flag(5) || flag(6), Status::NotSettled),
+            (self.likelihood_sums.far, Status::NoFit),
+            (d.unarmed, Status::Unarmed),
+        ];
+        d.status = U::new(StatusSet::of(&reasons).bits().into());
+        d.valid = d.status == 0;
+        // An arrival counts from the laser edge, a depth from where the light leaves.
+        (d.depth, d.sigma) = (Depth::new(solver.depth.get() - p.delay), solver.sigma);
+        d.chi_square = self.likelihood_sums.chi_square;
+        (d.algo_done, d.scan, d.state) = (true, false, State::Idle);
+    }
+}
+
+impl Registers {
+    /// Begins a program.
+    fn solve(&mut self, state: State, program: u64) {
+        (self.state, self.run, self.entry) = (state, true, U::new(program));
+        self.scan = false;
+    }
+
+    /// Begins a scan.
+    fn slide(&mut self, state: State) {
+        (self.state, self.pass, self.scan, self.check) = (state, true, true, false);
+    }
+}

@@ -1,0 +1,107 @@
+//! Goes over the bins of a pass, and takes them off the rest.
+
+use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::words::UNITS;
+use crate::kernel::U;
+
+use super::{Edge, In, Kept, Registers, Width};
+
+impl Params {
+    /// The ROM's word of a place: width of the bin before it, and its time.
+    pub fn rom_word(&self, place: usize) -> (Width, Edge) {
+        let width = if place == 0 { 0 } else { self.width(place - 1) };
+        (U::new(width as u64), U::new(self.edges[place].into()))
+    }
+
+    /// Beats of a scan after its last bin, less one.
+    pub fn scan_tail(&self) -> u64 {
+        self.box_back() as u64 - 1
+    }
+
+    /// Bins from the middle of a box to the one after its last.
+    pub fn box_back(&self) -> usize {
+        self.box_bins - self.box_bins / 2
+    }
+}
+
+impl Registers {
+    /// Goes on with a pass, or begins one.
+    pub(super) fn pass(&self, i: &In, p: &Params, d: &mut Self) {
+        if i.pass {
+            (d.passing, d.opening, d.tailing, d.scanning) = (true, true, false, i.scan);
+            d.blank = false;
+            d.index = if i.scan { U::new(0) } else { i.fit_begin };
+            d.tail = U::new(0);
+        } else if self.passing && i.phase {
+            d.opening = false;
+            let (at_begin, at_end) = (self.index == i.fit_begin, self.index == i.fit_end);
+            let last = if self.scanning { self.index == p.histogram.bins as u64 } else { at_end };
+            if self.opening || !last {
+                d.index = self.index + 1;
+                d.bin = U::new(self.index.get() % p.histogram.bins as u64);
+                if at_begin || at_end {
+                    d.blank = self.scanning && !at_end;
+                }
+            } else if !self.tailing {
+                d.tailing = true;
+            } else if !self.scanning || self.tail == p.scan_tail() {
+                d.passing = false;
+            } else {
+                d.tail = self.tail + 1;
+            }
+        }
+    }
+
+    /// Looks up a bin; one that is blanked is none.
+    pub(super) fn read(&self, kept: &Kept, d: &mut Self) {
+        let bin = self.passing && !self.opening && !self.tailing;
+        d.read_bin = bin && !self.blank;
+        d.read_rest = self.passing && self.tailing && !self.scanning;
+        d.read_edge = self.passing && self.opening;
+        d.read_slide = self.passing && self.scanning && !self.opening;
+        d.read_first = self.index == if self.opening { 0 } else { 1 };
+        (d.read_ended, d.read_waiting, d.read_exposure) = (kept.ended, kept.waiting, kept.exposure);
+    }
+
+    /// Hands a bin on, or all others; a bin without width is none.
+    pub(super) fn word(&self, p: &Params, d: &mut Self) {
+        d.word_bin = self.read_bin && self.fetched_width != 0;
+        (d.word_rest, d.word_edge, d.word_first) =
+            (self.read_rest, self.read_edge, self.read_first);
+        d.word_slide = self.read_slide;
+        d.word_end = self.fetched_end;
+        (d.word_ended, d.word_waiting, d.word_width) = match self.read_rest {
+            true => {
+                let most = (1 << (p.histogram.count_bits + p.histogram.bins.ilog2())) - 1;
+                let waiting = (self.rest_exposure.get() >> UNITS.ilog2()).min(most);
+                (self.rest_ended, U::new(waiting), U::new(UNITS as u64))
+            }
+            false => {
+                let [ended, waiting] =
+                    [self.read_ended, self.read_waiting].map(|shots| U::new(shots.get()));
+                (ended, waiting, self.fetched_width)
+            }
+        };
+    }
+
+    /// Sums over all bins and over the rest of them, with one adder: blocks are added to all. With a bin of a pass they
+    /// change places twice, and it is subtracted from the rest on the way.
+    pub(super) fn subtract(&self, i: &In, d: &mut Self) {
+        d.summed = self.block_done;
+        if self.block_done {
+            d.all_ended = self.rest_ended + self.block_ended.get();
+            d.all_exposure = self.rest_exposure + self.block_exposure.get();
+        } else if self.read_bin {
+            let part = |word: u64| if i.phase { 0 } else { word };
+            d.all_ended = self.rest_ended - part(self.read_ended.get());
+            d.all_exposure = self.rest_exposure - part(self.read_exposure.get());
+        }
+        if self.summed || i.pass || self.read_bin {
+            (d.rest_ended, d.rest_exposure) = (self.all_ended, self.all_exposure);
+        }
+        if i.load {
+            (d.all_ended, d.all_exposure) = Default::default();
+            (d.rest_ended, d.rest_exposure) = Default::default();
+        }
+    }
+}

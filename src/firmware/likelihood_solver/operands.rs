@@ -1,0 +1,98 @@
+//! Where operands come from and where results go: the memory, other blocks, the output ports.
+
+use crate::firmware::likelihood_estimator::params::Params;
+use crate::kernel::{S, U, wrapped};
+
+use super::instruction::{FLAGS, MAGNITUDE, Op};
+use super::program::{self, ONE};
+use super::{In, LEAST_MAGNITUDE, LOW_BITS, LikelihoodSolver, Registers, WORDS};
+
+impl LikelihoodSolver {
+    /// Reads the operands; c comes late.
+    pub(super) fn fetch(&self, i: &In, p: &Params, d: &mut Registers) {
+        let q = &self.registers;
+        let word = |place: u8| match place.checked_sub(ONE) {
+            Some(constant) => p.constants()[constant as usize],
+            None => self.words[place as usize].get(),
+        };
+        let fit = |value: i64| S::new(wrapped(value, p.word_bits()));
+        if q.at[0] {
+            let (a, b) = (q.from_a.get() as u8, q.from_b.get() as u8);
+            d.a = fit(i.first_operand(a).unwrap_or_else(|| word(a)));
+            d.b = S::new(word(b));
+        }
+        if q.at[5] {
+            let c = q.from_c.get() as u8;
+            d.c = fit(i.third_operand(c).unwrap_or_else(|| word(c)));
+            let now = q.instruction(5);
+            (d.minus, d.divides, d.roots) = (now.minus, !q.alu, now.op == Op::Root);
+        }
+    }
+
+    /// Writes a result.
+    pub(super) fn keep(&mut self, i: &In, d: &mut Registers) {
+        let q = self.registers;
+        if !q.at[8] {
+            return;
+        }
+        let (to, result) = (q.to.get() as u8, q.result.get());
+        match to {
+            program::DEPTH => d.depth = S::new(result),
+            program::SIGMA => d.sigma = U::new(result as u64),
+            to => self.words[to as usize] = S::new(result),
+        }
+        match to {
+            program::ARRIVAL => d.arrival = U::new(result as u64),
+            program::SIGNAL => d.strength = U::new(result as u64),
+            program::AMBIENT => d.ambient = U::new(result as u64),
+            _ => {}
+        }
+        if q.mark == MAGNITUDE && !i.run && !q.measures() {
+            let high = result.unsigned_abs() >> LEAST_MAGNITUDE;
+            d.magnitude = U::new(q.magnitude.get() | high);
+        }
+        if let Some(flag) = q.mark.get().checked_sub(FLAGS) {
+            let others = q.flags.get() & !(1 << flag);
+            d.flags = U::new(others | u64::from(result < 0) << flag);
+        }
+    }
+}
+
+impl Params {
+    /// The constants of the solver's memory, from [`ONE`] on.
+    pub fn constants(&self) -> [i64; WORDS - ONE as usize] {
+        let (kappa, stride, end) = (self.kappa, self.stride(), self.end());
+        let (wide, margin) = (self.sigma << 4, self.sigma << 3);
+        [1, kappa, stride, self.metres, 341, 19, 1 << LOW_BITS, 0, wide, margin, end, 64, 40, 2]
+    }
+}
+
+impl In {
+    /// Returns the operand `a` if it comes from another block.
+    fn first_operand(&self, place: u8) -> Option<i64> {
+        Some(match place.checked_sub(WORDS as u8)? {
+            0 => self.sum_13.get() >> 5,
+            1 => self.sum_23.get(),
+            2 => self.sum_33.get(),
+            3 => self.score_3.get() << 2,
+            4 if self.lone => (self.ambient_ended.get() << 12) as i64,
+            4 => (self.ambient_ended.get() << 16) as i64,
+            5 => self.ambient_exposure.get() as i64,
+            6 => self.best_excess.get() << 4,
+            7 => self.best_middle.get() as i64,
+            8 => self.box_length.get() as i64,
+            _ => (self.box_sum.get() << 9) as i64,
+        })
+    }
+
+    /// Returns the operand `c` if it comes from another block.
+    fn third_operand(&self, place: u8) -> Option<i64> {
+        Some(match place.checked_sub(WORDS as u8)? {
+            0 => self.sum_11.get() >> 1,
+            1 => self.sum_12.get() >> 5,
+            2 => self.sum_22.get(),
+            3 => self.score_1.get() >> 3,
+            _ => self.score_2.get() << 2,
+        })
+    }
+}
