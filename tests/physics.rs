@@ -12,7 +12,7 @@ use tofsim::kernel::pulse::Pulse;
 use tofsim::optics::eye_safety::maximum_average_power_w;
 use tofsim::optics::variation::Variation;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
-use tofsim::scenario::{AmbientModel, Scenario};
+use tofsim::scenario::{AmbientModel, Laser, Scenario};
 use tofsim::sensor::light::Light;
 use tofsim::sensor::spad::Spads;
 use tofsim::sensor::streams::{exponential, normal};
@@ -40,7 +40,11 @@ fn budget(scenario: &Scenario) -> Budget {
 /// a laser that jitters, near and far, and light that leaves late.
 fn scenes() -> [(&'static str, Budget); 9] {
     let tailed = Pulse::tailed(100.0, 250.0);
-    let variation = Variation { timing_ps: 200.0, energy: 0.4 };
+    let variation = Variation::of(&Laser {
+        timing_jitter_ps: 200.0,
+        energy_jitter: 0.4,
+        ..Laser::default()
+    });
     let mut off = budget(&scene(0.5, 0.34, 0.2));
     off.signal_per_shot = 0.0;
     let mut late = scene(0.1, 0.60, 0.4);
@@ -142,7 +146,7 @@ fn photon_by_photon(budget: &Budget, rng: &mut impl Rng) -> Time {
         first_ps = Exp::new(budget.background_rate_hz() * 1e-12).unwrap().sample(rng);
     }
     if budget.signal_per_shot > 0.0 {
-        let Variation { timing_ps, energy } = budget.variation;
+        let Variation { timing_ps, energy, .. } = budget.variation;
         let mut scatter = || Normal::new(0.0, 1.0).unwrap().sample(rng);
         let mean_ps = budget.mean_arrival.fs() as f64 * 1e-3 + timing_ps * scatter();
         let signal = budget.signal_per_shot * (1.0 + energy * scatter()).max(0.0);
