@@ -40,11 +40,8 @@ fn budget(scenario: &Scenario) -> Budget {
 /// a laser that jitters, near and far, and light that leaves late.
 fn scenes() -> [(&'static str, Budget); 9] {
     let tailed = Pulse::tailed(100.0, 250.0);
-    let variation = Variation::of(&Laser {
-        timing_jitter_ps: 200.0,
-        energy_jitter: 0.4,
-        ..Laser::default()
-    });
+    let variation =
+        Variation::of(&Laser { timing_jitter_ps: 200.0, energy_jitter: 0.4, ..Laser::default() });
     let mut off = budget(&scene(0.5, 0.34, 0.2));
     off.signal_per_shot = 0.0;
     let mut late = scene(0.1, 0.60, 0.4);
