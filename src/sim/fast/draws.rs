@@ -18,10 +18,13 @@ const CELL_BITS: u32 = 12;
 /// Stands for an outcome that has to be computed.
 const EXACTLY: ShotOutcome = ShotOutcome::MAX;
 
+/// Distance of the split of a cell with one outcome from the first of its words.
+const FAR: u64 = 1 << (u64::BITS - 1);
+
 /// A part of all words.
 #[derive(Clone, Copy, Debug)]
 struct Cell {
-    /// First word of `above`.
+    /// First word of `above`, or far from all words of a cell with one outcome.
     split: u64,
     /// Outcome of the cell's words before that.
     below: ShotOutcome,
@@ -62,7 +65,7 @@ impl Draws {
                     let before = next.checked_sub(1).map(|place| places[place].2);
                     let outcome = before.or(places.first().map(|place| place.1));
                     let outcome = outcome.unwrap_or(outcomes.of(Time::ZERO));
-                    Cell { split: first, below: outcome, above: outcome }
+                    Cell { split: first ^ FAR, below: outcome, above: outcome }
                 }
                 [&(split, below, above)] if (first..=last).contains(&split) => {
                     Cell { split, below, above }
@@ -78,7 +81,7 @@ impl Draws {
     pub fn outcome(&self, word: u64) -> ShotOutcome {
         let cell = &self.cells[(word >> (u64::BITS - CELL_BITS)) as usize];
         let outcome = if word < cell.split { cell.below } else { cell.above };
-        let near = word.abs_diff(cell.split) <= self.guard && cell.below != cell.above;
+        let near = word.abs_diff(cell.split) <= self.guard;
         if near | (outcome == EXACTLY) { self.exactly(word) } else { outcome }
     }
 
