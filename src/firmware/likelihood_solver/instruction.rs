@@ -1,4 +1,4 @@
-//! What an instruction of the solver says.
+//! The instruction set of the solver, and the words of its ROM.
 
 /// Operation of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,7 +105,7 @@ pub struct Instruction {
     pub op: Op,
     /// Location of the result.
     pub to: u8,
-    /// Operands.
+    /// Location of the first operand.
     pub a: u8,
     /// Location of the second operand.
     pub b: u8,
@@ -113,7 +113,7 @@ pub struct Instruction {
     pub c: u8,
     /// The product is subtracted.
     pub minus: bool,
-    /// Bits.
+    /// Shift of the product to the right, before `by` is added [bits].
     pub shift: u8,
     /// Addition to the shift.
     pub by: By,
