@@ -1,4 +1,4 @@
-//! The FPGA firmware: one file per module, the same stems as `rtl_ref/*.v`.
+//! The FPGA firmware: one file per module, the same stems as `rtl_ref/*.v`, and the list of its estimators.
 
 pub mod carry_chain;
 pub mod centroid_estimator;
@@ -31,4 +31,20 @@ pub mod tdc_latch;
 pub mod tof_top;
 pub mod vcsel_driver;
 
-pub use tof_top::TofTop;
+/// Calls a macro with the list of the firmware's estimators, after what is given to it: meaning, variant, name in a
+/// scenario, name on the command line, module and block of each. The Verilog parameter `Estimator` counts them from 0.
+#[macro_export]
+macro_rules! firmware_estimators {
+    ([$($callback:tt)+] $($($given:tt)+)?) => {
+        $($callback)+! {
+            $($($given)+;)?
+            /// The neural network in fixed point
+            Network = "network", "network": depth_estimator::DepthEstimator,
+            /// Argmax with centroid correction
+            Centroid = "centroid", "centroid": centroid_estimator::CentroidEstimator,
+            /// Maximum likelihood in integers
+            LikelihoodEstimator = "likelihood", "likelihood_estimator":
+                likelihood_estimator::LikelihoodEstimator,
+        }
+    };
+}

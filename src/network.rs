@@ -18,5 +18,4 @@ pub use domain::Domain;
 pub use estimate::{Estimate, estimate};
 pub use file::Network;
 pub use histogram::Histogram;
-pub use roms::blank;
 pub use weights::{Fixed, Weights};

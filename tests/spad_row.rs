@@ -1,6 +1,6 @@
 //! The whole row of the array, and the pulses on `tdc_stop`, against closed forms.
 
-use tofsim::firmware::TofTop;
+use tofsim::firmware::tof_top::TofTop;
 use tofsim::kernel::Time;
 use tofsim::optics::dark::DarkRates;
 use tofsim::optics::hazard::Cause;

@@ -27,7 +27,7 @@ use crate::kernel::{S, U};
 use crate::signals;
 
 use super::forward2::Depth;
-use super::histogram_builder::{Bin, Count};
+use super::histogram_builder::{self, Bin, Count};
 use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
 
 mod params;
@@ -173,6 +173,10 @@ impl From<SlotIn> for In {
 impl SlotEstimator for CentroidEstimator {
     type In = In;
     type Params = Params;
+
+    fn params_for(histogram: &histogram_builder::Params) -> Params {
+        Params { histogram: *histogram, ..Params::default() }
+    }
 
     fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;

@@ -7,17 +7,19 @@
 
 pub mod datapath;
 
+use datapath::Datapath;
+
 use std::sync::Arc;
 
 use crate::kernel::Clocked;
 use crate::{connect, signals};
 
 use super::estimator_ctrl::{self, EstimatorCtrl};
-use super::forward1::{self, Forward1};
+use super::forward1::{self, Forward1, Row};
 use super::forward2::{self, Forward2};
-use super::histogram_builder::Count;
+use super::histogram_builder::{self, Count};
 use super::tansig::{self, Tansig};
-use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
+use super::tof_top::slot::{Assumptions, EstimateWords, SlotEstimator, SlotIn, SlotOut};
 
 signals! {
     /// Input ports.
@@ -111,6 +113,24 @@ impl From<SlotIn> for In {
 impl SlotEstimator for DepthEstimator {
     type In = In;
     type Params = Params;
+    const ASSUMES: Assumptions = Assumptions::Training;
+
+    /// A network whose weights are all zero, with the thesis's neurons and formats.
+    fn params_for(histogram: &histogram_builder::Params) -> Params {
+        let (datapath, neurons) = (Datapath::THESIS, forward2::NEURONS);
+        let w1 = vec![Row::default(); histogram.bins];
+        let forward1 = forward1::Rom::new(w1, Row::default(), neurons, &datapath, histogram);
+        Params {
+            forward1: Arc::new(forward1),
+            tansig: tansig::Rom::of(&datapath),
+            forward2: forward2::Rom {
+                neurons,
+                datapath,
+                w2: Default::default(),
+                b2: Default::default(),
+            },
+        }
+    }
 
     fn rise(&mut self, i: &In, p: &Params) {
         let (estimator_ctrl, forward1) = (Wires::estimator_ctrl(self, i), Wires::forward1(self, i));

@@ -4,6 +4,8 @@
 //! address is the only rounding in the datapath: the sum, rounded half up to the table's step and
 //! saturated to its range; in the thesis to 9 fraction bits and +-4.
 
+use std::sync::{Arc, LazyLock};
+
 use crate::kernel::{Clocked, S};
 use crate::signals;
 
@@ -53,8 +55,13 @@ signals! {
 }
 
 impl Rom {
-    /// The table of a datapath.
-    pub fn new(datapath: &Datapath) -> Self {
+    /// The table of a datapath. That of the thesis's formats is made only once.
+    pub fn of(datapath: &Datapath) -> Arc<Self> {
+        static THESIS: LazyLock<Arc<Rom>> = LazyLock::new(|| Arc::new(Rom::new(&Datapath::THESIS)));
+        if *datapath == Datapath::THESIS { THESIS.clone() } else { Arc::new(Rom::new(datapath)) }
+    }
+
+    fn new(datapath: &Datapath) -> Self {
         let entries = datapath.table().into_iter().map(S::new).collect();
         Rom { entries, shift: datapath.shift() }
     }

@@ -23,6 +23,7 @@ use super::tdc_calibration::{self, TdcCalibration};
 use super::vcsel_driver::{self, VcselDriver};
 use super::{lvds_output, pll};
 
+pub mod estimator_params;
 mod estimators;
 mod ports;
 mod sizes;

@@ -1,7 +1,7 @@
 //! Construction of the list of all names in all scopes, by traversing the firmware.
 
-use crate::firmware::TofTop;
 use crate::firmware::tof_top::FirmwareEstimator;
+use crate::firmware::tof_top::TofTop;
 use crate::kernel::module::{Alias, Instance, Module, Visitor};
 use crate::kernel::signals::{Signal, Signals, View};
 

@@ -1,7 +1,7 @@
 //! Names in the scopes of a waveform, and value ids.
 
-use crate::firmware::TofTop;
 use crate::firmware::histogram_builder::MOST_BINS;
+use crate::firmware::tof_top::TofTop;
 use crate::kernel::module::Module;
 use crate::kernel::signals::Signal;
 

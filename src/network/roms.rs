@@ -1,17 +1,17 @@
 //! ROM contents of the network estimator.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use crate::firmware::depth_estimator::Params;
 use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward1::{self, Row};
-use crate::firmware::forward2::{self, NEURONS};
+use crate::firmware::forward2;
 use crate::firmware::histogram_builder;
 use crate::firmware::tansig;
 use crate::kernel::S;
 
 use super::file::Network;
-use super::weights::{Fixed, Weights};
+use super::weights::Fixed;
 
 impl Network {
     /// Returns whether the network has one input per histogram bin.
@@ -29,16 +29,9 @@ impl Network {
 pub fn params(fixed: &Fixed, datapath: &Datapath, histogram: &histogram_builder::Params) -> Params {
     Params {
         forward1: Arc::new(hidden(fixed, datapath, histogram)),
-        tansig: tansig_table(datapath),
+        tansig: tansig::Rom::of(datapath),
         forward2: output(fixed, datapath),
     }
-}
-
-/// Returns the ROMs of a network whose weights are all zero, with the thesis's neurons and formats.
-pub fn blank(histogram: &histogram_builder::Params) -> Params {
-    let w1 = vec![vec![0; histogram.bins]; NEURONS];
-    let fixed = Weights { w1, b1: vec![0; NEURONS], w2: vec![0; NEURONS], b2: 0 };
-    params(&fixed, &Datapath::THESIS, histogram)
 }
 
 /// Builds MEM1: a row of weights for each bin, and the biases.
@@ -65,17 +58,6 @@ fn output(fixed: &Fixed, datapath: &Datapath) -> forward2::Rom {
         w2: std::array::from_fn(word),
         b2: S::new(fixed.b2.into()),
         datapath: *datapath,
-    }
-}
-
-/// Builds MEM2, the activation table. The one for the thesis's formats is built only once.
-fn tansig_table(datapath: &Datapath) -> Arc<tansig::Rom> {
-    static THESIS: LazyLock<Arc<tansig::Rom>> =
-        LazyLock::new(|| Arc::new(tansig::Rom::new(&Datapath::THESIS)));
-    if *datapath == Datapath::THESIS {
-        THESIS.clone()
-    } else {
-        Arc::new(tansig::Rom::new(datapath))
     }
 }
 

@@ -7,13 +7,24 @@ mod network;
 
 use crate::firmware::histogram_builder::Count;
 use crate::firmware::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn};
+use crate::kernel::U;
 
 pub use estimate::{EchoDepth, Estimate, digits};
 
 /// An estimator that is computed without its clock, too.
 pub trait Clockless: SlotEstimator {
-    /// The estimate of a histogram whose shots were all armed (MODE 0).
-    fn estimate(p: &Self::Params, histogram: &[u32]) -> EstimateWords;
+    /// The estimate of a histogram whose shots were all armed (MODE 0); by the block itself, where the estimator has no
+    /// shorter way.
+    fn estimate(p: &Self::Params, histogram: &[u32]) -> EstimateWords {
+        let (mut block, mut count) = (Self::default(), Count::default());
+        let mut i = SlotIn { rst: false, algo_start: true, mode: false, count };
+        for _ in 0..=Self::cycles(p) {
+            block.rise(&SlotIn { count, ..i }.into(), p);
+            i.algo_start = false;
+            count = U::new(histogram[block.outputs().read_addr.index()].into());
+        }
+        block.outputs().words
+    }
 
     /// Lands in the cycle before `algo_done` from the first cycle of an estimation of `words`; `idle` is the word at
     /// the port while none is read.

@@ -9,8 +9,8 @@ use std::fs;
 
 use wellen::simple::read;
 
-use crate::firmware::TofTop;
 use crate::firmware::carry_chain::TAPS;
+use crate::firmware::tof_top::TofTop;
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Thermometer;
 use crate::kernel::Time;

@@ -4,8 +4,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
-use crate::firmware::TofTop;
 use crate::firmware::tdc_decoder::Encoder;
+use crate::firmware::tof_top::TofTop;
 use crate::hierarchy::{Entry, Part, ROW};
 use crate::kernel::Time;
 use crate::kernel::signals::Sink;

@@ -8,9 +8,10 @@ use std::process::Command;
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 
 /// Pages whose pieces are applied, all to the same copy.
-const PAGES: [&str; 5] = [
+const PAGES: [&str; 6] = [
     "docs/adding-a-block.md",
     "docs/adding-a-column.md",
+    "docs/adding-an-estimator.md",
     "docs/adding-a-key.md",
     "docs/adding-a-noise-source.md",
     "docs/adding-a-verb.md",
@@ -184,6 +185,20 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
     let shots = ["--waves", "none", "--fidelity", "shot", "--json", "-s", chance];
     let found = tofsim(&[&["run", "--estimator", "likelihood"], &shots[..]].concat());
     assert!(found.contains("pile-up differs from shot to shot"), "{found}");
+    for simulator in ["icarus", "verilator"] {
+        tofsim(&["verify", "--block", "argmax_estimator", "--simulator", simulator]);
+    }
+    let argmax = ["-s", "estimator.kind=argmax"];
+    tofsim(&[&["verify", "--block", "tof_top"], &argmax[..]].concat());
+    let shots = ["--waves", "none", "--fidelity", "shot", "--json", "--estimator", "argmax"];
+    let found = tofsim(&[&["run"], &argmax[..], &shots].concat());
+    let found: serde_json::Value = serde_json::from_str(&found).unwrap();
+    let frame = &found["frames"][0];
+    assert_eq!(frame["estimator"], "argmax");
+    let depth_m = frame["depth_m"].as_f64().unwrap();
+    assert!((depth_m - 0.5).abs() < 0.05, "{depth_m} m");
+    assert_eq!(frame["estimates"][0]["depth_m"], frame["depth_m"]);
+
     let table = tofsim(&["rates"]);
     assert!(table.contains("rate [MHz]") && table.contains("20.833"), "{table}");
 }

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | `network` | the network in fixed point, bit for bit as the firmware | thesis ch. 6 |
 //! | `network-float` | the same network in double precision | thesis 5.3 |
-//! | `centroid` | highest bin, centroid around it, bit for bit as the firmware's other estimator | plain |
+//! | `centroid` | highest bin, centroid around it, bit for bit as the firmware | plain |
 //! | `peak` | spline, one peak, straight line through the shift | Listings 5.1 to 5.3 |
 //! | `subtraction` | the same on a lit histogram less a dark one | Algorithm 2 |
 //! | `likelihood` | the most likely distance, with pile-up in the model | eq. 3.21 to 3.24 |
@@ -27,7 +27,6 @@
 //! three, and [`likelihood::Model::cramer_rao_m`], the pulse's shape as well.
 
 pub mod acquisition;
-pub mod centroid;
 pub mod coates;
 pub mod estimator;
 pub mod findpeaks;

@@ -1,6 +1,7 @@
 //! The estimator in the slot of the top: its clock edge, its outputs, and when it rests.
 
-use crate::firmware::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
+use crate::firmware::histogram_builder;
+use crate::firmware::tof_top::slot::{Assumptions, EstimateWords, SlotEstimator, SlotIn, SlotOut};
 use crate::kernel::Clocked;
 
 use super::params::Params;
@@ -16,6 +17,11 @@ impl SlotEstimator for LikelihoodEstimator {
     type In = In;
     type Params = Params;
     const STATES_SIGMA: bool = true;
+    const ASSUMES: Assumptions = Assumptions::Model;
+
+    fn params_for(histogram: &histogram_builder::Params) -> Params {
+        Params::stand_in(*histogram)
+    }
 
     fn rise(&mut self, i: &In, p: &Params) {
         let (memory, terms) = (Wires::likelihood_memory(self, i), Wires::likelihood_terms(self, i));

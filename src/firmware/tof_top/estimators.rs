@@ -1,46 +1,40 @@
-//! The estimators of the firmware: the list that the slot, scenarios and the Verilog parameter `Estimator` share.
+//! The estimators of the firmware by name: the slot, scenarios and the Verilog parameter `Estimator` share their list.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::slot::SlotEstimator;
+use crate::firmware_estimators;
 
-/// Calls a macro with the list of the firmware's estimators, after what is given to it: variant, name in a scenario, name
-/// on the command line, module and block of each. A new estimator is a line here.
-#[macro_export]
-macro_rules! firmware_estimators {
-    ([$($callback:tt)+] $($($given:tt)+)?) => {
-        $($callback)+! {
-            $($($given)+;)?
-            /// The neural network (`depth_estimator`).
-            #[default]
-            Network = "network", "network": depth_estimator::DepthEstimator,
-            /// Argmax with centroid correction (`centroid_estimator`).
-            Centroid = "centroid", "centroid": centroid_estimator::CentroidEstimator,
-            /// Maximum likelihood in integers (`likelihood_estimator`).
-            Likelihood = "likelihood", "likelihood_estimator":
-                likelihood_estimator::LikelihoodEstimator,
-        }
-    };
-}
+use super::slot::SlotEstimator;
 
 macro_rules! enumerated {
     ($(
-        $(#[$doc:meta])* $Name:ident = $name:literal, $estimator:literal: $module:ident::$Block:ident,
+        #[doc = $about:literal]
+        $Name:ident = $name:literal, $estimator:literal: $module:ident::$Block:ident,
     )+) => {
         /// The estimator in the estimator slot.
         #[derive(
-            Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema,
+            Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema,
         )]
-        #[serde(rename_all = "snake_case")]
         #[schemars(rename = "EstimatorKind")]
         pub enum FirmwareEstimator {
-            $($(#[$doc])* $Name,)+
+            $(
+                #[doc = concat!($about, " (`", stringify!($module), "`).")]
+                #[serde(rename = $name)]
+                $Name,
+            )+
         }
 
         impl FirmwareEstimator {
             /// Every estimator, in the order of the Verilog parameter's values.
             pub const ALL: &[Self] = &[$(Self::$Name),+];
+
+            /// Its meaning for help, without a full stop.
+            pub const fn about(self) -> &'static str {
+                match self {
+                    $(Self::$Name => $about.trim_ascii(),)+
+                }
+            }
 
             /// Its name in a scenario.
             pub const fn name(self) -> &'static str {
@@ -82,7 +76,8 @@ macro_rules! in_slot {
 #[macro_export]
 macro_rules! in_slot_arms {
     (($estimator:expr) $Chosen:ident $body:expr; $(
-        $(#[$doc:meta])* $Name:ident = $name:literal, $cli:literal: $module:ident::$Block:ident,
+        #[doc = $about:literal]
+        $Name:ident = $name:literal, $cli:literal: $module:ident::$Block:ident,
     )+) => {
         match $estimator {
             $($crate::firmware::tof_top::FirmwareEstimator::$Name => {
@@ -91,6 +86,13 @@ macro_rules! in_slot_arms {
             })+
         }
     };
+}
+
+impl Default for FirmwareEstimator {
+    /// The first of the list, as in the Verilog.
+    fn default() -> Self {
+        Self::ALL[0]
+    }
 }
 
 impl FirmwareEstimator {

@@ -1,15 +1,11 @@
 //! Pins, wires and parameters of the top.
 
-use std::sync::Arc;
-
 use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::firmware::vcsel_driver::{self, Rate};
-use crate::firmware::{
-    centroid_estimator, depth_estimator, frame_ctrl, histogram_preload, likelihood_estimator, tdc,
-    tdc_calibration,
-};
+use crate::firmware::{frame_ctrl, histogram_preload, tdc, tdc_calibration};
 use crate::signals;
 
+use super::estimator_params::EstimatorParams;
 use super::estimators::FirmwareEstimator;
 
 signals! {
@@ -94,12 +90,8 @@ pub struct Params {
     pub tdc: tdc::Params,
     /// Parameters of its calibration, if it has one.
     pub tdc_calibration: Option<tdc_calibration::Params>,
-    /// ROMs of the network.
-    pub depth_estimator: depth_estimator::Params,
-    /// Window and scale of the centroid.
-    pub centroid_estimator: centroid_estimator::Params,
-    /// Pulse, bins and ROMs of the likelihood.
-    pub likelihood_estimator: Arc<likelihood_estimator::params::Params>,
+    /// Parameters of the estimators.
+    pub estimators: EstimatorParams,
     /// Estimator in the estimator slot.
     pub estimator: FirmwareEstimator,
     /// Source of codes.

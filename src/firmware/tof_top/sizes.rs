@@ -28,7 +28,7 @@ impl Default for Sizes {
 impl Params {
     /// Sizes of this design.
     pub fn sizes(&self) -> Sizes {
-        let (decoder, network) = (&self.tdc.decoder, &self.depth_estimator);
+        let (decoder, network) = (&self.tdc.decoder, &self.estimators.depth_estimator);
         let calibration = self.tdc_calibration.as_ref();
         Sizes {
             taps: self.tdc.delays.taps() as u32,
@@ -38,7 +38,7 @@ impl Params {
             calibrates: calibration.is_some(),
             hits_log2: calibration.map_or(HITS_LOG2, |own| own.hits_log2),
             drain_cycles: self.frame_ctrl.drain_cycles as u32,
-            likelihood_cycles: self.likelihood_estimator.done() as u32,
+            likelihood_cycles: self.estimators.likelihood_estimator.done() as u32,
             ..usual(
                 &decoder.scale,
                 &self.vcsel_driver,

@@ -4,7 +4,7 @@ use fixed::types::extra::U29;
 use fixed::{FixedI64, FixedU64};
 
 use crate::firmware::forward2::Depth;
-use crate::firmware::histogram_builder::{Bin, Count};
+use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::kernel::U;
 
 /// Standard deviation of a depth, with as many fraction bits as the depth word [2^-29 m].
@@ -73,14 +73,30 @@ impl EstimateWords {
     }
 }
 
+/// Assumptions of an estimator about the histogram.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assumptions {
+    /// The echo is where the hits are.
+    Peak,
+    /// The histogram is like those that the estimator was trained with.
+    Training,
+    /// Pulse, ambient light and pile-up are those of the instrument's model.
+    Model,
+}
+
 /// An estimator that fits the slot.
 pub trait SlotEstimator: Default {
     /// Its input ports.
     type In: From<SlotIn>;
     /// Parameters fixed by elaboration.
-    type Params;
+    type Params: Clone + std::fmt::Debug + Send + Sync;
     /// Whether the estimator outputs a sigma, a status and `valid` beside the depth.
     const STATES_SIGMA: bool = false;
+    /// Assumptions that its depth rests on.
+    const ASSUMES: Assumptions = Assumptions::Peak;
+
+    /// Parameters for histograms of that size, as they are without a scenario.
+    fn params_for(histogram: &histogram_builder::Params) -> Self::Params;
 
     /// The rising edge of `clk_sys`.
     fn rise(&mut self, i: &Self::In, p: &Self::Params);

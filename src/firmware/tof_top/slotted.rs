@@ -1,6 +1,5 @@
 //! The estimators in the top: their ports, parameters and clock.
 
-use crate::firmware::{centroid_estimator, depth_estimator, likelihood_estimator};
 use crate::{firmware_estimators, in_slot};
 
 use super::slot::SlotEstimator;
@@ -20,12 +19,13 @@ pub trait Slotted: SlotEstimator {
 
 macro_rules! slotted {
     ($(
-        $(#[$doc:meta])* $Name:ident = $name:literal, $estimator:literal: $module:ident::$Block:ident,
+        #[doc = $about:literal]
+        $Name:ident = $name:literal, $estimator:literal: $module:ident::$Block:ident,
     )+) => {
-        $(impl Slotted for $module::$Block {
+        $(impl Slotted for crate::firmware::$module::$Block {
             #[inline(always)]
             fn params(p: &Params) -> &Self::Params {
-                &p.$module
+                &p.estimators.$module
             }
 
             #[inline(always)]
@@ -39,7 +39,7 @@ macro_rules! slotted {
             }
 
             #[inline(always)]
-            fn wires(inputs: &SlotInputs) -> &$module::In {
+            fn wires(inputs: &SlotInputs) -> &crate::firmware::$module::In {
                 &inputs.$module
             }
         })+
@@ -47,7 +47,7 @@ macro_rules! slotted {
         /// Input ports of every estimator.
         #[derive(Clone, Copy, Debug)]
         pub struct SlotInputs {
-            $($module: $module::In,)+
+            $($module: crate::firmware::$module::In,)+
         }
 
         impl TofTop {

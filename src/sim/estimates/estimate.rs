@@ -94,8 +94,9 @@ mod tests {
         let status = U::new((Status::CutOff.bit() | Status::NoFit.bit()).into());
         let (depth, sigma) = (Depth::new(0x1013_c199), U::new(1 << 19));
         let words = EstimateWords { depth, sigma, status, valid: false };
-        let json =
-            |words| serde_json::to_value(Estimate::of_words(FirmwareEstimator::Likelihood, words));
+        let json = |words| {
+            serde_json::to_value(Estimate::of_words(FirmwareEstimator::LikelihoodEstimator, words))
+        };
         let expected = serde_json::json!({
             "estimator": "likelihood_estimator",
             "depth_m": depth.to_f64(),

@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use crate::error::Result;
 use crate::firmware::pll::Pll;
+use crate::firmware::tof_top::estimator_params::EstimatorParams;
 use crate::firmware::tof_top::{FirmwareEstimator, HistogramSource, Params};
-use crate::firmware::{
-    centroid_estimator, frame_ctrl, histogram_builder, likelihood_estimator, vcsel_driver,
-};
+use crate::firmware::{centroid_estimator, frame_ctrl, histogram_builder, vcsel_driver};
 use crate::kernel::{S, Time, U};
-use crate::network::{self, Network};
+use crate::network::Network;
 use crate::optics::Budget;
 use crate::optics::dark::DarkRates;
 use crate::scenario::builtin::Source;
@@ -45,6 +44,11 @@ impl Setup {
         let of_row = (light.is_none() && wiring.has_unwired())
             .then(|| by_budget(&budget.of_row(&wiring, &dark), scenario.seed));
         let light = light.unwrap_or_else(|| by_budget(&budget, scenario.seed));
+        let mut estimators = EstimatorParams::of(&histogram);
+        estimators.centroid_estimator = Arc::new(centroid(&scenario.estimator, histogram));
+        if network.fits(&histogram) {
+            estimators.depth_estimator = Arc::new(network.params(&histogram));
+        }
         let params = Params {
             histogram,
             frame_ctrl: frame_ctrl::Params {
@@ -59,15 +63,7 @@ impl Setup {
             },
             tdc: converter.tdc,
             tdc_calibration: converter.tdc_calibration,
-            depth_estimator: if network.fits(&histogram) {
-                network.params(&histogram)
-            } else {
-                network::blank(&histogram)
-            },
-            centroid_estimator: centroid(&scenario.estimator, histogram),
-            likelihood_estimator: Arc::new(likelihood_estimator::params::Params::stand_in(
-                histogram,
-            )),
+            estimators,
             estimator: scenario.estimator.kind,
             code_source,
             histogram_source,
@@ -103,7 +99,7 @@ impl Setup {
         let shots = setup.params.frame_ctrl.shots_per_frame.into();
         // One that the estimator is not for has a stand-in, which nothing starts.
         if let Ok(own) = setup.likelihood(shots) {
-            setup.params.likelihood_estimator = Arc::new(own);
+            setup.params.estimators.likelihood_estimator = Arc::new(own);
         }
         Ok(Setup { no_depth: setup.why_no_depth(), ..setup })
     }
@@ -111,14 +107,14 @@ impl Setup {
 
 impl Setup {
     /// Checks that the estimator fits the instrument.
-    pub(super) fn check_estimator(&self) -> Result<()> {
+    pub fn check_estimator(&self) -> Result<()> {
         match self.params.estimator {
             FirmwareEstimator::Network => self.check_network(),
-            FirmwareEstimator::Centroid => Ok(()),
-            FirmwareEstimator::Likelihood => {
+            FirmwareEstimator::LikelihoodEstimator => {
                 self.likelihood(self.params.frame_ctrl.shots_per_frame.into())?;
                 Ok(())
             }
+            _ => Ok(()),
         }
     }
 }

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use crate::firmware::carry_chain::{Delays, TAPS, Transitions};
 use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
+use crate::firmware::tof_top::estimator_params::EstimatorParams;
 use crate::firmware::tof_top::{
     CodeSource, FirmwareEstimator, HistogramSource, Params, Pins, TofTop,
 };
 use crate::firmware::{
-    centroid_estimator, depth_estimator, forward1, forward2, frame_ctrl, histogram_builder,
-    likelihood_estimator, tansig, tdc, vcsel_driver,
+    depth_estimator, forward1, forward2, frame_ctrl, histogram_builder, tansig, tdc, vcsel_driver,
 };
 use crate::kernel::{S, Time, U};
 
@@ -41,6 +41,15 @@ pub fn with_delays(taps: &[i64]) -> Params {
     let rom = forward1::Rom::new(w1, row(histogram.bins), NEURONS, &datapath, &histogram);
     let entries = (0..4096).map(|address| S::new((address - 2048) * 8)).collect();
     let tansig = tansig::Rom { entries, shift: datapath.shift() };
+    let forward2 = forward2::Rom {
+        neurons: NEURONS,
+        w2: [S::new(9000); MOST_NEURONS],
+        b2: S::new(700),
+        datapath,
+    };
+    let (forward1, tansig) = (Arc::new(rom), Arc::new(tansig));
+    let mut estimators = EstimatorParams::of(&histogram);
+    estimators.depth_estimator = Arc::new(depth_estimator::Params { forward1, tansig, forward2 });
     Params {
         histogram,
         frame_ctrl: frame_ctrl::Params {
@@ -52,18 +61,7 @@ pub fn with_delays(taps: &[i64]) -> Params {
         vcsel_driver: vcsel_driver::Params::default(),
         tdc: tdc::Params::of_chain(delays),
         tdc_calibration: None,
-        depth_estimator: depth_estimator::Params {
-            forward1: Arc::new(rom),
-            tansig: Arc::new(tansig),
-            forward2: forward2::Rom {
-                neurons: NEURONS,
-                w2: [S::new(9000); MOST_NEURONS],
-                b2: S::new(700),
-                datapath,
-            },
-        },
-        centroid_estimator: centroid_estimator::Params::default(),
-        likelihood_estimator: Arc::new(likelihood_estimator::params::Params::stand_in(histogram)),
+        estimators,
         estimator: FirmwareEstimator::Network,
         code_source: CodeSource::Tdc,
         histogram_source: HistogramSource::Builder,

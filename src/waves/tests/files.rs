@@ -7,8 +7,8 @@ use wellen::simple::read;
 
 #[cfg(unix)]
 use crate::files::output::device;
-use crate::firmware::TofTop;
 use crate::firmware::tof_top::Pins;
+use crate::firmware::tof_top::TofTop;
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Time;
 

@@ -22,7 +22,7 @@ pub(super) fn words(
     per_cycle: u64,
     params: &Params,
 ) -> Result<Option<Words>> {
-    let rom = &params.depth_estimator.forward1;
+    let rom = &params.estimators.depth_estimator.forward1;
     let (width, largest) = (rom.sum_bits(), params.histogram.most_hits());
     let port = |name: &str| probed.probe(&format!("{TOP}.depth_estimator.{name}"));
     let enable = port("estimator_ctrl.forward1_en");

@@ -78,6 +78,7 @@ pub fn present(effect: Effect, setup: &Setup, kind: EstimatorKind) -> EffectStat
             EstimatorKind::Network
             | EstimatorKind::Centroid
             | EstimatorKind::LikelihoodEstimator => EffectState::On,
+            _ if kind.is_in_firmware() => left_out("the estimator has no twin in double precision"),
             _ => EffectState::Off("the estimator is in double precision".to_owned()),
         },
         Effect::Table => unless(kind != EstimatorKind::Network, "only the network's words have it"),

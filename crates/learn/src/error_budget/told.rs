@@ -42,7 +42,7 @@ pub fn estimator(kind: EstimatorKind, variant: &Variant) -> Result<Box<dyn Estim
             Box::new(FromFn { name: kind.name(), estimate })
         }
         EstimatorKind::Centroid if !is_fixed => {
-            let params = setup.params.centroid_estimator;
+            let params = setup.params.estimators.centroid_estimator.clone();
             let estimate = move |histogram: &[u32]| centroid_m(&params, histogram);
             Box::new(FromFn { name: kind.name(), estimate })
         }

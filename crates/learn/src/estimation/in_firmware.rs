@@ -3,10 +3,12 @@
 use tofsim::firmware::likelihood_estimator::LikelihoodEstimator;
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::tof_top::FirmwareEstimator;
+use tofsim::firmware::tof_top::slotted::Slotted;
 use tofsim::firmware::tof_top::status::StatusSet;
 use tofsim::sim::estimates::Clockless;
+use tofsim::sim::setup::Setup;
 
-use super::estimator::{Estimator, Failure, Found};
+use super::estimator::{Estimator, Failure, Found, hits};
 
 /// An estimator of the firmware for the histograms of one instrument; a depth that it rejects is a failure.
 pub struct InFirmware<E: Clockless> {
@@ -21,12 +23,19 @@ impl<E: Clockless> InFirmware<E> {
     }
 }
 
-/// The likelihood estimator by the parameters and ROMs that the instrument has, as `Setup::likelihood` gives them.
-pub fn likelihood_estimator(params: Params) -> InFirmware<LikelihoodEstimator> {
-    InFirmware::new(FirmwareEstimator::Likelihood, params)
+impl<E: Clockless + Slotted> InFirmware<E> {
+    /// The block `E` as an instrument has it.
+    pub fn of(estimator: FirmwareEstimator, setup: &Setup) -> Self {
+        InFirmware::new(estimator, E::params(&setup.params).clone())
+    }
 }
 
-impl<E: Clockless<Params: Send + Sync>> Estimator for InFirmware<E> {
+/// The likelihood estimator by the parameters and ROMs that the instrument has, as `Setup::likelihood` gives them.
+pub fn likelihood_estimator(params: Params) -> InFirmware<LikelihoodEstimator> {
+    InFirmware::new(FirmwareEstimator::LikelihoodEstimator, params)
+}
+
+impl<E: Clockless> Estimator for InFirmware<E> {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -36,7 +45,13 @@ impl<E: Clockless<Params: Send + Sync>> Estimator for InFirmware<E> {
     }
 
     fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
+        if !E::STATES_SIGMA {
+            hits(histogram, u32::MAX)?;
+        }
         let words = E::estimate(&self.params, histogram);
+        if !E::STATES_SIGMA && words.depth.get() == 0 {
+            return Err(Failure::NoPeak);
+        }
         let status = StatusSet::from(words.status);
         if !status.is_empty() {
             return Err(Failure::Rejected(status));
@@ -50,7 +65,7 @@ impl<E: Clockless<Params: Send + Sync>> Estimator for InFirmware<E> {
 mod tests {
     use super::*;
     use tofsim::Run;
-    use tofsim::sim::setup::Setup;
+    use tofsim::firmware::centroid_estimator::CentroidEstimator;
 
     #[test]
     fn what_is_not_believed_is_a_failure_in_words() {
@@ -61,5 +76,13 @@ mod tests {
         let frames = Run::new(&setup).frames(1).unwrap();
         let depth_m = estimator.estimate(&frames[0].histogram).unwrap();
         assert!((depth_m - 0.5).abs() < 0.002, "{depth_m} m");
+    }
+
+    #[test]
+    fn a_histogram_without_a_peak_has_no_distance() {
+        let setup = Setup::load("kc705", &[]).unwrap();
+        let centroid = InFirmware::<CentroidEstimator>::of(FirmwareEstimator::Centroid, &setup);
+        assert_eq!(centroid.estimate(&[0; 256]), Err(Failure::NoHits));
+        assert_eq!(centroid.estimate(&[100; 256]), Err(Failure::NoPeak));
     }
 }

@@ -6,10 +6,13 @@
 mod model_check;
 
 use tofsim::Note;
+use tofsim::firmware::centroid_estimator::CentroidEstimator;
+use tofsim::firmware::tof_top::FirmwareEstimator;
+use tofsim::firmware::tof_top::slot::Assumptions;
 use tofsim::scenario::effects::Method;
 use tofsim::sim::setup::Setup;
 
-use super::centroid::Centroid;
+use super::in_firmware::InFirmware;
 use super::peak_detection::PeakDetection;
 use super::registry::EstimatorKind;
 
@@ -19,13 +22,16 @@ impl EstimatorKind {
     /// Returns the estimator's model, as the table of effects has it; `None` for networks.
     fn model(self) -> Option<Method> {
         match self {
-            EstimatorKind::Network | EstimatorKind::NetworkFloat => None,
+            EstimatorKind::NetworkFloat => None,
             EstimatorKind::Likelihood => Some(Method::Likelihood),
             EstimatorKind::TwoEchoes => Some(Method::TwoEchoes),
-            EstimatorKind::LikelihoodEstimator => Some(Method::LikelihoodEstimator),
             EstimatorKind::Matched => Some(Method::Matched),
-            EstimatorKind::Centroid => Some(Method::Centroid),
             EstimatorKind::Peak | EstimatorKind::Subtraction => Some(Method::Peak),
+            in_firmware => in_firmware.assumptions().and_then(|assumed| match assumed {
+                Assumptions::Training => None,
+                Assumptions::Peak => Some(Method::Centroid),
+                Assumptions::Model => Some(Method::LikelihoodEstimator),
+            }),
         }
     }
 
@@ -54,7 +60,7 @@ impl EstimatorKind {
             }
             EstimatorKind::Matched => check.first_bin(),
             EstimatorKind::Centroid => check.expected(
-                &Centroid(setup.params.centroid_estimator),
+                &InFirmware::<CentroidEstimator>::of(FirmwareEstimator::Centroid, setup),
                 "pile-up shifts the centroid short",
             ),
             EstimatorKind::Peak => check.range().or_else(|| {

@@ -3,14 +3,15 @@
 use tofsim::error::{Error, Input};
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::tof_top::FirmwareEstimator;
+use tofsim::firmware::tof_top::slot::{Assumptions, SlotEstimator};
 use tofsim::network::Network;
 use tofsim::scenario::Scenario;
 use tofsim::sim::setup::Setup;
+use tofsim::{firmware_estimators, in_slot};
 
 use super::acquisition::Acquisition;
-use super::centroid::Centroid;
 use super::estimator::Estimator;
-use super::in_firmware::likelihood_estimator;
+use super::in_firmware::{InFirmware, likelihood_estimator};
 use super::likelihood::Likelihood;
 use super::likelihood::two_echoes::{self, TwoEchoes};
 use super::matched_filter::MatchedFilter;
@@ -24,8 +25,8 @@ struct Registered {
     name: &'static str,
     /// Description of the estimator for help.
     about: &'static str,
-    /// Its block, where the firmware computes the same bits.
-    firmware: Option<FirmwareEstimator>,
+    /// Its block, where the firmware computes the same bits, and what that assumes of the histogram.
+    firmware: Option<(FirmwareEstimator, Assumptions)>,
     /// Inputs that it needs besides histograms.
     needs: Needs,
     make: fn(&EstimatorInputs) -> Result<Box<dyn Estimator>, Input>,
@@ -54,11 +55,13 @@ impl Registered {
 
     const fn in_firmware(
         firmware: FirmwareEstimator,
-        about: &'static str,
+        assumptions: Assumptions,
         make: fn(&EstimatorInputs) -> Result<Box<dyn Estimator>, Input>,
     ) -> Self {
-        let of = Registered::new(firmware.estimator(), about, make);
-        Registered { firmware: Some(firmware), ..of }
+        let needs =
+            if let Assumptions::Training = assumptions { Needs::Network } else { Needs::Model };
+        let (name, about) = (firmware.estimator(), firmware.about());
+        Registered { name, about, firmware: Some((firmware, assumptions)), needs, make }
     }
 
     const fn needs(self, needs: Needs) -> Self {
@@ -66,35 +69,37 @@ impl Registered {
     }
 }
 
+/// Makes the registry: the estimators of the firmware, as it lists them, and those that no firmware has.
 macro_rules! registry {
-    ($($(#[$doc:meta])* $Kind:ident = $entry:expr;)+) => {
+    (($($(#[$doc:meta])* $Kind:ident = $entry:expr;)+); $(
+        #[doc = $about:literal]
+        $Name:ident = $name:literal, $estimator:literal: $module:ident::$Block:ident,
+    )+) => {
         /// An estimator's name.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum EstimatorKind {
+            $(#[doc = concat!($about, ", bit for bit as `", stringify!($module), "`.")] $Name,)+
             $($(#[$doc])* $Kind,)+
         }
 
-        const REGISTRY: &[Registered] = &[$($entry),+];
+        const REGISTRY: &[Registered] = &[
+            $(Registered::in_firmware(
+                FirmwareEstimator::$Name,
+                <tofsim::firmware::$module::$Block as SlotEstimator>::ASSUMES,
+                |inputs| in_firmware(FirmwareEstimator::$Name, inputs),
+            ),)+
+            $($entry,)+
+        ];
 
         impl EstimatorKind {
             /// Every estimator: its name on the command line, the kind, what it does.
-            pub const ALL: &[(&'static str, Self, &'static str)] = &[$((
-                REGISTRY[EstimatorKind::$Kind as usize].name,
-                EstimatorKind::$Kind,
-                REGISTRY[EstimatorKind::$Kind as usize].about,
-            )),+];
+            pub const ALL: &[(&'static str, Self, &'static str)] =
+                &[$(listed(EstimatorKind::$Name),)+ $(listed(EstimatorKind::$Kind),)+];
         }
     };
 }
 
-registry! {
-    /// The network in fixed point.
-    Network = Registered::in_firmware(
-        FirmwareEstimator::Network,
-        "The network in fixed point, bit for bit as the firmware",
-        |i| Ok(Box::new(fixed(i.network, i.size()))),
-    )
-    .needs(Needs::Network);
+firmware_estimators!([registry] (
     /// The network in double precision.
     NetworkFloat = Registered::new(
         "network-float",
@@ -102,12 +107,6 @@ registry! {
         |i| Ok(Box::new(float(i.network, i.size()))),
     )
     .needs(Needs::Network);
-    /// Argmax with centroid correction.
-    Centroid = Registered::in_firmware(
-        FirmwareEstimator::Centroid,
-        "Argmax with centroid correction, bit for bit as the firmware's other estimator",
-        |i| Ok(Box::new(Centroid(i.setup.params.centroid_estimator))),
-    );
     /// The thesis's peak detection.
     Peak = Registered::new(
         "peak",
@@ -133,18 +132,31 @@ registry! {
         "Maximum likelihood of two echoes where two are sure, of one elsewhere",
         |i| Ok(Box::new(TwoEchoes::new(&i.acquisition)?)),
     );
-    /// Maximum likelihood in integers.
-    LikelihoodEstimator = Registered::in_firmware(
-        FirmwareEstimator::Likelihood,
-        "Maximum likelihood in integers, bit for bit as the firmware would",
-        |i| Ok(Box::new(likelihood_estimator(i.setup.likelihood(i.acquisition.shots)?))),
-    );
     /// Matched filter.
     Matched = Registered::new(
         "matched",
         "Matched filter after Coates's correction of pile-up",
         |i| Ok(Box::new(MatchedFilter::new(&i.acquisition)?)),
     );
+));
+
+const fn listed(kind: EstimatorKind) -> (&'static str, EstimatorKind, &'static str) {
+    let Registered { name, about, .. } = REGISTRY[kind as usize];
+    (name, kind, about)
+}
+
+/// Makes an estimator of the firmware, with the network and the shots of the histograms where it has such.
+fn in_firmware(
+    estimator: FirmwareEstimator,
+    i: &EstimatorInputs,
+) -> Result<Box<dyn Estimator>, Input> {
+    Ok(match estimator {
+        FirmwareEstimator::Network => Box::new(fixed(i.network, i.size())),
+        FirmwareEstimator::LikelihoodEstimator => {
+            Box::new(likelihood_estimator(i.setup.likelihood(i.acquisition.shots)?))
+        }
+        other => in_slot!(other, E => Box::new(InFirmware::<E>::of(other, i.setup))),
+    })
 }
 
 /// Inputs from which an estimator is made.
@@ -202,9 +214,8 @@ impl EstimatorKind {
 
     /// The estimator in the scenario's firmware, bit for bit.
     pub fn in_socket(scenario: &Scenario) -> Self {
-        let is_it = |kind: &Self| kind.registered().firmware == Some(scenario.estimator.kind);
-        let mut all = Self::ALL.iter().map(|(_, kind, _)| *kind);
-        all.find(is_it).unwrap_or(EstimatorKind::Network)
+        // Those of the firmware come first, in its order.
+        Self::ALL[scenario.estimator.kind as usize].1
     }
 
     /// Checks what the estimator needs of a setup beside its histograms.
@@ -213,6 +224,11 @@ impl EstimatorKind {
     /// When it is a network for other histograms.
     pub fn check(self, setup: &Setup) -> Result<(), Error> {
         if self.is_network() { setup.check_network() } else { Ok(()) }
+    }
+
+    /// Returns the assumptions of an estimator of the firmware.
+    pub(super) fn assumptions(self) -> Option<Assumptions> {
+        self.registered().firmware.map(|(_, assumptions)| assumptions)
     }
 
     /// Makes the estimator.

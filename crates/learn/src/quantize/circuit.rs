@@ -1,5 +1,6 @@
 //! A network in a datapath: its depths, and what saturates.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use tofsim::error::Result;
@@ -19,7 +20,7 @@ pub struct Circuit {
     /// The words as integers, biases aligned with the products.
     words: Weights<i64, i64, i64, i64>,
     /// Activations by address.
-    table: tansig::Rom,
+    table: Arc<tansig::Rom>,
     /// Weights that no word holds, and were saturated.
     pub saturated_weights: usize,
     /// Sums that lay past the table, of all histograms seen.
@@ -47,7 +48,7 @@ impl Circuit {
         Circuit {
             datapath: *datapath,
             words,
-            table: tansig::Rom::new(datapath),
+            table: tansig::Rom::of(datapath),
             saturated_weights: 0,
             saturated_sums: AtomicU64::new(0),
         }

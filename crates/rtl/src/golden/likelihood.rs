@@ -94,7 +94,7 @@ impl<'a> Estimations<'a> {
     /// Of the setting's instrument; with `cuts` some end early.
     pub fn new(setting: &'a Setting, cuts: bool) -> Self {
         let setup = &setting.setup;
-        let params = &*setup.params.likelihood_estimator;
+        let params = &*setup.params.estimators.likelihood_estimator;
         let states = if cuts { 0..STATES } else { 0..0 };
         Estimations {
             setup,

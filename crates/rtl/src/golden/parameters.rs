@@ -207,7 +207,8 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Pa
 pub fn of_likelihood(params: &Params, verilog: &'static str) -> Parameters {
     let declares =
         |(own, _): &(&'static str, Parameter)| declared(verilog).any(|name| name == *own);
-    let own = likelihood_estimator(&params.likelihood_estimator).into_iter().filter(declares);
+    let own =
+        likelihood_estimator(&params.estimators.likelihood_estimator).into_iter().filter(declares);
     sized(params, verilog).into_iter().chain(own).collect()
 }
 
@@ -220,7 +221,7 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         ("LockTime", Number(setup.pll().locked_at.ps())),
     ];
     list.extend(clocks(&setup.scenario.pll.params()));
-    list.extend(depth_estimator(&params.depth_estimator));
+    list.extend(depth_estimator(&params.estimators.depth_estimator));
     list.extend([
         ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder))),
         ("DelaysFile", Memory(tap_delays(&params.tdc.delays))),
@@ -247,13 +248,14 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         list.push(("Estimator", Number(params.estimator.number())));
     }
     match params.estimator {
-        FirmwareEstimator::Network => {}
         FirmwareEstimator::Centroid => {
-            list.extend(centroid_estimator(&params.centroid_estimator));
+            list.extend(centroid_estimator(&params.estimators.centroid_estimator));
         }
-        FirmwareEstimator::Likelihood => {
-            list.extend(likelihood_estimator(&params.likelihood_estimator));
+        FirmwareEstimator::LikelihoodEstimator => {
+            list.extend(likelihood_estimator(&params.estimators.likelihood_estimator));
         }
+        // The others have no parameters but sizes and memories, which are there already.
+        _ => {}
     }
     list
 }
@@ -268,8 +270,8 @@ pub fn tof_top_in_full(setup: &Setup) -> Parameters {
         tdc_calibration(&tdc_calibration::Params::stand_in(&params.tdc)),
         all(params, sizes_of(TOF_TOP)),
         vec![("Estimator", Parameter::Number(params.estimator.number()))],
-        centroid_estimator(&params.centroid_estimator),
-        likelihood_estimator(&params.likelihood_estimator),
+        centroid_estimator(&params.estimators.centroid_estimator),
+        likelihood_estimator(&params.estimators.likelihood_estimator),
     ];
     let is_new = |(name, _): &(&str, Parameter)| list.iter().all(|(known, _)| known != name);
     let others: Vec<_> = every.concat().into_iter().filter(is_new).collect();

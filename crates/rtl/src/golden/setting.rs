@@ -73,12 +73,12 @@ impl Setting {
 
     /// Number formats of the network.
     pub fn datapath(&self) -> &Datapath {
-        &self.setup.params.depth_estimator.forward2.datapath
+        &self.setup.params.estimators.depth_estimator.forward2.datapath
     }
 
     /// Hidden neurons.
     pub fn neurons(&self) -> usize {
-        self.setup.params.depth_estimator.neurons()
+        self.setup.params.estimators.depth_estimator.neurons()
     }
 
     /// Full-size chain and histogram, random control, the scenario's own seed.

@@ -76,7 +76,7 @@ fn a_network_that_was_trained_with_the_drift_has_learnt_it() {
     assert_eq!(codes(&setup), both);
     setup.network.domain = Some(domain::of(&setup.scenario, &[]).unwrap());
     assert_eq!(codes(&setup), []);
-    setup.params.estimator = FirmwareEstimator::Likelihood;
+    setup.params.estimator = FirmwareEstimator::LikelihoodEstimator;
     assert_eq!(codes(&setup), both[1..]);
 }
 

@@ -108,7 +108,7 @@ fn light(setup: &Setup) -> Facts {
 fn frame(setup: &Setup) -> Facts {
     let Scenario { firmware, estimator, target, ambient, .. } = &setup.scenario;
     let name = if estimator.kind == FirmwareEstimator::Network {
-        format!("network of {} neurons", setup.params.depth_estimator.neurons())
+        format!("network of {} neurons", setup.params.estimators.depth_estimator.neurons())
     } else {
         estimator.kind.module().replace('_', " ")
     };

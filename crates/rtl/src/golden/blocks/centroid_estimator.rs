@@ -17,7 +17,7 @@ pub(super) const SPEC: Spec = Spec {
     glue: Some(histograms::GLUE),
     configurations: &[LEVEL],
     model: Some(Model::new::<In>(|at| {
-        at.top.centroid_estimator.rise(&at.input(), &at.params.centroid_estimator);
+        at.top.centroid_estimator.rise(&at.input(), &at.params.estimators.centroid_estimator);
     })),
     ..Spec::new("centroid_estimator", "centroid_estimator", record)
 };
@@ -48,7 +48,7 @@ signals! {
 }
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let params = setting.setup.params.centroid_estimator;
+    let params = *setting.setup.params.estimators.centroid_estimator;
     let histograms = histograms::new(&params, &mut Draw::new(setting.seed, MEMORIES));
     // Words, no words, quotient, position and depth.
     let (bins, done) = (params.histogram.bins as u64, params.done());

@@ -15,7 +15,7 @@ pub(super) const SPEC: Spec = Spec {
     glue: Some(histograms::GLUE),
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        at.top.depth_estimator.rise(&at.input(), &at.params.depth_estimator);
+        at.top.depth_estimator.rise(&at.input(), &at.params.estimators.depth_estimator);
     })),
     ..Spec::new("depth_estimator", "depth_estimator", record)
 };
@@ -33,7 +33,7 @@ signals! {
 }
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let (params, neurons) = (&setting.setup.params.depth_estimator, setting.neurons());
+    let (params, neurons) = (&setting.setup.params.estimators.depth_estimator, setting.neurons());
     let mut draw = Draw::new(setting.seed, MEMORIES);
     let (size, ctrl) = (setting.histogram(), params.ctrl());
     let (histograms, special, ends) = histograms::new(params, &size, &mut draw);

@@ -13,7 +13,7 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        at.top.depth_estimator.estimator_ctrl.tick(&at.input(), &at.params.depth_estimator.ctrl());
+        at.top.depth_estimator.estimator_ctrl.tick(&at.input(), &at.params.estimators.depth_estimator.ctrl());
     })),
     ..Spec::new("estimator_ctrl", "depth_estimator.estimator_ctrl", record)
 };
@@ -24,7 +24,7 @@ const LINES_A_BIN: usize = 101;
 const LINES: usize = 26_000;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let p = setting.setup.params.depth_estimator.ctrl();
+    let p = setting.setup.params.estimators.depth_estimator.ctrl();
     let done = p.done();
     // Phases past this one are all cut short: the changes of layer are there.
     let layers = p.bins as u64 - 2;

@@ -18,13 +18,13 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        at.top.depth_estimator.forward1.tick(&at.input(), &at.params.depth_estimator.forward1);
+        at.top.depth_estimator.forward1.tick(&at.input(), &at.params.estimators.depth_estimator.forward1);
     })),
     ..Spec::new("forward1", "depth_estimator.forward1", record)
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let (rom, neurons) = (&setting.setup.params.depth_estimator.forward1, setting.neurons());
+    let (rom, neurons) = (&setting.setup.params.estimators.depth_estimator.forward1, setting.neurons());
     let size = setting.histogram();
     let (words, most) = (size.bins as u64, size.most_hits());
     let stretch_of = STRETCH.max(2 * words);

@@ -22,13 +22,13 @@ pub(super) const SPEC: Spec = Spec {
     ],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        at.top.depth_estimator.forward2.tick(&at.input(), &at.params.depth_estimator.forward2);
+        at.top.depth_estimator.forward2.tick(&at.input(), &at.params.estimators.depth_estimator.forward2);
     })),
     ..Spec::new("forward2", "depth_estimator.forward2", record)
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut rom = setting.setup.params.depth_estimator.forward2;
+    let mut rom = setting.setup.params.estimators.depth_estimator.forward2;
     if !setting.constants.has("B2File") {
         rom.b2 = S::new(-rom.b2.get().abs());
     }

@@ -12,7 +12,7 @@ pub(super) const SPEC: Spec = Spec {
     configurations: &[LATE],
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
-        at.top.likelihood_estimator.rise(&i, &at.params.likelihood_estimator);
+        at.top.likelihood_estimator.rise(&i, &at.params.estimators.likelihood_estimator);
     })),
     ..Spec::new("likelihood_estimator", "likelihood_estimator", record)
 };
@@ -34,7 +34,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     for _ in 0..setting.cycles.unwrap_or(CYCLES) {
         let i = estimations.next(&run.top.likelihood_estimator, &mut run.draw);
         run.line(&i);
-        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
+        run.top.likelihood_estimator.rise(&i, &setting.setup.params.estimators.likelihood_estimator);
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
     Ok(Vectors { parameters, ..run.vectors(estimations.coverage()) })

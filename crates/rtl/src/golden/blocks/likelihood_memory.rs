@@ -10,7 +10,7 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
-        at.top.likelihood_estimator.likelihood_memory.rise(&i, &at.params.likelihood_estimator);
+        at.top.likelihood_estimator.likelihood_memory.rise(&i, &at.params.estimators.likelihood_estimator);
     })),
     ..Spec::new("likelihood_memory", "likelihood_estimator.likelihood_memory", record)
 };
@@ -29,7 +29,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         kinds.see_if(now.word_slide && !now.word_bin, 3);
         let own = Wires::likelihood_memory(&run.top.likelihood_estimator, &i);
         run.line(&own);
-        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
+        run.top.likelihood_estimator.rise(&i, &setting.setup.params.estimators.likelihood_estimator);
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
     Ok(Vectors { parameters, ..run.vectors([kinds]) })

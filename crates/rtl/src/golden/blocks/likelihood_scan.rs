@@ -10,7 +10,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
-        at.top.likelihood_estimator.likelihood_scan.rise(&i, &at.params.likelihood_estimator);
+        at.top.likelihood_estimator.likelihood_scan.rise(&i, &at.params.estimators.likelihood_estimator);
     })),
     ..Spec::new("likelihood_scan", "likelihood_estimator.likelihood_scan", record)
 };
@@ -26,7 +26,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let now = &estimator.likelihood_scan.registers;
         scores.see((now.best_score.get().max(0) >> 8) as u64);
         lone.see(now.lone.into());
-        let params = &*setting.setup.params.likelihood_estimator;
+        let params = &*setting.setup.params.estimators.likelihood_estimator;
         if estimations.over(estimator, setting.cycles()) {
             let own = drawn.next(&setting.setup.params.histogram, &mut run.draw);
             run.line(&own);

@@ -14,7 +14,7 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
-        at.top.likelihood_estimator.likelihood_solver.rise(&i, &at.params.likelihood_estimator);
+        at.top.likelihood_estimator.likelihood_solver.rise(&i, &at.params.estimators.likelihood_estimator);
     })),
     ..Spec::new("likelihood_solver", "likelihood_estimator.likelihood_solver", record)
 };
@@ -27,7 +27,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     for _ in 0..setting.cycles() {
         let estimator = &run.top.likelihood_estimator;
         counters.see(estimator.likelihood_solver.counter());
-        let params = &*setting.setup.params.likelihood_estimator;
+        let params = &*setting.setup.params.estimators.likelihood_estimator;
         if estimations.over(estimator, setting.cycles()) {
             running &= !estimator.likelihood_solver.registers.ran;
             let mut own = operands(&setting.setup.params.histogram, &mut run.draw);

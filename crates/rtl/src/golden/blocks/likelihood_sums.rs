@@ -10,7 +10,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
-        at.top.likelihood_estimator.likelihood_sums.tick(&i, &at.params.likelihood_estimator);
+        at.top.likelihood_estimator.likelihood_sums.tick(&i, &at.params.estimators.likelihood_estimator);
     })),
     ..Spec::new("likelihood_sums", "likelihood_estimator.likelihood_sums", record)
 };
@@ -24,7 +24,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     for _ in 0..setting.cycles() {
         let estimator = &run.top.likelihood_estimator;
         fars.see(estimator.likelihood_sums.far.into());
-        let params = &*setting.setup.params.likelihood_estimator;
+        let params = &*setting.setup.params.estimators.likelihood_estimator;
         if estimations.over(estimator, setting.cycles()) {
             let own = drawn.next(&setting.setup.params.histogram, &mut run.draw);
             run.line(&own);

@@ -11,7 +11,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
-        at.top.likelihood_estimator.likelihood_terms.tick(&i, &at.params.likelihood_estimator);
+        at.top.likelihood_estimator.likelihood_terms.tick(&i, &at.params.estimators.likelihood_estimator);
     })),
     ..Spec::new("likelihood_terms", "likelihood_estimator.likelihood_terms", record)
 };
@@ -27,7 +27,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let now = &estimator.likelihood_terms;
         predicted.see(u64::from(u64::BITS - now.predicted.get().leading_zeros()));
         shares.see(now.share.get() >> 8);
-        let params = &*setting.setup.params.likelihood_estimator;
+        let params = &*setting.setup.params.estimators.likelihood_estimator;
         if estimations.over(estimator, setting.cycles()) {
             own.phase = !own.phase;
             if !own.phase {

@@ -12,14 +12,14 @@ pub(super) const SPEC: Spec = Spec {
     latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 1 }],
     configurations: &[NEURONS_16],
     model: Some(Model::new::<In>(|at| {
-        at.top.depth_estimator.tansig.tick(&at.input(), &at.params.depth_estimator.tansig);
+        at.top.depth_estimator.tansig.tick(&at.input(), &at.params.estimators.depth_estimator.tansig);
     })),
     ..Spec::new("tansig", "depth_estimator.tansig", record)
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let (rom, neurons) = (&setting.setup.params.depth_estimator.tansig, setting.neurons());
-    let sums = &setting.setup.params.depth_estimator.forward1;
+    let (rom, neurons) = (&setting.setup.params.estimators.depth_estimator.tansig, setting.neurons());
+    let sums = &setting.setup.params.estimators.depth_estimator.forward1;
     let (width, entries) = (sums.sum_bits(), rom.entries.len());
     let (half, step) = (entries as i64 / 2, 1i64 << rom.shift);
     // Just beyond the rounded ends of the table, and the ends of the word.

@@ -242,7 +242,7 @@ impl FrameTimes {
         let (bins, drain) = (params.histogram.bins as u64, params.frame_ctrl.drain_cycles);
         let periods = &params.vcsel_driver.periods;
         let estimate = 8 * (bins + shots * periods[periods.len() - 1] + drain);
-        let done = params.depth_estimator.ctrl().done();
+        let done = params.estimators.depth_estimator.ctrl().done();
         FrameTimes { acquire: 8 * (bins + 9), shots_begin: 8 * (bins - 1), estimate, whole: estimate + 8 * (done + 38) }
     }
 }

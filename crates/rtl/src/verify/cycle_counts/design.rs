@@ -44,7 +44,7 @@ impl CountedDesign {
         let own = sized(&setup.params, VCSEL_DRIVER);
         let own = own.iter().map(|(name, value)| format!(".{name}({})", value.literal()));
         CountedDesign {
-            estimator: setup.params.depth_estimator.ctrl(),
+            estimator: setup.params.estimators.depth_estimator.ctrl(),
             likelihood: setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).ok(),
             half_ps: setup.pll().cycle.fs() / 4000,
             parameters: set(own.collect()),

@@ -9,7 +9,6 @@ use tofsim::firmware::spad_control::{self, SpadControl};
 use tofsim::firmware::tof_top::slot::{SlotEstimator, SlotIn};
 use tofsim::firmware::vcsel_driver::{self, VcselDriver};
 use tofsim::kernel::{Clocked, U};
-use tofsim::network;
 
 use super::design::CountedDesign;
 use super::measured::Measured;
@@ -56,7 +55,7 @@ fn estimations<T>(
 
 /// Counts the cycles of the layers and of the whole.
 fn estimator(p: &Params, measured: &mut Measured) {
-    let mut params = network::blank(&histogram(p));
+    let mut params = DepthEstimator::params_for(&histogram(p));
     params.forward2.neurons = p.neurons;
     let mut estimator = DepthEstimator::default();
     let edge = |algo_start| {
