@@ -16,8 +16,8 @@ const GAUSSIAN_END: f64 = 4.5;
 const GAUSSIAN_REACH: f64 = 8.0;
 /// Reach of an exponential tail, beyond which 4e-11 of it is left [time constants].
 const TAIL_REACH: f64 = 24.0;
-/// Below, a normal distribution function is its asymptotic series [standard deviations].
-const FAR: f64 = -25.0;
+/// From so far below the mean on, a normal distribution function is its asymptotic series [standard deviations].
+const FAR: f64 = 25.0;
 
 /// Distribution of the arrivals of an echo's photons around their mean.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +93,10 @@ impl Pulse {
             }
             Pulse::Tailed { sigma_ps, tail_ps } => {
                 let begun = normal_density(t_ps + tail_ps, *sigma_ps);
-                (begun - tailed_density(t_ps, *sigma_ps, *tail_ps)) / tail_ps
+                match ShortTail::of(t_ps, *sigma_ps, *tail_ps) {
+                    Some(short) => begun * short.slope() / sigma_ps,
+                    None => (begun - tailed_density(t_ps, *sigma_ps, *tail_ps)) / tail_ps,
+                }
             }
             Pulse::Sampled(samples) => samples.slope(t_ps),
         }
@@ -153,15 +156,47 @@ fn normal_density(t_ps: f64, sigma_ps: f64) -> f64 {
 
 /// Density of a normal time plus an exponential one, from their mean [1/ps].
 fn tailed_density(t_ps: f64, sigma_ps: f64, tail_ps: f64) -> f64 {
+    if let Some(short) = ShortTail::of(t_ps, sigma_ps, tail_ps) {
+        return normal_density(t_ps + tail_ps, sigma_ps) * short.density();
+    }
     let (t_ps, ratio) = (t_ps + tail_ps, sigma_ps / tail_ps);
     let z = t_ps / sigma_ps - ratio;
     // The logarithm of either factor alone can be far from zero.
-    let log = if z < FAR {
-        -0.5 * z * z - libm::log(-z * (2.0 * PI).sqrt()) - 1.0 / (z * z)
-    } else {
-        libm::log(normal_cdf(z))
-    };
-    libm::exp(0.5 * ratio * ratio - t_ps / tail_ps + log) / tail_ps
+    libm::exp(0.5 * ratio * ratio - t_ps / tail_ps + libm::log(normal_cdf(z))) / tail_ps
+}
+
+/// An exponential tail that is short beside the normal time: factors of the normal density, as series in which nothing
+/// cancels, however short the tail is.
+struct ShortTail {
+    /// Time since the tail's begin [standard deviations].
+    u: f64,
+    /// Length of the tail [standard deviations].
+    w: f64,
+    /// 1 - u w [1].
+    q: f64,
+    /// (1 - S) / x, where S = 1 - x + 3 x^2 - .. is the asymptotic series of Mills' ratio in x = (w / q)^2 [1].
+    p: f64,
+}
+
+impl ShortTail {
+    /// `None` where the series does not hold.
+    fn of(t_ps: f64, sigma_ps: f64, tail_ps: f64) -> Option<Self> {
+        let (u, w) = ((t_ps + tail_ps) / sigma_ps, tail_ps / sigma_ps);
+        let q = 1.0 - u * w;
+        let x = (w / q).powi(2);
+        let p = 1.0 - x * (3.0 - x * (15.0 - x * (105.0 - x * 945.0)));
+        (q > FAR * w).then_some(ShortTail { u, w, q, p })
+    }
+
+    /// The density, of the normal one at the tail's begin [1].
+    fn density(&self) -> f64 {
+        (1.0 - (self.w / self.q).powi(2) * self.p) / self.q
+    }
+
+    /// The slope, of the normal density there over its standard deviation [1].
+    fn slope(&self) -> f64 {
+        (self.w / self.q.powi(2) * self.p - self.u) / self.q
+    }
 }
 
 #[cfg(test)]
@@ -233,6 +268,29 @@ mod tests {
         for t_ps in (-600..600).map(f64::from) {
             assert!((short.part(t_ps) - none.part(t_ps)).abs() < 1e-8, "{t_ps}");
             assert!((short.density(t_ps) / none.density(t_ps) - 1.0).abs() < 1e-5, "{t_ps}");
+        }
+        for tail_ps in [1e-3, 1e-6, 1e-9, 1e-12, 1e-100, f64::MIN_POSITIVE] {
+            let short = Pulse::tailed(137.0, tail_ps);
+            for t_ps in (-900..900).map(f64::from) {
+                let parts = short.part(t_ps) - none.part(t_ps);
+                assert!(parts.abs() < 1e-9, "{tail_ps} at {t_ps}: {parts:e}");
+                let densities = short.density(t_ps) - none.density(t_ps);
+                assert!(densities.abs() < 1e-12, "{tail_ps} at {t_ps}: {densities:e}");
+                let slopes = short.slope(t_ps) - none.slope(t_ps);
+                assert!(slopes.abs() < 1e-12, "{tail_ps} at {t_ps}: {slopes:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn where_the_series_takes_over_nothing_jumps() {
+        // At t = -tail, u is 0, and the series holds from sigma / tail = 25 on.
+        for (sigma_ps, tail_ps) in [(137.0, 137.0 / 25.0), (20.0, 0.8)] {
+            let both = [1.0 - 1e-12, 1.0 + 1e-12].map(|by| Pulse::tailed(sigma_ps, tail_ps * by));
+            let [near, far] = both.each_ref();
+            let at_ps = -tail_ps;
+            assert!((near.density(at_ps) / far.density(at_ps) - 1.0).abs() < 1e-10);
+            assert!((near.slope(at_ps) / far.slope(at_ps) - 1.0).abs() < 1e-8);
         }
     }
 
