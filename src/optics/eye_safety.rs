@@ -7,6 +7,14 @@ pub const LONGEST_S: f64 = 10.0;
 /// Wavelengths for which Table 3.1 states C4 [nm].
 pub const C4_NM: RangeInclusive<f64> = 700.0..=1050.0;
 
+/// Time within which pulses count as one, T_i for 400 to 1050 nm [s].
+const ADDED_UP_S: f64 = 5e-6;
+/// Exposure and number of pulses past which C5 lowers the limit of each [s], [1].
+const C5_FROM_S: f64 = 0.25;
+const C5_FROM_PULSES: f64 = 600.0;
+/// The lowest C5 [1].
+const LEAST_C5: f64 = 0.4;
+
 /// Returns the accessible emission limit for a pulse or exposure of the given length: Table 3.1 [J].
 ///
 /// C4 is a factor: the exponent -1 printed with it is the mark of the table's footnote, because only then does eq.
@@ -54,9 +62,63 @@ impl Exposure {
         Exposure { exposure_s, average_w, limit_w }
     }
 
+    /// Limit over average power: from 1 on it is Class 1 [1].
+    pub fn margin(&self) -> Option<f64> {
+        self.limit_w.map(|limit_w| limit_w / self.average_w)
+    }
+
     /// Returns whether the exposure is within the limit, if one is known.
     pub fn is_within(&self) -> Option<bool> {
         self.limit_w.map(|limit_w| self.average_w <= limit_w)
+    }
+}
+
+/// The pulses of an exposure, each by itself and as a train: IEC 60825-1:2014, 4.3 f.
+///
+/// Pulses that come within 5 us count as one with their energies added. The limit of each is that of a single one,
+/// lowered by C5 for the number of them, in an exposure of more than 0.25 s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PulseTrain {
+    /// Energy of a laser pulse [J].
+    pub pulse_j: f64,
+    /// Energy of the pulses that count as one [J].
+    pub energy_j: f64,
+    /// Pulses that count, in the exposure [1].
+    pub count: f64,
+    /// Limit of a single pulse; `None` if no limit is known [J].
+    pub single_limit_j: Option<f64>,
+    /// C5, by which the number of pulses lowers it [1].
+    pub c5: f64,
+}
+
+impl PulseTrain {
+    /// Creates the train of `pulses` of that energy and full width at half maximum, `period_s` apart, during an exposure.
+    pub fn new(
+        [pulse_j, width_s]: [f64; 2],
+        [pulses, period_s, exposure_s]: [f64; 3],
+        wavelength_nm: f64,
+    ) -> Self {
+        let together = (ADDED_UP_S / period_s).floor().max(1.0).min(pulses.max(1.0));
+        let count = (pulses / together).ceil();
+        let many = exposure_s > C5_FROM_S && count > C5_FROM_PULSES;
+        PulseTrain {
+            pulse_j,
+            energy_j: pulse_j * together,
+            count,
+            // A pulse is timed no shorter than the table is.
+            single_limit_j: accessible_emission_limit_j(width_s.max(1e-13), wavelength_nm),
+            c5: if many { (5.0 * libm::pow(count, -0.25)).max(LEAST_C5) } else { 1.0 },
+        }
+    }
+
+    /// Limit of what counts as one pulse; `None` if no limit is known [J].
+    pub fn limit_j(&self) -> Option<f64> {
+        self.single_limit_j.map(|limit_j| limit_j * self.c5)
+    }
+
+    /// Limit over energy: from 1 on it is Class 1 [1].
+    pub fn margin(&self) -> Option<f64> {
+        self.limit_j().map(|limit_j| limit_j / self.energy_j)
     }
 }
 
@@ -104,6 +166,30 @@ mod tests {
         assert_eq!(longest_exposure_s(1.0, 940.0), None, "0.02 ns");
         assert_eq!(longest_exposure_s(1e-3, 1100.0), None);
         assert_eq!(Exposure::new(11.0, 0.0, 940.0).is_within(), None);
+    }
+
+    #[test]
+    fn pulses_within_five_microseconds_count_as_one_and_many_lower_the_limit() {
+        let train = |period_s: f64, exposure_s: f64| {
+            let pulses = exposure_s / period_s;
+            PulseTrain::new([1e-9, 3e-10], [pulses, period_s, exposure_s], 940.0)
+        };
+        let slow = train(1e-3, 0.25);
+        assert_eq!((slow.energy_j, slow.count, slow.c5), (1e-9, 250.0, 1.0));
+        assert!((slow.limit_j().unwrap() - 232.5e-9).abs() < 1e-10, "{slow:?}");
+        assert_eq!(train(1e-3, 0.5).c5, 1.0, "500 pulses");
+        let middling = train(1e-3, 10.0);
+        assert!((middling.c5 - 0.5).abs() < 1e-12, "5 / 10000^(1/4): {middling:?}");
+        let fast = train(48e-9, 10.0);
+        assert!((fast.energy_j - 104e-9).abs() < 1e-18, "{fast:?}");
+        assert_eq!((fast.c5, fast.count.round()), (0.4, (10.0f64 / 48e-9 / 104.0).ceil()));
+        assert!((fast.margin().unwrap() - 0.4 * 232.5 / 104.0).abs() < 1e-3);
+        assert_eq!(train(48e-9, 1e-3).c5, 1.0, "a short exposure");
+        assert_eq!(
+            PulseTrain::new([1e-9, 0.0], [1.0, 1.0, 1.0], 940.0).single_limit_j,
+            Some(3.8e-8)
+        );
+        assert_eq!(PulseTrain::new([1e-9, 1e-10], [1.0, 1.0, 1.0], 1550.0).margin(), None);
     }
 
     #[test]

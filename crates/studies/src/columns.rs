@@ -87,14 +87,14 @@ const EXPECTED: &[Expected] = &[
     (
         "eye_safety_margin",
         "1",
-        "That limit to the average power: from 1 on it is Class 1",
-        |setup| Ok(margin(&setup.exposure_to_a_frame())),
+        "That limit to the average power, or that of the pulses to their energy if it is less: from 1 on it is Class 1",
+        |setup| Ok(margin(setup)),
     ),
     (
         "eye_safety_margin_at_stated_rate",
         "1",
-        "The same at the rate at which the laser's power is stated, as in the thesis",
-        |setup| Ok(margin(&setup.exposure_at_the_optics_rate())),
+        "The same of the average power alone, at the rate at which the laser's power is stated, as in the thesis",
+        |setup| Ok(setup.exposure_at_the_optics_rate().margin()),
     ),
     (
         "cramer_rao_two_sd_mm",
@@ -224,9 +224,10 @@ pub fn chosen(checked: &Checked, asked: &[String], known: &[Column]) -> Result<V
     Ok(chosen.map(|(column, _)| column.clone()).collect())
 }
 
-/// Returns the ratio of the limit to the exposure.
-fn margin(exposure: &tofsim::optics::eye_safety::Exposure) -> Option<f64> {
-    exposure.limit_w.map(|limit_w| limit_w / exposure.average_w)
+/// Returns the smaller ratio of limit to exposure, of the average power and of the pulses of a frame.
+fn margin(setup: &Setup) -> Option<f64> {
+    let frame = setup.exposure_to_a_frame();
+    Some(frame.margin()?.min(setup.pulse_train(&frame).margin()?))
 }
 
 /// Returns the distance of an echo at the end of the histogram.

@@ -2,10 +2,13 @@
 
 use crate::note::{Note, NoteCode};
 use crate::optics::Chances;
-use crate::optics::eye_safety::{C4_NM, Exposure, LONGEST_S};
+use crate::optics::eye_safety::{C4_NM, Exposure, LONGEST_S, PulseTrain};
 use crate::sim::fast::histogram::independent_shots;
 
 use super::Setup;
+
+/// Full width at half maximum of a Gaussian [standard deviations].
+const WIDTH_OF_A_GAUSSIAN: f64 = 2.354_820_045;
 
 impl Setup {
     /// Chances of a shot of an undisturbed frame, the lit one of a pair.
@@ -53,6 +56,34 @@ impl Setup {
         let laser = &self.scenario.laser;
         let exposure_s = self.pulses() / laser.repetition_rate_hz;
         Exposure::new(exposure_s, laser.average_power_w, laser.wavelength_nm)
+    }
+
+    /// The pulses of an exposure at the firmware's laser rate, each by itself and as a train.
+    pub fn pulse_train(&self, exposure: &Exposure) -> PulseTrain {
+        let laser = &self.scenario.laser;
+        let energy_j = self.budget.pulse_energy_j;
+        let pulses = exposure.average_w * exposure.exposure_s / energy_j;
+        let width_s = laser.pulse_sigma_ps * 1e-12 * WIDTH_OF_A_GAUSSIAN;
+        let times =
+            [if energy_j > 0.0 { pulses } else { 0.0 }, self.laser_period_s(), exposure.exposure_s];
+        PulseTrain::new([energy_j, width_s], times, laser.wavelength_nm)
+    }
+
+    /// Returns a note if the pulses of `what` are above their limit.
+    pub fn pulse_note(&self, what: &str, train: &PulseTrain) -> Option<Note> {
+        let margin = train.margin().filter(|margin| *margin < 1.0)?;
+        let power_w = self.scenario.laser.average_power_w;
+        let [energy, limit] = [train.energy_j, train.limit_j()?].map(|joule| joule * 1e9);
+        let text = if train.energy_j == train.pulse_j && train.c5 == 1.0 {
+            format!("{what}: a pulse has {energy:.2} nJ, above the {limit:.2} nJ of Class 1")
+        } else {
+            format!(
+                "{what}: what counts as one of {:.0} pulses has {energy:.2} nJ, above the {limit:.2} nJ of Class 1 for so many",
+                train.count
+            )
+        };
+        let expected = format!("{:e} or less", rounded_down(power_w * margin));
+        Some(Note::new(NoteCode::EyeSafety, "laser.average_power_w", power_w, expected, text))
     }
 
     /// Returns a note if an exposure to `what` is above its limit, or has no known limit; `None` if it is within.
@@ -151,6 +182,24 @@ mod tests {
             let is_of_wavelength = note.is_some_and(|note| note.key == "laser.wavelength_nm");
             assert_eq!(is_of_wavelength, !is_known, "{wavelength_nm} nm");
         }
+    }
+
+    #[test]
+    fn a_pulse_can_be_too_bright_where_the_average_power_is_not() {
+        let bright = setup(&[
+            "firmware.laser_periods=[65535]",
+            "firmware.laser_freq=0",
+            "laser.average_power_w=5e-4",
+            "laser.repetition_rate_hz=1000",
+        ]);
+        let frames = bright.exposure_to_frames();
+        assert_eq!(frames.is_within(), Some(true));
+        let train = bright.pulse_train(&frames);
+        assert!((train.energy_j / 500e-9 - 1.0).abs() < 1e-9 && train.margin().unwrap() < 0.5);
+        let note = bright.pulse_note("it", &train).unwrap();
+        assert_eq!((note.code, &*note.key), (NoteCode::EyeSafety, "laser.average_power_w"));
+        let usual = setup(&[]);
+        assert_eq!(usual.pulse_note("it", &usual.pulse_train(&usual.exposure_to_frames())), None);
     }
 
     #[test]

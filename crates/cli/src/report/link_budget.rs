@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use tofsim::error::Result;
-use tofsim::optics::eye_safety::{Exposure, longest_exposure_s};
+use tofsim::optics::eye_safety::{Exposure, PulseTrain, longest_exposure_s};
 use tofsim::optics::{Budget, Chances};
 use tofsim::{Note, NoteCode, Setup};
 
@@ -24,15 +24,19 @@ pub struct LinkBudget {
     pub a_frame: Exposure,
     /// Frame after frame, up to the end of Table 3.1.
     pub frames: Exposure,
+    /// The pulses of the latter.
+    pub pulses: PulseTrain,
 }
 
 impl LinkBudget {
     pub fn of(setup: Setup) -> Self {
+        let frames = setup.exposure_to_frames();
         LinkBudget {
             chances: setup.chances(),
             at_the_optics_rate: setup.exposure_at_the_optics_rate(),
             a_frame: setup.exposure_to_a_frame(),
-            frames: setup.exposure_to_frames(),
+            frames,
+            pulses: setup.pulse_train(&frames),
             setup,
         }
     }
@@ -62,7 +66,19 @@ impl LinkBudget {
         let note = |(what, exposure): (&str, Option<&Exposure>)| {
             exposure.and_then(|exposure| self.setup.eye_safety_note(what, exposure))
         };
-        exposures.into_iter().filter_map(note)
+        let pulses = self.setup.pulse_note("frames that repeat", &self.pulses);
+        exposures.into_iter().filter_map(note).chain(pulses)
+    }
+
+    /// Returns the condition of Class 1 that is met with the least to spare, or missed by the most.
+    fn binding(&self) -> Option<&'static str> {
+        let margins = [
+            ("average power of a frame", self.a_frame.margin()),
+            ("average power of frames", self.frames.margin()),
+            ("pulses", self.pulses.margin()),
+        ];
+        let known = margins.into_iter().filter_map(|(name, margin)| Some((name, margin?)));
+        known.min_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(name, _)| name)
     }
 
     /// Longest stretch of frames within Class 1 [s].
@@ -107,6 +123,8 @@ impl Findings for LinkBudget {
         eye_safety["at_optics_rate"] = verdict(&self.at_the_optics_rate);
         eye_safety["repeated"] = verdict(&self.frames);
         eye_safety["repeated"]["longest_s"] = json!(self.longest_s());
+        eye_safety["pulses"] = pulses(&self.pulses);
+        eye_safety["binding"] = json!(self.binding());
         let chance = |of: fn(&Chances) -> f64| self.chances.as_ref().map(of);
         let mut object = json!({
             "scenario": setup.name,
@@ -150,6 +168,18 @@ fn verdict(exposure: &Exposure) -> Value {
     let &Exposure { exposure_s, average_w, limit_w } = exposure;
     let within = exposure.is_within();
     json!({ "exposure_s": exposure_s, "limit_w": limit_w, "average_w": average_w, "within": within })
+}
+
+fn pulses(train: &PulseTrain) -> Value {
+    json!({
+        "pulse_j": train.pulse_j,
+        "single_limit_j": train.single_limit_j,
+        "energy_j": train.energy_j,
+        "count": train.count,
+        "c5": train.c5,
+        "limit_j": train.limit_j(),
+        "within": train.margin().map(|margin| margin >= 1.0),
+    })
 }
 
 fn row(name: &str, value: impl Into<String>, meaning: impl Into<String>) -> BudgetRow {
@@ -207,12 +237,13 @@ fn shot(findings: &LinkBudget) -> Vec<BudgetRow> {
 
 /// The verdict for one frame, for frames that repeat, and by eq. 3.3.
 fn eye_safety(findings: &LinkBudget) -> Vec<BudgetRow> {
+    let word = |margin: Option<f64>| match margin {
+        Some(margin) if margin >= 1.0 => "within",
+        Some(_) => "above",
+        None => "no limit",
+    };
     let verdict = |name: &str, exposure: &Exposure, what: String| {
-        let verdict = match exposure.is_within() {
-            Some(true) => "within",
-            Some(false) => "above",
-            None => "no limit",
-        };
+        let verdict = word(exposure.margin());
         let (average, limit) =
             (exposure.average_w * 1e3, exposure.limit_w.map(|limit| limit * 1e3));
         let limit = number_or_dash(limit, 2);
@@ -230,5 +261,18 @@ fn eye_safety(findings: &LinkBudget) -> Vec<BudgetRow> {
     }
     let by_the_thesis = format!("for {} (eq. 3.3)", ms(design.exposure_s));
     rows.push(verdict("", design, by_the_thesis));
+    let train = &findings.pulses;
+    let [pulse, single] = [Some(train.pulse_j), train.single_limit_j].map(|j| j.map(|j| j * 1e9));
+    let [energy, limit] = [Some(train.energy_j), train.limit_j()].map(|j| j.map(|j| j * 1e9));
+    let [pulse, single, energy, limit] =
+        [pulse, single, energy, limit].map(|nj| number_or_dash(nj, 2));
+    let one = train.single_limit_j.map(|limit_j| limit_j / train.pulse_j);
+    rows.push(row("", word(one), format!("{pulse} of {single} nJ, Class 1 for a pulse")));
+    let many =
+        format!("{energy} of {limit} nJ, Class 1 for the pulses of 5 us (C5 = {:.2})", train.c5);
+    rows.push(row("", word(train.margin()), many));
+    if let Some(binding) = findings.binding() {
+        rows.push(row("", "binding", binding));
+    }
     rows
 }
