@@ -27,8 +27,10 @@ pub struct Chain {
     #[serde(default)]
     pub description: String,
     /// Delay from `tdc_stop` to the start of the chain (tap 0 if taps are reached in order), relative to the clock's
-    /// own delay to the tap registers.
-    #[schemars(range(min = 0.001, max = 100_000.0), extend("unit" = "ps"))]
+    /// own delay to the tap registers. It shifts all codes alike, which the calibration takes out: any value serves a
+    /// chain of which only the taps are known.
+    #[serde(default = "usual_offset_ps")]
+    #[schemars(range(min = 0.0, max = 100_000.0), extend("unit" = "ps"))]
     pub offset_ps: f64,
     /// Number of taps, unless `tap_delays_ps` lists them.
     #[schemars(range(min = 16, max = 2000), extend("unit" = "tap"))]
@@ -52,6 +54,11 @@ pub struct Chain {
     /// Additional delays of single taps.
     #[serde(default)]
     pub extra: Vec<Extra>,
+}
+
+/// Offset of the chain `uniform` [ps].
+fn usual_offset_ps() -> f64 {
+    2230.0
 }
 
 /// An additional delay of one tap, such as at the border of a clock region.
@@ -112,8 +119,10 @@ fn parse(source: &str, text: &str, files: &Source, cycle: Time) -> Result<Delays
         return Err(checked.fault(key, expected).into());
     }
     let taps_fs: Vec<_> = taps_ps.iter().map(|ps| (ps * 1e3).round() as i64).collect();
-    let offset_ps = Some(chain.offset_ps + first_ps).filter(|ps| *ps > 0.0);
-    let delays = offset_ps.and_then(|ps| Delays::new(Time::from_ps_f64(ps), &taps_fs));
+    let offset_ps = Some(chain.offset_ps + first_ps).filter(|ps| *ps >= 0.0);
+    // No tap is reached at the very time of the change: 0 is a femtosecond.
+    let offset = offset_ps.map(|ps| Time::from_ps_f64(ps).max(Time::from_fs(1)));
+    let delays = offset.and_then(|offset| Delays::new(offset, &taps_fs));
     let Some(delays) = delays else {
         let expected = "a tap would be reached before `tdc_stop` changes";
         return Err(checked.fault("offset_ps", expected).into());

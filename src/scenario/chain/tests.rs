@@ -41,11 +41,19 @@ fn a_fault_names_key_and_place() {
         message("offset_ps = 2000\ntap_ps = -1"),
         "c.toml:2:10: tap_ps = -1: expected a number from 0.001 to 1000.0 [ps]"
     );
-    assert!(message("tap_ps = 12").contains("offset_ps: missing"));
+    assert!(message("offset_ps = -1\ntap_ps = 12").contains("from 0.0 to 100000.0 [ps]"));
     assert!(message("offset_ps = 2000\ntap_delays_ps = [1.0]").contains("16 to 2000"));
     assert!(message("offset_ps = 2000\ntap_ps = 30").contains("16 ns at most"));
     assert!(message("offset_ps = 2000\ntap_pz = 1").contains("did you mean `tap_ps`?"));
     assert!(message("offset_ps = 10\ntap_ps = 11\n[[extra]]\ntap=0\nps=-100").contains("before"));
+}
+
+#[test]
+fn an_offset_may_be_left_out_or_nothing() {
+    let read = |text: &str| parse("c.toml", text, &Source::BuiltIn, CYCLE).unwrap();
+    assert_eq!(read("tap_ps = 11.5"), read("offset_ps = 2230\ntap_ps = 11.5"));
+    let none = read("offset_ps = 0\ntap_ps = 11.5");
+    assert_eq!(none.tap_0(), Time::from_fs(1));
 }
 
 #[test]
