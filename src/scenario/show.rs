@@ -11,55 +11,108 @@ pub fn schema() -> Json {
     schemars::schema_for!(Scenario).to_value()
 }
 
+/// The keys that most people change, in a starter scenario.
+const STARTER: [&str; 20] = [
+    "description",
+    "seed",
+    "target.distance_m",
+    "target.reflectance",
+    "target.shape",
+    "ambient.irradiance_w_m2_nm",
+    "laser.average_power_w",
+    "laser.pulse_sigma_ps",
+    "spad.pdp",
+    "spad.dark_rate_hz",
+    "spad.afterpulse_probability",
+    "tdc.profile",
+    "tdc.calibration",
+    "tdc.bins",
+    "tdc.bin_ps",
+    "pll.jitter_rms_ps",
+    "firmware.laser_freq",
+    "firmware.mode",
+    "firmware.shots_per_frame",
+    "estimator.kind",
+];
+
 /// Formats the resolved scenario as TOML. The schema's descriptions, and optional keys that are not set, appear as
 /// comments.
 pub fn show(scenario: &Scenario) -> String {
+    listing(scenario, |_| true)
+}
+
+/// Formats the keys of a scenario that most people change as TOML, with the schema's descriptions; the others have their
+/// defaults.
+pub fn starter(scenario: &Scenario) -> String {
+    listing(scenario, |path| STARTER.contains(&path))
+}
+
+fn listing(scenario: &Scenario, wants: fn(&str) -> bool) -> String {
     let schema = schema();
     let values = serde_json::to_value(scenario).unwrap_or(Json::Null);
     let mut text = String::new();
-    table(&mut text, &schema, &schema, &values, "", false);
+    Listing { root: &schema, wants }.table(&mut text, &schema, &values, "", false);
     text.trim_start().to_owned()
 }
 
-fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &str, in_list: bool) {
-    let empty = serde_json::Map::new();
-    let keys = schema["properties"].as_object().unwrap_or(&empty);
-    let resolve = |schema: &Json| match schema["$ref"].as_str() {
-        Some(path) => root.pointer(path.trim_start_matches('#')).cloned().unwrap_or(Json::Null),
-        None => schema.clone(),
-    };
-    let is_table = |key: &str| values[key].is_object();
-    for (key, schema) in keys.iter().filter(|(key, _)| !is_table(key)) {
-        // What may be left out is, where it says nothing.
-        let Some(value) = values.get(key) else { continue };
-        let schema = with_description(schema, resolve(schema));
-        match value {
-            Json::Null if in_list => {}
-            Json::Null => {
-                let _ = writeln!(text, "# {}\n# {key} is not given", comment(&schema));
+/// What is listed.
+struct Listing<'a> {
+    /// The schema.
+    root: &'a Json,
+    /// Whether a key is listed, by its path.
+    wants: fn(&str) -> bool,
+}
+
+impl Listing<'_> {
+    fn resolve(&self, schema: &Json) -> Json {
+        match schema["$ref"].as_str() {
+            Some(path) => {
+                self.root.pointer(path.trim_start_matches('#')).cloned().unwrap_or(Json::Null)
             }
-            Json::Array(elements) if elements.iter().all(Json::is_object) => {
-                for element in elements {
-                    let _ = write!(text, "\n[[{path}{key}]]\n");
-                    let item = resolve(&schema["items"]);
-                    table(text, root, &item, element, &format!("{path}{key}."), true);
-                }
-            }
-            value => {
-                let _ = writeln!(text, "# {}\n{key} = {}", comment(&schema), literal(value));
-            }
+            None => schema.clone(),
         }
     }
-    // A table whose keys are the user's own.
-    let own = values.as_object().into_iter().flatten().filter(|(key, _)| !keys.contains_key(*key));
-    for (key, value) in own {
-        let _ = writeln!(text, "{} = {}", literal(&Json::from(key.as_str())), literal(value));
-    }
-    for (key, schema) in keys.iter().filter(|(key, _)| is_table(key)) {
-        let description = schema["description"].as_str().unwrap_or_default();
-        let _ = write!(text, "\n# {description}\n[{path}{key}]\n");
-        let path = format!("{path}{key}.");
-        table(text, root, &resolve(schema), &values[key.as_str()], &path, false);
+
+    fn table(&self, text: &mut String, schema: &Json, values: &Json, path: &str, in_list: bool) {
+        let empty = serde_json::Map::new();
+        let keys = schema["properties"].as_object().unwrap_or(&empty);
+        let is_table = |key: &str| values[key].is_object();
+        let plain = keys.iter().filter(|(key, _)| !is_table(key));
+        for (key, schema) in plain.filter(|(key, _)| (self.wants)(&format!("{path}{key}"))) {
+            // What may be left out is, where it says nothing.
+            let Some(value) = values.get(key) else { continue };
+            let schema = with_description(schema, self.resolve(schema));
+            match value {
+                Json::Null if in_list => {}
+                Json::Null => {
+                    let _ = writeln!(text, "# {}\n# {key} is not given", comment(&schema));
+                }
+                Json::Array(elements) if elements.iter().all(Json::is_object) => {
+                    for element in elements {
+                        let _ = write!(text, "\n[[{path}{key}]]\n");
+                        let item = self.resolve(&schema["items"]);
+                        self.table(text, &item, element, &format!("{path}{key}."), true);
+                    }
+                }
+                value => {
+                    let _ = writeln!(text, "# {}\n{key} = {}", comment(&schema), literal(value));
+                }
+            }
+        }
+        // A table whose keys are the user's own.
+        let values_here = values.as_object().into_iter().flatten();
+        for (key, value) in values_here.filter(|(key, _)| !keys.contains_key(*key)) {
+            let _ = writeln!(text, "{} = {}", literal(&Json::from(key.as_str())), literal(value));
+        }
+        for (key, schema) in keys.iter().filter(|(key, _)| is_table(key)) {
+            let mut inner = String::new();
+            let inner_path = format!("{path}{key}.");
+            self.table(&mut inner, &self.resolve(schema), &values[key], &inner_path, false);
+            if !inner.is_empty() || (self.wants)(&inner_path) {
+                let description = schema["description"].as_str().unwrap_or_default();
+                let _ = write!(text, "\n# {description}\n[{path}{key}]\n{inner}");
+            }
+        }
     }
 }
 
@@ -112,6 +165,18 @@ mod tests {
         let text = show(&scenario);
         let again: Scenario = toml::from_str(&text).unwrap();
         assert_eq!(again, scenario);
+    }
+
+    #[test]
+    fn a_starter_has_the_keys_that_most_people_change() {
+        let scenario = load("kc705", &["target.distance_m=0.3".to_owned()]).unwrap().scenario;
+        let text = starter(&scenario);
+        let again: Scenario = toml::from_str(&text).unwrap();
+        assert_eq!(again, scenario);
+        let keys = text.lines().filter(|line| !line.starts_with('#') && line.contains(" = "));
+        assert_eq!(keys.count(), STARTER.len(), "{text}");
+        assert!(text.contains("# Distance from the sensor."), "{text}");
+        assert!(!text.contains("[atmosphere]"), "{text}");
     }
 
     #[test]

@@ -17,6 +17,7 @@ pub mod host;
 pub mod ila;
 pub mod interrupt;
 pub mod man;
+pub mod new;
 pub mod options;
 mod progress;
 pub mod quantize;
@@ -72,6 +73,7 @@ pub struct Answer {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    New(new::Args),
     Run(run::Args),
     Rerun(rerun::Args),
     Budget(budget::Args),
@@ -144,6 +146,7 @@ impl Cli {
     pub fn run(&self) -> Result<ExitCode> {
         let talk = &self.talk;
         match &self.verb {
+            Verb::New(args) => new::run(args, talk),
             Verb::Run(args) => run::run(args, talk),
             Verb::Rerun(args) => return rerun::run(args, talk),
             Verb::Budget(args) => budget::run(args, talk),

@@ -27,6 +27,7 @@ mod laser_delay;
 mod limits;
 mod lockstep;
 mod measured;
+mod new;
 mod quantize;
 mod recalibration;
 mod replay;
