@@ -37,18 +37,23 @@ impl Parting {
 impl Partings {
     /// Takes the next frame, and what `second` said of it.
     pub fn add(&mut self, second: &SecondOpinion, frame: &Frame, opinion: &Estimate) {
+        self.add_depth(second, (frame.index, frame.depth_m()), opinion);
+    }
+
+    /// Takes the depth of the next histogram with its number, and what `second` said of it.
+    pub fn add_depth(
+        &mut self,
+        second: &SecondOpinion,
+        (frame, own_m): (u64, f64),
+        opinion: &Estimate,
+    ) {
         self.frames += 1;
         let Some(other_m) = opinion.depth_m.filter(|_| opinion.valid) else {
             self.unbelieved += 1;
-            self.first_unbelieved.get_or_insert_with(|| (frame.index, opinion.status.to_string()));
+            self.first_unbelieved.get_or_insert_with(|| (frame, opinion.status.to_string()));
             return;
         };
-        let parting = Parting {
-            frame: frame.index,
-            own_m: frame.depth_m(),
-            other_m,
-            allowed_m: second.allowed_m(opinion),
-        };
+        let parting = Parting { frame, own_m, other_m, allowed_m: second.allowed_m(opinion) };
         if parting.apart_m() <= parting.allowed_m {
             return;
         }

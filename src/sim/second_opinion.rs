@@ -68,9 +68,14 @@ impl SecondOpinion {
         if self.has_pairs && !frame.laser_en {
             return None;
         }
-        let found = estimate(&self.params, &frame.histogram);
-        let words = Estimate::of_words(FirmwareEstimator::Likelihood, &found.words());
-        Some(Estimate { chi_square: Some(found.chi_square()), ..words })
+        Some(self.of_histogram(&frame.histogram))
+    }
+
+    /// The estimate for a histogram of such a frame, whoever made it.
+    pub fn of_histogram(&self, histogram: &[u32]) -> Estimate {
+        let found = estimate(&self.params, histogram);
+        let words = Estimate::of_words(FirmwareEstimator::LikelihoodEstimator, &found.words());
+        Estimate { chi_square: Some(found.chi_square()), ..words }
     }
 
     /// Name of the estimator in the firmware's socket.

@@ -7,6 +7,7 @@ pub mod comparison;
 pub mod curves;
 pub mod decoders;
 pub mod error_budget;
+pub mod estimates;
 pub mod evaluation;
 pub mod evaluation_files;
 pub mod events;

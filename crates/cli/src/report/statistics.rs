@@ -3,11 +3,14 @@
 use serde::Serialize;
 
 use tofsim::Note;
+use tofsim::Setup;
 use tofsim::sim::estimates::{Estimate, digits};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::partings::Partings;
 use tofsim::sim::second_opinion::{ESTIMATOR, SecondOpinion};
 use tofsim_learn::evaluation::spread::is_outlier;
+
+use crate::verbs::terminal::Talk;
 
 /// Criteria for outliers.
 #[derive(Clone, Copy, Debug, Default)]
@@ -188,6 +191,20 @@ impl Opinions {
             unbelieved,
         })
     }
+}
+
+/// Returns who gives second opinions on a setup's histograms; a note says why nobody does, which is no matter for
+/// `--strict`.
+pub fn second_opinion(setup: &Setup, notes: &mut Vec<Note>, talk: &Talk) -> Option<SecondOpinion> {
+    let why = match SecondOpinion::new(setup) {
+        Ok(second) => return Some(second),
+        Err(why) => why,
+    };
+    if !notes.contains(&why) {
+        talk.note(&why);
+        notes.push(why);
+    }
+    None
 }
 
 /// An estimate of the only frame: depth, word, error, and what the estimator states beside them.

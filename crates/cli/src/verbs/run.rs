@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::hierarchy;
@@ -12,7 +11,6 @@ use tofsim::scenario::window::Window;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
-use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
@@ -24,6 +22,7 @@ use crate::choice::{self, Fidelity, WaveformChoice, words};
 use crate::record::Record;
 use crate::report::frame_log::FrameLog;
 use crate::report::run_files::{RunFiles, Written};
+use crate::report::statistics::second_opinion;
 use crate::report::summary::Summary;
 use crate::report::table;
 
@@ -119,7 +118,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let progress = talk.progress(frames, "frames");
     let panel = Panel::new(&args.estimator, &setup)?;
     let limit_m = 1e-3 * args.outlier_limit_mm;
-    let second = args.second_opinion(&setup, &mut notes, talk);
+    let wants_second = !args.no_second_opinion;
+    let second = wants_second.then(|| second_opinion(&setup, &mut notes, talk)).flatten();
     let json = args.json || folder.is_some();
     let mut log = FrameLog::new(&setup, json, (panel, second), limit_m);
     let mut take_frame = |frame: &Frame| {
@@ -198,27 +198,6 @@ impl Args {
     fn overrides(&self) -> Vec<String> {
         let pairs = self.wants_pairs().then(|| "firmware.dark_frames=true".to_owned());
         pairs.into_iter().chain(self.set.iter().cloned()).collect()
-    }
-
-    /// Who gives second opinions; a note says why nobody does, which is no matter for `--strict`.
-    fn second_opinion(
-        &self,
-        setup: &Setup,
-        notes: &mut Vec<Note>,
-        talk: &Talk,
-    ) -> Option<SecondOpinion> {
-        if self.no_second_opinion {
-            return None;
-        }
-        let why = match SecondOpinion::new(setup) {
-            Ok(second) => return Some(second),
-            Err(why) => why,
-        };
-        if !notes.contains(&why) {
-            talk.note(&why);
-            notes.push(why);
-        }
-        None
     }
 
     fn wants_pairs(&self) -> bool {
