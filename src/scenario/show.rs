@@ -56,8 +56,7 @@ fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &st
         let _ = writeln!(text, "{} = {}", literal(&Json::from(key.as_str())), literal(value));
     }
     for (key, schema) in keys.iter().filter(|(key, _)| is_table(key)) {
-        let description = schema["description"].as_str().unwrap_or_default();
-        let _ = write!(text, "\n# {description}\n[{path}{key}]\n");
+        let _ = write!(text, "\n# {}\n[{path}{key}]\n", comment(schema));
         let path = format!("{path}{key}.");
         table(text, root, &resolve(schema), &values[key.as_str()], &path, false);
     }
@@ -103,15 +102,19 @@ fn literal(value: &Json) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::{Control, load};
+    use crate::files::toml::Checked;
+    use crate::scenario::{Control, builtin, load};
 
     #[test]
     fn what_is_shown_can_be_read_again() {
-        let mut scenario = load("spad_validation", &[]).unwrap().scenario;
-        scenario.control.push(Control { at_us: 99.5, rst: Some(true), ..Control::default() });
-        let text = show(&scenario);
-        let again: Scenario = toml::from_str(&text).unwrap();
-        assert_eq!(again, scenario);
+        let scenarios = builtin::scenarios().map(|(name, _)| load(name, &[]).unwrap().scenario);
+        for mut scenario in scenarios {
+            scenario.control.push(Control { at_us: 99.5, rst: Some(true), ..Control::default() });
+            scenario.description += "\n[target]\n# \"quoted\" \\ \t";
+            let text = show(&scenario);
+            let checked = Checked::parse::<Scenario>("shown", &text).unwrap();
+            assert_eq!(checked.read::<Scenario>().unwrap(), scenario);
+        }
     }
 
     #[test]
