@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::short_number;
+
 /// Kind of limit that a result exceeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -98,7 +100,7 @@ impl fmt::Display for NoteValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             NoteValue::None => f.write_str("none"),
-            NoteValue::Number(number) => number.fmt(f),
+            NoteValue::Number(number) => f.write_str(&short_number(&number.to_string())),
             NoteValue::Flag(flag) => flag.fmt(f),
             NoteValue::Text(text) => f.write_str(text),
         }

@@ -29,5 +29,8 @@ pub mod window;
 #[doc(hidden)]
 pub mod wiring;
 
+/// Greatest seed: the greatest integer of TOML, so that a scenario can have every seed that a command can.
+pub const MOST_SEED: u64 = i64::MAX as u64;
+
 pub use load::{DEFAULT, Loaded, from_text, load};
 pub use model::*;

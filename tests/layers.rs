@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// The modules of the simulator, the lowest layer first; those of one layer do not know each other.
 const LAYERS: [&[&str]; 7] = [
-    &["error", "kernel", "note"],
-    &["files"],
+    &["error", "kernel"],
+    &["files", "note"],
     &["firmware"],
     &["hierarchy", "network", "scenario"],
     &["waves", "optics"],

@@ -5,6 +5,8 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::number::short_number;
+
 /// An error that the user can act on. Every error sets exit status 2, except an interruption.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -101,7 +103,8 @@ impl Input {
 
     /// Sets the value found; a long value is shortened.
     pub fn value(self, value: impl fmt::Display) -> Self {
-        Input { value: Some(shortened(&value.to_string(), LONG_VALUE).into_owned()), ..self }
+        let value = short_number(&value.to_string()).into_owned();
+        Input { value: Some(shortened(&value, LONG_VALUE).into_owned()), ..self }
     }
 }
 

@@ -36,6 +36,15 @@ pub struct Pipe {
     silence: Duration,
 }
 
+/// Opens a file or folder of the program's own, which is never a pipe.
+///
+/// # Errors
+/// If it cannot be opened.
+#[expect(clippy::disallowed_methods, reason = "the callers have looked, or wait elsewhere")]
+pub(crate) fn open_own(path: &Path) -> io::Result<File> {
+    File::open(path)
+}
+
 /// Opens a file or a pipe.
 ///
 /// # Errors
@@ -44,7 +53,7 @@ pub fn open(path: &Path) -> Result<Opened> {
     if is_pipe(path) {
         Pipe::open(path, WRITER, SILENCE).map(Opened::Pipe)
     } else {
-        File::open(path).map(Opened::File).map_err(Error::io(path, "read"))
+        open_own(path).map(Opened::File).map_err(Error::io(path, "read"))
     }
 }
 
@@ -57,7 +66,7 @@ pub fn open_file(path: &Path) -> Result<File> {
     if !found.is_file() && !found.is_dir() {
         return Err(Input::new(path.display(), "expected a file, not a pipe or device").into());
     }
-    File::open(path).map_err(Error::io(path, "read"))
+    open_own(path).map_err(Error::io(path, "read"))
 }
 
 #[cfg(unix)]
@@ -92,7 +101,7 @@ impl Pipe {
 
 /// Reports that the pipe is open, and then sends its contents.
 fn pump(path: PathBuf, send: &SyncSender<io::Result<Vec<u8>>>) {
-    let mut file = match File::open(path) {
+    let mut file = match open_own(&path) {
         Ok(file) => file,
         Err(error) => return drop(send.send(Err(error))),
     };

@@ -3,6 +3,7 @@
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 
+use crate::error::open::open_own;
 use crate::error::{Error, Input, Result};
 
 use super::output::create_directory;
@@ -22,11 +23,27 @@ impl FolderLock {
     /// # Errors
     /// If it cannot be created, or another run has locked it.
     pub fn take(path: &Path) -> Result<Self> {
+        Self::locked(path, File::try_lock)
+    }
+
+    /// Creates the folder if necessary, and locks it against those that [`FolderLock::take`] it, not against those that
+    /// share it too: the shards of a sweep, whose files have names of their own.
+    ///
+    /// # Errors
+    /// If it cannot be created, or another run has taken it.
+    pub fn share(path: &Path) -> Result<Self> {
+        Self::locked(path, File::try_lock_shared)
+    }
+
+    fn locked(
+        path: &Path,
+        lock: impl Fn(&File) -> std::result::Result<(), TryLockError>,
+    ) -> Result<Self> {
         let made = will_make(path);
         create_directory(path)?;
         // Where the system opens no folders, there is nothing to hold.
-        let Ok(folder) = File::open(path) else { return Ok(FolderLock { _folder: None, made }) };
-        match folder.try_lock() {
+        let Ok(folder) = open_own(path) else { return Ok(FolderLock { _folder: None, made }) };
+        match lock(&folder) {
             Ok(()) => Ok(FolderLock { _folder: Some(folder), made }),
             Err(TryLockError::WouldBlock) => {
                 let expected = "another run is writing there, expected a folder of its own";
@@ -71,8 +88,12 @@ mod tests {
         let held = FolderLock::take(&path).unwrap();
         let error = FolderLock::take(&path).unwrap_err().to_string();
         assert!(error.contains("out: another run is writing there"), "{error}");
+        assert!(FolderLock::share(&path).is_err());
         drop(held);
         assert!(!path.exists(), "what was made stays empty");
+        let shards = [FolderLock::share(&path).unwrap(), FolderLock::share(&path).unwrap()];
+        assert!(FolderLock::take(&path).is_err());
+        drop(shards);
         let held = FolderLock::take(&path).unwrap();
         std::fs::write(path.join("file"), "whole").unwrap();
         drop(held);

@@ -1,20 +1,59 @@
-//! Headers of NumPy's `.npy` files.
+//! NumPy's `.npy` files: plain arrays that end where their headers say.
 
 use std::io::{self, ErrorKind, Read};
 
-use npyz::NpyHeader;
+use npyz::{DType, NpyFile, NpyHeader};
 
 /// Longest accepted header of an `.npy` file; that of a plain array has 118 [bytes].
 const NPY_HEADER: usize = 1024;
 /// Largest number of digits in that header, so that the product of the lengths fits in 64 bits.
 const NPY_DIGITS: usize = 18;
 
+/// An array of a file.
+pub type NpyInput<R> = NpyFile<Whole<R>>;
+
+/// Reader of an array's numbers, which fails if anything follows them.
+#[derive(Debug)]
+pub struct Whole<R> {
+    reader: R,
+    /// Bytes of the array that are still to be read.
+    left: u64,
+}
+
+/// Reads the header of a file. Reading the last of the array's numbers fails with [`ErrorKind::InvalidData`] if the
+/// file goes on after them, as it does if the header says fewer than there are.
+///
+/// # Errors
+/// If the header cannot be read or is refused.
+pub fn open<R: Read>(mut reader: R) -> io::Result<NpyInput<R>> {
+    let header = header(&mut reader)?;
+    let size = match header.dtype() {
+        DType::Plain(plain) => plain.size_field(),
+        _ => 0,
+    };
+    let left = header.shape().iter().fold(size, |left, &length| left.saturating_mul(length));
+    Ok(NpyFile::with_header(header, Whole { reader, left }))
+}
+
+impl<R: Read> Read for Whole<R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let most = bytes.len().min(self.left.try_into().unwrap_or(usize::MAX));
+        let read = self.reader.read(&mut bytes[..most])?;
+        self.left -= read as u64;
+        if read > 0 && self.left == 0 && self.reader.read(&mut [0])? > 0 {
+            let expected = "the file goes on after the numbers that its header announces";
+            return Err(io::Error::new(ErrorKind::InvalidData, expected));
+        }
+        Ok(read)
+    }
+}
+
 /// Reads the header. A header unlike that of a plain array is refused before it is parsed, because nested brackets
 /// take the parser exponential time.
 ///
 /// # Errors
 /// If the header cannot be read or is refused.
-pub fn header(reader: &mut impl Read) -> io::Result<NpyHeader> {
+fn header(reader: &mut impl Read) -> io::Result<NpyHeader> {
     parse(reader).map_err(|error| match error.kind() {
         ErrorKind::UnexpectedEof => io::Error::other("the file ends within it"),
         _ => error,
@@ -60,6 +99,19 @@ mod tests {
         let text = "{'descr': '<f8', 'fortran_order': False, 'shape': (8, 256), }\n";
         let header = header(&mut &file(text)[..]).unwrap();
         assert_eq!(header.shape(), [8, 256]);
+    }
+
+    #[test]
+    fn what_follows_the_array_is_refused() {
+        let text = "{'descr': '<u2', 'fortran_order': False, 'shape': (2,), }\n";
+        let read = |data: &[u8]| {
+            let bytes = [&file(text), data].concat();
+            open(&bytes[..]).unwrap().into_vec::<u16>()
+        };
+        assert_eq!(read(&[1, 0, 2, 0]).unwrap(), [1, 2]);
+        let kind = |data: &[u8]| read(data).unwrap_err().kind();
+        assert_eq!(kind(&[1, 0, 2, 0, 3]), ErrorKind::InvalidData);
+        assert_eq!(kind(&[1, 0, 2]), ErrorKind::UnexpectedEof);
     }
 
     #[test]

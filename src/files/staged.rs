@@ -8,6 +8,7 @@ use tempfile::TempDir;
 
 use super::output::{create_directory, write_file};
 use super::unfinished::Unfinished;
+use crate::error::open::open_own;
 use crate::error::{Error, Result};
 
 /// A scratch folder, which is removed when it is dropped; if the process was killed, a later run removes it.
@@ -103,13 +104,13 @@ fn place(from: &Path, to: &Path) -> Result<()> {
     match fs::metadata(to) {
         // A device or a pipe is written in place.
         Ok(found) if !found.is_file() => {
-            write_file(to, |file| io::copy(&mut File::open(from)?, file).map(drop))
+            write_file(to, |file| io::copy(&mut open_own(from)?, file).map(drop))
         }
         _ => {
             let target = fs::canonicalize(to).unwrap_or_else(|_| to.to_owned());
             match fs::rename(from, &target) {
                 Err(error) if error.kind() == io::ErrorKind::CrossesDevices => {
-                    write_file(to, |file| io::copy(&mut File::open(from)?, file).map(drop))
+                    write_file(to, |file| io::copy(&mut open_own(from)?, file).map(drop))
                 }
                 renamed => renamed.map_err(Error::io(to, "write")),
             }

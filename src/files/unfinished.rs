@@ -13,6 +13,8 @@ use std::time::Duration;
 
 use tempfile::{Builder, NamedTempFile, TempDir, TempPath};
 
+use crate::error::open::open_own;
+
 const PREFIX: &str = ".tofsim-";
 const SUFFIX: &str = ".part";
 /// Age from which an unlocked leftover belongs to a dead run, even if a process has its number.
@@ -66,7 +68,7 @@ impl Unfinished<TempDir> {
         sweep(directory);
         let own = made(|builder| builder.tempdir_in(directory))?;
         // Where a folder cannot be opened, its age has to do.
-        let lock_file = File::open(own.path()).ok();
+        let lock_file = open_own(own.path()).ok();
         lock_file.iter().for_each(lock);
         Ok((lock_file, Unfinished { path: register(own.path()), own: Some(own) }))
     }
@@ -88,8 +90,13 @@ impl<T> Drop for Unfinished<T> {
 fn made<T>(make: impl FnOnce(&mut Builder) -> io::Result<T>) -> io::Result<T> {
     let prefix = format!("{PREFIX}{}-", std::process::id());
     make(Builder::new().prefix(&prefix).suffix(SUFFIX))
-        // The crate's error names the temporary file, which says nothing to a user.
-        .map_err(|error| io::Error::from(error.kind()))
+        .map_err(|error| system_error(&error).unwrap_or_else(|| error.kind().into()))
+}
+
+/// Returns the system's error without the name of the temporary file, which says nothing to a user.
+fn system_error(error: &io::Error) -> Option<io::Error> {
+    let system = error.get_ref()?.source()?.downcast_ref::<io::Error>()?;
+    system.raw_os_error().map(io::Error::from_raw_os_error)
 }
 
 /// Locks a file to show that this process is alive. Where the file system has no locks, the file's age decides
@@ -161,7 +168,7 @@ fn is_left(path: &Path) -> bool {
     let age = found.modified().ok().and_then(|then| then.elapsed().ok()).unwrap_or_default();
     let is_plain = found.is_file() || found.is_dir();
     let may_be = age > OLD || process.is_some_and(is_gone);
-    is_plain && may_be && File::open(path).is_ok_and(|file| file.try_lock().is_ok())
+    is_plain && may_be && open_own(path).is_ok_and(|file| file.try_lock().is_ok())
 }
 
 /// Returns whether the process has ended, as far as the system can tell.
@@ -181,6 +188,12 @@ mod tests {
         let mut child = std::process::Command::new("true").spawn().unwrap();
         child.wait().unwrap();
         child.id()
+    }
+
+    #[test]
+    fn the_error_of_a_temporary_file_is_the_system_s() {
+        let error = Unfinished::file(Path::new("/nowhere")).unwrap_err().to_string();
+        assert_eq!(error, io::Error::from_raw_os_error(2).to_string());
     }
 
     #[test]

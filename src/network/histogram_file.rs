@@ -6,12 +6,12 @@ use std::fmt::Display;
 use std::io::{self, BufReader, Chain, Cursor, Read};
 use std::path::Path;
 
-use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar};
+use npyz::{DType, Deserialize, Order, TypeChar};
 
 use crate::error::open::{self, Opened};
 use crate::error::{Error, Input, Result, line_and_column};
 use crate::files::csv::CsvInput;
-use crate::files::npy;
+use crate::files::npy::{self, NpyInput};
 use crate::firmware::histogram_builder::Params;
 
 use super::histogram::Histogram;
@@ -117,11 +117,9 @@ fn csv(reader: Reader, path: &str, p: &Params) -> Result<Histogram> {
 }
 
 /// Reads the header of an `.npy` file, and returns its elements and number of histograms.
-fn array(mut reader: Reader, path: &str, p: &Params) -> Result<(Elements, u64)> {
-    let fault = |expected: String| Error::from(Input::new(path, expected));
-    let header =
-        npy::header(&mut reader).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
-    let (shape, wanted) = (header.shape().to_vec(), p.bins as u64);
+fn array(reader: Reader, path: &str, p: &Params) -> Result<(Elements, u64)> {
+    let file = npy::open(reader).map_err(|error| unreadable(path, &error))?;
+    let (shape, wanted) = (file.shape().to_vec(), p.bins as u64);
     let rows = match shape[..] {
         [bins] if bins == wanted => 1,
         [rows, bins] if bins == wanted && rows > 0 => rows,
@@ -131,11 +129,11 @@ fn array(mut reader: Reader, path: &str, p: &Params) -> Result<(Elements, u64)> 
             return Err(Input::new(path, expected).field("shape").value(shape).into());
         }
     };
-    if header.order() == Order::Fortran && rows > 1 {
+    if file.order() == Order::Fortran && rows > 1 {
         let expected = "columns are stored together, expected rows (numpy.ascontiguousarray)";
-        return Err(fault(expected.to_owned()));
+        return Err(Input::new(path, expected).into());
     }
-    let elements = elements(header, reader).map_err(|dtype| {
+    let elements = elements(file).map_err(|dtype| {
         let expected = "expected integers or floats of 4 or 8 bytes";
         Input::new(path, expected).field("dtype").value(dtype)
     })?;
@@ -146,10 +144,9 @@ fn array(mut reader: Reader, path: &str, p: &Params) -> Result<(Elements, u64)> 
 ///
 /// # Errors
 /// The element type, if it is not supported.
-fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, String> {
-    let dtype = header.dtype();
+fn elements(file: NpyInput<Reader>) -> std::result::Result<Elements, String> {
+    let dtype = file.dtype();
     let DType::Plain(plain) = &dtype else { return Err(dtype.descr()) };
-    let file = NpyFile::with_header(header, reader);
     let real = |x: f64| match x as u32 {
         count if f64::from(count) == x => Ok(count),
         _ => Err(x.to_string()),
@@ -171,7 +168,7 @@ fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, 
 }
 
 /// Returns integer elements as counts.
-fn whole<T>(file: NpyFile<Reader>) -> Option<Elements>
+fn whole<T>(file: NpyInput<Reader>) -> Option<Elements>
 where
     T: Deserialize + TryInto<u32> + Display + Copy + 'static,
 {
@@ -180,10 +177,14 @@ where
 
 /// Returns elements of one type as counts; `None` if the file has another type.
 fn counts<T: Deserialize + 'static>(
-    file: NpyFile<Reader>,
+    file: NpyInput<Reader>,
     count: impl Fn(T) -> Count + 'static,
 ) -> Option<Elements> {
     Some(Box::new(file.data::<T>().ok()?.map(move |x| x.map(&count))))
+}
+
+fn unreadable(path: &str, error: &io::Error) -> Error {
+    Input::new(path, format!("unreadable .npy: {error}")).into()
 }
 
 /// Reads the histogram of one row.
@@ -201,6 +202,9 @@ fn row(
             Some(Ok(value)) => {
                 let value = value.map_or_else(|text| text, |count| count.to_string());
                 return Err(Input::new(path, count_range(p)).field(field()).value(value).into());
+            }
+            Some(Err(error)) if error.kind() == io::ErrorKind::InvalidData => {
+                return Err(unreadable(path, &error));
             }
             Some(Err(error)) if error.kind() != io::ErrorKind::UnexpectedEof => {
                 return Err(Error::io(Path::new(path), "read")(error));

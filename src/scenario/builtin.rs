@@ -64,15 +64,18 @@ pub enum Source {
 }
 
 impl Source {
-    /// Reads the text file `name`, and returns its full name and its text.
+    /// Reads the text file `name`, and returns its full name and its text. In a folder that has no such file, the name
+    /// of a built-in one stands for that, so that a built-in scenario can be saved and used anywhere.
     ///
     /// # Errors
     /// If there is no such file, or it is not UTF-8.
     pub fn read(&self, name: &str) -> Result<(String, String)> {
-        if let (Source::BuiltIn, Some(text)) = (self, find(STIMULI, name)) {
+        let path = self.path(name);
+        if let Some(text) = find(STIMULI, name)
+            && (*self == Source::BuiltIn || !path.exists())
+        {
             return Ok((name.trim_start_matches("../").to_owned(), text.into()));
         }
-        let path = self.path(name);
         Ok((path.display().to_string(), read_text(&path)?))
     }
 

@@ -109,8 +109,7 @@ impl Listing<'_> {
             let inner_path = format!("{path}{key}.");
             self.table(&mut inner, &self.resolve(schema), &values[key], &inner_path, false);
             if !inner.is_empty() || (self.wants)(&inner_path) {
-                let description = schema["description"].as_str().unwrap_or_default();
-                let _ = write!(text, "\n# {description}\n[{path}{key}]\n{inner}");
+                let _ = write!(text, "\n# {}\n[{path}{key}]\n{inner}", comment(schema));
             }
         }
     }
@@ -156,15 +155,19 @@ fn literal(value: &Json) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::{Control, load};
+    use crate::files::toml::Checked;
+    use crate::scenario::{Control, builtin, load};
 
     #[test]
     fn what_is_shown_can_be_read_again() {
-        let mut scenario = load("spad_validation", &[]).unwrap().scenario;
-        scenario.control.push(Control { at_us: 99.5, rst: Some(true), ..Control::default() });
-        let text = show(&scenario);
-        let again: Scenario = toml::from_str(&text).unwrap();
-        assert_eq!(again, scenario);
+        let scenarios = builtin::scenarios().map(|(name, _)| load(name, &[]).unwrap().scenario);
+        for mut scenario in scenarios {
+            scenario.control.push(Control { at_us: 99.5, rst: Some(true), ..Control::default() });
+            scenario.description += "\n[target]\n# \"quoted\" \\ \t";
+            let text = show(&scenario);
+            let checked = Checked::parse::<Scenario>("shown", &text).unwrap();
+            assert_eq!(checked.read::<Scenario>().unwrap(), scenario);
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Benchmark of comparing two large VCD files, relative to reading both with `wellen` in as many threads: `cargo
 //! bench --bench compare [-- MEGABYTES]`. It prints both times of each round and the median ratio.
+#![allow(clippy::disallowed_methods, reason = "the bench wrote the files")]
 
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Write};

@@ -4,6 +4,8 @@
 //! changes ([`source`]), conditions over signals ([`condition`]), the comparison of two waveforms ([`compare`]), and
 //! the replay of a capture's inputs ([`replay`]).
 
+#![allow(clippy::disallowed_methods, reason = "captures are looked at before they are opened")]
+
 pub mod compare;
 pub mod condition;
 pub mod ila;

@@ -1,7 +1,11 @@
 //! The words that the command line has for values of the library's types.
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{
+    PossibleValue, PossibleValuesParser, RangedI64ValueParser, RangedU64ValueParser,
+    TypedValueParser,
+};
 
+use tofsim::scenario::MOST_SEED;
 use tofsim::waves::WaveFormat;
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
@@ -12,6 +16,9 @@ use tofsim_learn::dataset::files::DatasetFormat;
 use tofsim_rtl::golden::bench::Language;
 use tofsim_rtl::timing::Part;
 use tofsim_rtl::verify::Simulator;
+
+/// Most threads that may be asked for.
+pub const MOST_THREADS: i64 = 1024;
 
 /// A word, what it stands for, and what the help says of it.
 pub type Choice<T> = (&'static str, T, &'static str);
@@ -25,6 +32,16 @@ pub fn words<T: Copy + Send + Sync + 'static>(
         let choice = choices.iter().find(|(word, ..)| *word == given);
         choice.map(|(_, value, _)| *value).ok_or("expected one of the words that the help lists")
     })
+}
+
+/// Parses a seed, which a scenario can have too.
+pub fn seed() -> RangedU64ValueParser {
+    RangedU64ValueParser::new().range(..=MOST_SEED)
+}
+
+/// Parses a number of threads.
+pub fn threads() -> RangedI64ValueParser<u16> {
+    RangedI64ValueParser::new().range(1..=MOST_THREADS)
 }
 
 /// A length above zero [mm].

@@ -1,5 +1,8 @@
 //! The command `tofsim`, for the program of that name and for the Python package, which has it too.
 
+// Messages go through `tell`, which a closed pipe does not end.
+#![deny(clippy::print_stderr)]
+
 #[doc(hidden)]
 pub mod choice;
 mod page;
@@ -17,7 +20,7 @@ use std::process::ExitCode;
 
 use verbs::{Cli, interrupt};
 
-use tofsim::error::Error;
+use tofsim::error::{Error, tell};
 
 /// Differences found, or a check failed.
 const DIFFERENT: u8 = 1;
@@ -38,7 +41,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
             interrupt::INTERRUPTED
         }
         Err(error) => {
-            eprintln!("tofsim: {error}");
+            tell(format_args!("tofsim: {error}"));
             FAULT
         }
     }

@@ -104,9 +104,13 @@ impl Record {
             let within = object.pointer_mut("/training/record").map(Value::take);
             return serde_json::from_value(within.unwrap_or(object)).ok();
         }
+        // A page has its own record last, after those of its pictures.
+        let is_page = bytes.starts_with(b"<!DOCTYPE html>");
+        let mut marked = places(bytes, MARK.as_bytes());
+        let marked = if is_page { marked.last() } else { marked.next() };
+        let marked = marked.map(|place| place + MARK.len());
         // A dataset's description is an object in the Parquet file's metadata.
-        let marked = memmem(bytes, MARK.as_bytes()).map(|place| place + MARK.len());
-        let begin = marked.or_else(|| memmem(bytes, br#"{"schema":"tofsim."#))?;
+        let begin = marked.or_else(|| places(bytes, br#"{"schema":"tofsim."#).next())?;
         serde_json::Deserializer::from_slice(&bytes[begin..]).into_iter().next()?.ok()
     }
 }
@@ -120,9 +124,10 @@ pub fn read_object(path: &Path) -> Result<Value> {
     serde_json::from_str(&text).map_err(|error| Input::new(path.display(), error).into())
 }
 
-/// Returns the first place of `wanted` in `bytes`.
-fn memmem(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
-    bytes.windows(wanted.len()).position(|window| window == wanted)
+/// Returns the places of `wanted` in `bytes`.
+fn places(bytes: &[u8], wanted: &'static [u8]) -> impl Iterator<Item = usize> {
+    let windows = bytes.windows(wanted.len()).enumerate();
+    windows.filter(move |(_, window)| *window == wanted).map(|(place, _)| place)
 }
 
 /// The verb and the options that were given, as a command line has them.

@@ -40,6 +40,7 @@ pub mod verify;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use host::Host;
@@ -110,7 +111,7 @@ impl Cli {
             cli.talk.command = command_line(&command, &matches);
             Ok(cli)
         });
-        given.unwrap_or_else(|fault| usage::shortened(fault).exit())
+        given.unwrap_or_else(|fault| usage::readable(fault, &command).exit())
     }
 
     /// The command without `help`, which has a page for each command that there is anyway.
@@ -134,8 +135,12 @@ impl Cli {
     /// When the command line is wrong, the verb fails, or is stopped.
     pub fn answer(words: &[String], host: Host) -> Result<Answer> {
         let mut command = Cli::command().no_binary_name(true);
-        let fault = |fault| Input::new("command", usage::shortened(fault).to_string().trim());
-        let matches = command.try_get_matches_from_mut(words).map_err(fault)?;
+        let matches = command.try_get_matches_from_mut(words);
+        let fault = |fault| {
+            let fault = usage::readable(fault, &command);
+            Input::new("command", fault.to_string().trim())
+        };
+        let matches = matches.map_err(fault)?;
         let mut cli = Cli::from_arg_matches(&matches).map_err(fault)?;
         cli.talk = cli.talk.silent(command_line(&command, &matches));
         let (status, text) = host.around(|| cli.run());
@@ -144,6 +149,14 @@ impl Cli {
 
     /// Does what the command line asks for; the status says whether all was the same or fine.
     pub fn run(&self) -> Result<ExitCode> {
+        let begun = Instant::now();
+        let status = self.run_verb()?;
+        let verb = self.talk.command.first().map_or("tofsim", String::as_str);
+        self.talk.detail(format_args!("{verb}: {:.2} s", begun.elapsed().as_secs_f64()));
+        Ok(status)
+    }
+
+    fn run_verb(&self) -> Result<ExitCode> {
         let talk = &self.talk;
         match &self.verb {
             Verb::New(args) => new::run(args, talk),

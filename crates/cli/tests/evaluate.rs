@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::common::{self, empty, json, output, refused, stdout};
+use crate::common::{self, csv, empty, json, output, refused, stdout};
 
 const FEW: [&str; 7] = ["evaluate", "--rows", "2040", "--check", "2", "--seed", "3"];
 
@@ -223,4 +223,35 @@ fn an_estimator_says_what_it_does_not_know() {
     assert!(text.contains("note: laser.pulse_sigma_ps = 200: peak: "), "{text}");
     let (status, _) = told(&with(&[&wide[..], &["--strict"]].concat()));
     assert_eq!(status, Some(2));
+}
+
+#[test]
+fn what_is_written_does_not_depend_on_the_folder() {
+    let stimuli = concat!(env!("CARGO_MANIFEST_DIR"), "/../../stimuli");
+    let homes = [empty(), empty()];
+    let written = homes.each_ref().map(|home| {
+        let home = home.path();
+        fs::create_dir_all(home.join("scenes/far")).unwrap();
+        fs::write(home.join("scenes/far/s.toml"), stdout(home, &["scenario", "show"])).unwrap();
+        fs::copy(home.join("scenes/far/s.toml"), home.join("s.toml")).unwrap();
+        fs::copy(format!("{stimuli}/networks/ideal.toml"), home.join("net.toml")).unwrap();
+        fs::copy(format!("{stimuli}/chains/ideal.toml"), home.join("chain.toml")).unwrap();
+        let mut all = Vec::new();
+        for scenario in ["s.toml", "scenes/far/s.toml"] {
+            let args = ["evaluate", "./net.toml", "--scenario", scenario, "--rows", "51", "--json"];
+            all.push(stdout(home, &args));
+            all.push(stdout(home, &[&args[..], &["--profile", "./chain.toml"]].concat()));
+            fs::write(home.join("h.csv"), csv(&vec![3; 256])).unwrap();
+            let args = ["estimate", "h.csv", "--network", "./net.toml", "--scenario", scenario];
+            all.push(stdout(home, &[&args[..], &["--json"]].concat()));
+        }
+        // The hash of a file that is named by its whole path.
+        let whole = format!("estimator.network={:?}", home.join("net.toml").display().to_string());
+        let budget = json(home, &["budget", "-s", &whole, "--json"]);
+        all.push(budget["hash"].to_string());
+        all
+    });
+    for (here, there) in written[0].iter().zip(&written[1]) {
+        assert_eq!(here, there);
+    }
 }

@@ -1,4 +1,5 @@
 //! The command, as its users see it.
+#![allow(clippy::disallowed_methods, reason = "what a test opens is a file")]
 
 mod adding_a_block;
 mod bad_input;
@@ -15,6 +16,7 @@ mod control;
 mod dataset;
 mod dpi;
 mod drift_note;
+mod edges;
 mod error_budget;
 mod estimate;
 mod evaluate;
@@ -28,6 +30,7 @@ mod limits;
 mod lockstep;
 mod measured;
 mod new;
+mod parquet_files;
 mod quantize;
 mod recalibration;
 mod replay;

@@ -189,3 +189,31 @@ fn a_network_is_trained_on_histograms_of_one_s_own() {
 fn values(list: &Value) -> Vec<f64> {
     list.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()
 }
+
+#[test]
+fn numbers_after_the_array_are_refused_in_every_npy_file() {
+    let folder = empty();
+    let path = folder.path();
+    stdout(path, &[&DRAWN[..], &["-o", "d"]].concat());
+    let appended = |name: &str| {
+        let mut bytes = fs::read(path.join(name)).unwrap();
+        bytes.push(7);
+        fs::write(path.join("more.npy"), bytes).unwrap();
+    };
+    let expected = "more.npy: unreadable .npy: the file goes on after the numbers that its header";
+    appended("d/histograms.npy");
+    assert!(refused(path, &["estimate", "more.npy"]).contains(expected));
+    let evaluated = ["evaluate", "--data", "more.npy", "--truth", "d/truth.npy"];
+    assert!(refused(path, &evaluated).contains(expected));
+    appended("d/truth.npy");
+    let evaluated = ["evaluate", "--data", "d/histograms.npy", "--truth", "more.npy"];
+    assert!(refused(path, &evaluated).contains(expected));
+    fs::create_dir(path.join("arrays")).unwrap();
+    for (name, numbers) in [("b1", vec![0.5; 8]), ("b2", vec![0.1])] {
+        floats(&path.join(format!("arrays/{name}.npy")), &numbers);
+    }
+    appended("arrays/b2.npy");
+    fs::rename(path.join("more.npy"), path.join("arrays/b2.npy")).unwrap();
+    let error = refused(path, &["quantize", "--from", "arrays", "-o", "n.toml"]);
+    assert!(error.contains("arrays/b2.npy: unreadable .npy: the file goes on"), "{error}");
+}

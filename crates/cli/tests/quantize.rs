@@ -124,3 +124,48 @@ fn an_exploration_has_the_network_s_datapath_and_its_neighbours() {
     let error = refused(folder.path(), &["quantize", "--explore", "nosuch"]);
     assert!(error.contains("nosuch"), "{error}");
 }
+
+/// A MATLAB file of level 5 with arrays of small whole numbers, of a class and stored as a type.
+fn whole_numbers(class: u32, kind: u32, bytes: usize) -> Vec<u8> {
+    let element = |kind: u32, data: &[u8]| {
+        let length = data.len() as u32;
+        let mut element = [&kind.to_le_bytes(), &length.to_le_bytes(), data].concat();
+        element.resize(element.len().next_multiple_of(8), 0);
+        element
+    };
+    let array = |name: &str, shape: [i32; 2]| {
+        let numbers = (0..shape[0] * shape[1]).map(|k| i64::from(k * 7 % 11 - 5));
+        let numbers: Vec<u8> = match kind {
+            9 => numbers.flat_map(|number| (number as f64).to_le_bytes()).collect(),
+            _ => numbers.flat_map(|number| number.to_le_bytes().into_iter().take(bytes)).collect(),
+        };
+        let flags = element(6, &[class.to_le_bytes(), [0; 4]].concat());
+        let shape = element(5, &shape.map(i32::to_le_bytes).concat());
+        let parts = [flags, shape, element(1, name.as_bytes()), element(kind, &numbers)].concat();
+        element(14, &parts)
+    };
+    let mut file = b"MATLAB 5.0 MAT-file, written by a test".to_vec();
+    file.resize(124, b' ');
+    file.extend([0, 1, b'I', b'M']);
+    let arrays = [("IW", [8, 256]), ("LW", [1, 8]), ("b1", [8, 1]), ("b2", [1, 1])];
+    arrays.iter().for_each(|&(name, shape)| file.extend(array(name, shape)));
+    file
+}
+
+#[test]
+fn whole_numbers_of_a_matlab_file_are_read_whatever_they_are_stored_as() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |file: &[u8]| {
+        let path = folder.path().join("net.mat");
+        fs::write(&path, file).unwrap();
+        import::read(&path, 256).unwrap()
+    };
+    let expected = read(&whole_numbers(6, 9, 8));
+    assert_eq!(expected.b1, [-5.0, 2.0, -2.0, 5.0, 1.0, -3.0, 4.0, 0.0]);
+    // Doubles and singles as int8, int16 and int32, as Octave stores them; then arrays of these types.
+    for (class, kind, bytes) in
+        [(6, 1, 1), (7, 1, 1), (6, 3, 2), (6, 5, 4), (8, 1, 1), (10, 3, 2), (12, 5, 4), (14, 12, 8)]
+    {
+        assert_eq!(read(&whole_numbers(class, kind, bytes)), expected, "class {class}, {kind}");
+    }
+}

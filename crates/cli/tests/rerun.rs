@@ -204,3 +204,32 @@ fn a_run_says_what_it_was_made_of() {
     assert_eq!(run["hash"], hash(&args));
     assert_ne!(run["hash"], hash(&["run", "--json", "--waves", "none"]));
 }
+
+#[test]
+fn the_files_of_a_report_are_made_again_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    stdout(path, &["report", "near", "--quick", "-q", "--seed", "3", "-o", "page"]);
+    for name in ["report.html", "report.json", "waveform.json"] {
+        assert!(stdout(path, &["rerun", &format!("page/{name}")]).contains("the same"), "{name}");
+    }
+}
+
+#[test]
+fn the_name_of_a_folder_is_no_difference_whatever_is_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["a \" quote", "a ] bracket, \"", "a \\ stroke", "\u{fc}mlaut $end --> \n line"] {
+        let path = folder.path().join(name);
+        fs::create_dir(&path).unwrap();
+        stdout(&path, &[&["run", "-o"][..], &["o\"ut/in"], &SHORT].concat());
+        for file in ["summary.json", "histogram.csv"] {
+            let file = format!("o\"ut/in/{file}");
+            let said = stdout(&path, &["rerun", &file]);
+            assert!(said.contains("the same"), "{name}: {said}");
+            // From another folder, too.
+            let file = path.join(file);
+            let said = stdout(folder.path(), &["rerun", file.to_str().unwrap()]);
+            assert!(said.contains("the same"), "{name}: {said}");
+        }
+    }
+}

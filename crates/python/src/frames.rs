@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::json;
 
+use tofsim::error::Input;
 use tofsim::firmware::tof_top::slot::EstimateWords;
 use tofsim::sim::estimates::Estimate;
 use tofsim::{Note, Setup};
@@ -33,17 +34,26 @@ pub struct Columns {
 
 impl Columns {
     /// None yet, of so many frames.
-    pub fn new(setup: &Setup, count: u64, is_by_cause: bool) -> Self {
+    ///
+    /// # Errors
+    /// When the memory does not hold them.
+    pub fn new(setup: &Setup, count: u64, is_by_cause: bool) -> tofsim::Result<Self> {
         let (bins, count) = (setup.params.histogram.bins, count as usize);
+        let columns = if is_by_cause { 1 + CAUSES.len() } else { 1 };
+        let words = bins.saturating_mul(columns).saturating_mul(count);
+        if Vec::<u32>::new().try_reserve_exact(words).is_err() {
+            let expected = format!("expected fewer: the memory does not hold {words} counts");
+            return Err(Input::new("frames", expected).value(count).into());
+        }
         let none = || -> Causes { std::array::from_fn(|_| vec![0; bins]) };
-        Columns {
+        Ok(Columns {
             histograms: Vec::with_capacity(bins * count.min(1 << 16)),
             words: Vec::new(),
             numbers: Default::default(),
             laser_en: Vec::new(),
             causes: is_by_cause.then(|| (0..count).map(|_| none()).collect()),
             notes: Vec::new(),
-        }
+        })
     }
 
     /// Takes the next frame.

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
 
 use tofsim::error::{Input, Result};
-use tofsim_cli::verbs::draws::MOST_THREADS;
+use tofsim_cli::choice::MOST_THREADS;
 
 use crate::errors::{self, internal};
 

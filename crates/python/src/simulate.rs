@@ -61,7 +61,7 @@ pub fn simulate(
         let mut notes = setup.notes()?;
         notes.extend(notes_of_firmware(&setup));
         let count = frames * setup.frames_together();
-        let mut columns = Columns::new(&setup, count, by_cause);
+        let mut columns = Columns::new(&setup, count, by_cause)?;
         let outcome = simulated(&setup, fidelity, count, &mut columns, watch)?;
         notes.extend(outcome.notes);
         columns.notes = notes;

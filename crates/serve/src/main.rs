@@ -1,4 +1,5 @@
 //! The program `tofsim-serve`, which `tofsim serve` runs.
+#![deny(clippy::print_stderr)]
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -8,7 +9,7 @@ use clap::Parser;
 use serde_json::json;
 use tokio::signal::unix::{SignalKind, signal};
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Input, Result, tell};
 use tofsim::sim::setup::Setup;
 use tofsim_serve::Options;
 use tofsim_serve::engine::Engine;
@@ -26,7 +27,7 @@ fn main() -> ExitCode {
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(Error::Interrupted) => ExitCode::from(INTERRUPTED),
         Err(error) => {
-            eprintln!("tofsim-serve: {error}");
+            tell(format_args!("tofsim-serve: {error}"));
             ExitCode::from(FAULT)
         }
     }
@@ -35,7 +36,7 @@ fn main() -> ExitCode {
 fn serve(options: &Options) -> Result<()> {
     let setup = Setup::new(options.load(&[])?)?;
     if !options.quiet && !options.without_notes {
-        setup.notes()?.iter().for_each(|note| eprintln!("{note}"));
+        setup.notes()?.iter().for_each(tell);
     }
     let engine = Engine::start(options.clone())?;
     let threads = tokio::runtime::Builder::new_current_thread().enable_all().build();
@@ -75,7 +76,7 @@ fn say(options: &Options, setup: &Setup, url: &str) -> Result<()> {
     let written = writeln!(out, "{line}").and_then(|()| out.flush());
     written.map_err(Error::io(Path::new("stdout"), "write"))?;
     if !options.quiet && !options.json {
-        eprintln!("open this address in a browser on this computer; Ctrl-C ends it");
+        tell("open this address in a browser on this computer; Ctrl-C ends it");
     }
     Ok(())
 }

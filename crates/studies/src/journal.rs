@@ -1,7 +1,8 @@
 //! Journal of a sweep: one line per finished point, from which a killed sweep resumes.
 //!
-//! The first line identifies the sweep. An incomplete last line is discarded. The file is locked while a sweep writes
-//! to it.
+//! A line is a checksum and a JSON object; the first one identifies the sweep. The checksum is that of all objects so
+//! far, so that a changed, missing or repeated line is noticed. An incomplete last line is discarded. The file is
+//! locked while a sweep writes to it.
 
 use std::fs::{File, TryLockError};
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -11,6 +12,7 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Deserialize, Serialize};
 
 use tofsim::error::{Error, Input, Result};
+use tofsim::files::digest::digest;
 use tofsim::note::Note;
 
 use crate::table::{Cell, Row};
@@ -18,7 +20,13 @@ use crate::table::{Cell, Row};
 /// A journal that is open for appending.
 pub struct Journal {
     path: PathBuf,
-    file: Mutex<File>,
+    written: Mutex<Written>,
+}
+
+/// The file, and the checksum of its last line.
+struct Written {
+    file: File,
+    sum: u64,
 }
 
 /// A finished point.
@@ -52,7 +60,9 @@ struct Head {
     about: String,
 }
 
-const SCHEMA: &str = "tofsim.sweep-journal/1";
+const SCHEMA: &str = "tofsim.sweep-journal/2";
+/// Digits of a checksum, and the space after them.
+const SUM: usize = 17;
 
 impl Journal {
     /// Opens the journal of the sweep that `about` identifies, or creates it, and passes the number of every finished
@@ -62,7 +72,7 @@ impl Journal {
     /// If it cannot be written, is locked by another process, is damaged, or belongs to another sweep.
     pub fn open(path: &Path, about: &str, mut take: impl FnMut(u64)) -> Result<Self> {
         let options = File::options().read(true).append(true).create(true).open(path);
-        let mut file = options.map_err(Error::io(path, "write"))?;
+        let file = options.map_err(Error::io(path, "write"))?;
         if !file.metadata().is_ok_and(|found| found.is_file()) {
             let expected = "expected a regular file: a sweep goes on from what it reads there";
             return Err(Input::new(path.display(), expected).into());
@@ -77,7 +87,7 @@ impl Journal {
             Ok(()) | Err(TryLockError::Error(_)) => {}
         }
         let head = Head { schema: SCHEMA.to_owned(), about: about.to_owned() };
-        let whole = scan(path, &file, |line, _, entry| match entry {
+        let (whole, sum) = scan(path, &file, |line, _, entry| match entry {
             Line::Head(found) if found == head => Ok(()),
             Line::Head(_) => {
                 let expected = "the sweep that was begun there is another: expected the same plan, seed and version, \
@@ -90,11 +100,11 @@ impl Journal {
             }
         })?;
         file.set_len(whole).map_err(Error::io(path, "write"))?;
+        let mut written = Written { file, sum };
         if whole == 0 {
-            let line = serde_json::json!(head).to_string() + "\n";
-            file.write_all(line.as_bytes()).map_err(Error::io(path, "write"))?;
+            written.add(&serde_json::json!(head)).map_err(Error::io(path, "write"))?;
         }
-        Ok(Journal { path: path.to_owned(), file: Mutex::new(file) })
+        Ok(Journal { path: path.to_owned(), written: Mutex::new(written) })
     }
 
     /// Appends a finished point.
@@ -102,9 +112,8 @@ impl Journal {
     /// # Errors
     /// If it cannot be written.
     pub fn add(&self, entry: &Entry) -> Result<()> {
-        let line = serde_json::json!(entry).to_string() + "\n";
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        file.write_all(line.as_bytes()).map_err(Error::io(&self.path, "write"))
+        let mut written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
+        written.add(&serde_json::json!(entry)).map_err(Error::io(&self.path, "write"))
     }
 
     /// Passes all points to `take`, in order of their numbers.
@@ -112,16 +121,17 @@ impl Journal {
     /// # Errors
     /// If the journal cannot be read, or `take` fails.
     pub fn in_order(&self, mut take: impl FnMut(Entry) -> Result<()>) -> Result<()> {
-        let file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let written = self.written.lock().unwrap_or_else(PoisonError::into_inner);
+        let file = &written.file;
         let mut places = Vec::new();
-        scan(&self.path, &file, |line, begin, entry| {
+        scan(&self.path, file, |line, begin, entry| {
             if let Line::Entry(entry) = entry {
                 places.push((entry.point().ok_or_else(|| damaged(&self.path, line))?, begin));
             }
             Ok(())
         })?;
         places.sort_unstable();
-        let mut reader = BufReader::new(&*file);
+        let mut reader = BufReader::new(file);
         let mut text = String::new();
         let mut here = u64::MAX;
         for (_, begin) in places {
@@ -134,8 +144,8 @@ impl Journal {
                 reader.read_line(&mut text)
             })();
             here = begin + line.map_err(read)? as u64;
-            let entry = serde_json::from_str(&text).map_err(|_| damaged(&self.path, 0))?;
-            take(entry)?;
+            let entry = text.get(SUM..).and_then(|text| serde_json::from_str(text).ok());
+            take(entry.ok_or_else(|| damaged(&self.path, 0))?)?;
         }
         Ok(())
     }
@@ -146,32 +156,53 @@ impl Journal {
     }
 }
 
+impl Written {
+    /// Appends a line.
+    fn add(&mut self, object: &serde_json::Value) -> std::io::Result<()> {
+        let text = object.to_string();
+        let sum = digest(self.sum, text.as_bytes());
+        self.file.write_all(format!("{sum:016x} {text}\n").as_bytes())?;
+        self.sum = sum;
+        Ok(())
+    }
+}
+
 /// A line of a journal.
 enum Line {
     Head(Head),
     Entry(Entry),
 }
 
-/// Passes every complete line to `take`, with its number and offset, and returns the end of the last one.
+/// Passes every complete line to `take`, with its number and offset, and returns the end and the checksum of the last
+/// one.
 fn scan(
     path: &Path,
     mut file: &File,
     mut take: impl FnMut(usize, u64, Line) -> Result<()>,
-) -> Result<u64> {
+) -> Result<(u64, u64)> {
     file.rewind().map_err(Error::io(path, "read"))?;
     let mut reader = BufReader::new(file);
-    let (mut begin, mut number) = (0, 0);
+    let (mut begin, mut number, mut sum) = (0, 0, 0);
     let mut line = Vec::new();
     loop {
         line.clear();
         let read = reader.by_ref().read_until(b'\n', &mut line).map_err(Error::io(path, "read"))?;
         if line.last() != Some(&b'\n') {
-            return Ok(begin);
+            return Ok((begin, sum));
         }
         number += 1;
+        if number == 1 && line.starts_with(b"{") {
+            let expected = "a journal of an earlier version, which has no checksums: expected --restart, or that version";
+            return Err(Input::new(path.display(), expected).into());
+        }
+        let text = line.get(SUM..line.len() - 1).ok_or_else(|| damaged(path, number))?;
+        sum = digest(sum, text);
+        if line[..SUM] != *format!("{sum:016x} ").as_bytes() {
+            return Err(damaged(path, number));
+        }
         let parsed = match number {
-            1 => serde_json::from_slice(&line).map(Line::Head),
-            _ => serde_json::from_slice(&line).map(Line::Entry),
+            1 => serde_json::from_slice(text).map(Line::Head),
+            _ => serde_json::from_slice(text).map(Line::Entry),
         };
         take(number, begin, parsed.map_err(|_| damaged(path, number))?)?;
         begin += read as u64;
@@ -179,7 +210,8 @@ fn scan(
 }
 
 fn damaged(path: &Path, line: usize) -> Error {
-    let expected = "no line of a sweep's journal: expected the one that a sweep left, or --restart";
+    let expected = "damaged: the line does not match its checksum; expected the journal as the sweep left it, or \
+        --restart";
     Input::new(path.display(), expected).at(line.max(1), 1).into()
 }
 
@@ -257,7 +289,35 @@ mod tests {
         text += "nonsense\n";
         std::fs::write(&path, text).unwrap();
         let error = points(&path, "a").unwrap_err().to_string();
-        assert!(error.contains("j:3:1: no line of a sweep's journal"), "{error}");
+        assert!(error.contains("j:3:1: damaged: the line does not match"), "{error}");
+    }
+
+    #[test]
+    fn a_changed_digit_and_a_line_that_is_there_twice_or_not_at_all_are_noticed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("j");
+        let journal = Journal::open(&path, "a", |_| ()).unwrap();
+        [0, 1, 2].iter().for_each(|&point| journal.add(&entry(point)).unwrap());
+        drop(journal);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let refused = |text: &[u8], line: usize| {
+            std::fs::write(&path, text).unwrap();
+            let error = points(&path, "a").unwrap_err().to_string();
+            assert!(error.contains(&format!("j:{line}:1: damaged")), "{error}");
+        };
+        let lines: Vec<_> = text.split_inclusive('\n').collect();
+        refused([lines[0], lines[1], lines[1], lines[2]].concat().as_bytes(), 3);
+        refused([lines[0], lines[2]].concat().as_bytes(), 2);
+        refused([lines[0], lines[2], lines[1]].concat().as_bytes(), 2);
+        for (place, digit) in text.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_digit()) {
+            let mut changed = text.clone().into_bytes();
+            changed[place] = b'0' + (digit - b'0' + 1) % 10;
+            refused(&changed, text[..place].matches('\n').count() + 1);
+        }
+        let old = lines.iter().map(|line| &line[SUM..]).collect::<String>();
+        std::fs::write(&path, old).unwrap();
+        let error = points(&path, "a").unwrap_err().to_string();
+        assert!(error.contains("a journal of an earlier version"), "{error}");
     }
 
     #[test]

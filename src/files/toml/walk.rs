@@ -117,6 +117,8 @@ impl<'a> Walk<'a> {
         let bound = |name| resolved.get(name).map(Json::to_string);
         let range = match (bound("minimum"), bound("maximum")) {
             (Some(low), Some(high)) => format!(" from {low} to {high}"),
+            // TOML has no greater ones.
+            (Some(low), None) if what == "a whole number" => format!(" from {low} to {}", i64::MAX),
             (Some(low), None) => format!(" from {low}"),
             _ => String::new(),
         };

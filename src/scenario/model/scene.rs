@@ -37,7 +37,7 @@ table! {
         pub width_m: f64 = 0.20,
         /// Number of surface elements along each side of the illuminated part of a quadrant (eq. 3.6); for a mesh,
         /// one eighth of those along the side of its visible part, up to 4096.
-        #[schemars(range(min = 8, max = 4096), extend("unit" = "1", "source" = "choice: below 0.05 % of error"))]
+        #[schemars(range(min = 8, max = 1024), extend("unit" = "1", "source" = "choice: below 0.05 % of error"))]
         pub cells: u32 = 128,
         /// Shape: `rectangle`, `disc`, `sphere`, `step` or `mesh`.
         #[schemars(extend("source" = "Table 3.2: a rectangle"))]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::error::Result;
+use crate::error::{Input, Result};
 use crate::firmware::pll::Pll;
 use crate::firmware::tof_top::estimator_params::EstimatorParams;
 use crate::firmware::tof_top::{FirmwareEstimator, HistogramSource, Params};
@@ -13,7 +13,7 @@ use crate::optics::Budget;
 use crate::optics::dark::DarkRates;
 use crate::scenario::builtin::Source;
 use crate::scenario::wiring::Wiring;
-use crate::scenario::{self, Loaded, Scenario, dark, mesh, pulse};
+use crate::scenario::{self, Loaded, MOST_SEED, Scenario, dark, mesh, pulse};
 use crate::sim::timeline::pins_at_power_up;
 
 use super::converter::Converter;
@@ -30,6 +30,7 @@ impl Setup {
     /// When one of the files cannot be read or used.
     pub fn of_counts(loaded: Loaded) -> Result<Self> {
         let Loaded { name, scenario, set, files, renamed } = loaded;
+        check_seed(&name, scenario.seed)?;
         let network = network(&scenario, &files)?;
         let pll = Pll::new(&scenario.pll.params());
         let histogram = scenario.histogram();
@@ -117,6 +118,14 @@ impl Setup {
             _ => Ok(()),
         }
     }
+}
+
+fn check_seed(name: &str, seed: u64) -> Result<()> {
+    if seed <= MOST_SEED {
+        return Ok(());
+    }
+    let fault = Input::new(format!("scenario {name}"), format!("expected 0 to {MOST_SEED}"));
+    Err(fault.field("seed").value(seed).into())
 }
 
 fn network(scenario: &Scenario, files: &Source) -> Result<Network> {

@@ -6,6 +6,7 @@ use crate::error::{Input, Result};
 use crate::files::digest::digest_of;
 use crate::hierarchy;
 use crate::kernel::Time;
+use crate::scenario::bundle::names;
 use crate::scenario::window::Window;
 use crate::sensor::light::Light;
 use crate::waves::{self, WaveFormat, Waves};
@@ -80,7 +81,7 @@ impl Setup {
     }
 
     /// A number, in hexadecimal, that changes with any key of the scenario and with what is in the files
-    /// that it names.
+    /// that it names. It does not depend on the folder of a file that is named by its whole path.
     pub fn hash(&self) -> String {
         let (scenario, params) = (&self.scenario, &self.params);
         let given = match &self.light {
@@ -89,7 +90,12 @@ impl Setup {
         };
         let pulse = &self.budget.pulse;
         let (dark, mesh) = (&self.dark, &self.mesh);
-        let all = format_args!("{scenario:?} {params:?} {given:?} {pulse:?} {dark:?} {mesh:?}");
+        let mut keys = format!("{scenario:?}");
+        for name in names(scenario).filter(|name| Path::new(name).is_absolute()) {
+            let short = Path::new(name).file_name().unwrap_or_default().to_string_lossy();
+            keys = keys.replace(&format!("{name:?}"), &format!("{short:?}"));
+        }
+        let all = format_args!("{keys} {params:?} {given:?} {pulse:?} {dark:?} {mesh:?}");
         format!("{:016x}", digest_of(all))
     }
 }

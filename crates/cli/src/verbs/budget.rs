@@ -11,7 +11,7 @@ use tofsim_learn::dataset::Axis;
 use tofsim_learn::error_budget::Plan;
 use tofsim_learn::estimation::EstimatorKind;
 
-use crate::choice::words;
+use crate::choice::{seed, words};
 use crate::report::error_budget::DepthBudgets;
 use crate::report::link_budget::LinkBudget;
 use crate::report::writer::Report;
@@ -76,7 +76,7 @@ pub struct ErrorArgs {
     #[arg(long, requires = "errors", value_name = "KEY=VALUES")]
     grid: Option<String>,
     /// With --errors: seed of every random stream, instead of the scenario's
-    #[arg(long, requires = "errors", value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, requires = "errors", value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// With --errors: threads; the results are the same for any number [default: one a core]
     #[arg(long, requires = "errors", value_name = "N", allow_hyphen_values = true)]

@@ -10,9 +10,9 @@ use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim_rtl::verify::strays;
 
-use crate::choice::words;
+use crate::choice::{threads, words};
 
-use super::draws::{MOST_THREADS, use_threads};
+use super::draws::use_threads;
 use super::interrupt::look_no_more;
 use super::terminal::{RunCommand, Talk, print_json};
 
@@ -56,7 +56,7 @@ pub struct Args {
     #[arg(long)]
     force: bool,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", value_parser = threads())]
     threads: Option<u16>,
     /// Print one JSON object
     #[arg(long)]

@@ -1,19 +1,23 @@
 //! Options of verbs that draw histograms.
 
-use std::path::Path;
+use std::path::{Component, Path};
+use std::thread::available_parallelism;
 
 use rayon::ThreadPoolBuilder;
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::scenario::{self, Loaded, builtin};
+use tofsim::scenario::builtin::Source;
+use tofsim::scenario::{self, Loaded};
 use tofsim_learn::dataset::grid::MOST_ROWS;
 use tofsim_learn::dataset::{Grid, Rows, Subset};
+
+use crate::choice::{seed, threads};
 
 use super::host::host;
 use super::terminal::Talk;
 
-/// Threads that may be asked for; each has to be made before it can help.
-pub const MOST_THREADS: i64 = 1024;
+/// Most threads for a core.
+const MOST_PER_CORE: usize = 4;
 
 /// Which histograms.
 #[derive(Debug, clap::Args)]
@@ -29,10 +33,10 @@ pub struct Draws {
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..=MOST_ROWS))]
     rows: Option<u64>,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads())]
     threads: Option<u16>,
 }
 
@@ -80,7 +84,7 @@ impl Draws {
         talk: &Talk,
         work: impl FnOnce(&(dyn Fn(u64) + Sync)) -> Result<T> + Send,
     ) -> Result<T> {
-        let pool = ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
+        let pool = ThreadPoolBuilder::new().num_threads(self.threads.map_or(0, useful));
         let pool = pool.build().map_err(|error| Input::new("--threads", error))?;
         let progress = talk.progress(rows, "rows");
         let done = pool.install(|| work(&|rows| progress.inc(rows)));
@@ -96,17 +100,35 @@ pub fn load(scenario: &str, set: &[String], seed: Option<u64>) -> Result<Loaded>
     Ok(loaded)
 }
 
+/// Returns the number of threads to make where so many are asked for: the results are the same for any number, and
+/// those beyond a few for each core only take memory, and hold each other up.
+fn useful(threads: u16) -> usize {
+    let cores = available_parallelism().map_or(1, usize::from);
+    usize::from(threads).min(MOST_PER_CORE * cores)
+}
+
 /// Makes the pool of so many threads, if a number is asked for; within another program, that makes it.
 pub fn use_threads(threads: Option<u16>) -> Result<()> {
     let Some(threads) = threads.filter(|_| host().is_none()) else { return Ok(()) };
-    let pool = ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    let pool = ThreadPoolBuilder::new().num_threads(useful(threads)).build_global();
     pool.map_err(|error| Input::new("--threads", error).value(threads).into())
 }
 
-/// A name as it is, and a path as the scenario has to have it, which sees paths from its own folder.
+/// Converts a path from the current folder to one from the scenario's folder, as the scenario has them; a name stays as
+/// it is. The path is relative if it can be, so that results do not depend on where both folders are.
 pub fn from_here(name: &str, loaded: &Loaded) -> Result<String> {
-    if !name.contains(['/', '.']) || loaded.files == builtin::Source::BuiltIn {
+    let Source::Folder(folder) = &loaded.files else { return Ok(name.to_owned()) };
+    if !name.contains(['/', '.']) {
         return Ok(name.to_owned());
+    }
+    let is_below = |part: &Component| matches!(part, Component::Normal(_));
+    if folder.components().all(|part| is_below(&part)) {
+        let relative = "../".repeat(folder.components().count()) + name;
+        // A folder that is a link has another one above it.
+        let found = folder.join(&relative).canonicalize().ok();
+        if found == Path::new(name).canonicalize().ok() {
+            return Ok(relative);
+        }
     }
     let path = std::path::absolute(name).map_err(Error::io(Path::new(name), "read"))?;
     Ok(path.display().to_string())

@@ -6,6 +6,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use tofsim::error::tell;
 use tofsim::files::unfinished::discard_all;
 
 use super::host::host;
@@ -28,11 +29,22 @@ pub fn listen() {
     };
     // Without a way, the system ends the program, which is as good but for what is left.
     drop(ctrlc::set_handler(heard));
+    keep_file_limits();
 }
+
+/// Lets a file that may not grow any more be an error of writing, where the system would end the program.
+#[cfg(unix)]
+fn keep_file_limits() {
+    use signal_hook::{consts::SIGXFSZ, flag::register};
+    drop(register(SIGXFSZ, Arc::default()));
+}
+
+#[cfg(not(unix))]
+fn keep_file_limits() {}
 
 /// Says that it was interrupted.
 pub fn say() {
-    eprintln!("tofsim: interrupted");
+    tell("tofsim: interrupted");
 }
 
 /// Set when the user interrupts, or the program around the verb stops it; from now on the verb looks at it.

@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
+use tofsim::error::tell;
+
 use crate::text::table::grouped;
 
 use super::host::{HearProgress, host};
@@ -43,7 +45,7 @@ impl Progress {
         let shown = match (is_quiet || count < 2, stderr().is_terminal()) {
             (true, _) => Shown::Nowhere,
             (_, true) => Shown::Bar(bar(&meter)),
-            (_, false) => Shown::Lines(Ticker::new(&meter, EVERY, |line| eprintln!("{line}"))),
+            (_, false) => Shown::Lines(Ticker::new(&meter, EVERY, tell)),
         };
         Progress { meter, shown }
     }

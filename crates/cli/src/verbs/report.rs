@@ -17,6 +17,7 @@ use tofsim_learn::error_budget::Plan;
 use tofsim_learn::estimation::EstimatorKind;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
+use crate::choice::{seed, threads};
 use crate::page::trace::{Trace, captured, wavejson};
 use crate::record::{Record, read_object};
 use crate::report::error_budget::DepthBudgets;
@@ -26,7 +27,7 @@ use crate::report::tdc::TdcFindings;
 use crate::report::verification::{CycleCounts, Verified};
 use crate::report::writer::Findings as _;
 
-use super::draws::{MOST_THREADS, use_threads};
+use super::draws::use_threads;
 use super::interrupt::look_no_more;
 use super::options::ScenarioArgs;
 use super::progress::Progress;
@@ -60,10 +61,10 @@ pub struct Args {
     #[arg(long)]
     verify: bool,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", value_parser = threads())]
     threads: Option<u16>,
     /// Print one JSON object
     #[arg(long)]

@@ -7,6 +7,7 @@ use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
 
+use crate::choice::{seed, threads};
 use crate::page::trace::wavejson;
 use crate::record::Record;
 use crate::report::writer::print_list;
@@ -15,7 +16,7 @@ use crate::reproduce::study::Study;
 use crate::reproduce::table::{self, Item};
 use crate::reproduce::{finding, html, text};
 
-use super::draws::{MOST_THREADS, use_threads};
+use super::draws::use_threads;
 use super::interrupt::look_no_more;
 use super::terminal::{Talk, print_json, stop_signal};
 
@@ -44,10 +45,10 @@ pub struct Args {
     #[arg(long)]
     list: bool,
     /// Seed of every random stream
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = seed())]
     seed: u64,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", value_parser = threads())]
     threads: Option<u16>,
     /// Print one JSON object instead of tables
     #[arg(long)]

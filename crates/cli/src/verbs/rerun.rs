@@ -17,7 +17,7 @@ use super::terminal::{Talk, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
-const VERBS: [&str; 16] = [
+const VERBS: [&str; 17] = [
     "budget",
     "estimate",
     "quantize --explore",
@@ -33,6 +33,7 @@ const VERBS: [&str; 16] = [
     "spad",
     "sweep",
     "reproduce",
+    "report",
     BUDGET_ERRORS,
 ];
 /// Writes a file where the others write into a folder.
@@ -121,8 +122,9 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
     let folder = path.parent().unwrap_or(Path::new(""));
     // A logic analyser's formats have no room for it: the map beside has.
     let map = format!("{}.map.toml", path.file_stem().unwrap_or_default().to_string_lossy());
-    let beside = ["summary.json", "evaluation.json", "dataset.json", "ports.json", &map];
-    let found = beside.iter().find_map(|name| Record::find(&read(&folder.join(name)).ok()?));
+    let names = ["summary.json", "evaluation.json", "dataset.json", "ports.json", "report.json"];
+    let mut beside = names.into_iter().chain([map.as_str()]);
+    let found = beside.find_map(|name| Record::find(&read(&folder.join(name)).ok()?));
     found.ok_or_else(|| {
         let expected = "has no record of how it was made, nor has a summary beside it";
         Input::new(path.display(), expected).into()
@@ -194,8 +196,10 @@ fn without_folder(bytes: Vec<u8>) -> Vec<u8> {
         Err(fault) => return fault.into_bytes(),
     };
     // In keys that name files, the part of each text up to its last stroke.
-    let keys = Regex::new(r#""(?:waves|network|files)":(?:"[^"]*"|\[[^\]]*\])"#);
-    let folders = Regex::new(r#""[^"]*/"#);
+    let text_of_any = r#""(?:[^"\\]|\\.)*""#;
+    let list = format!(r"\[(?:{text_of_any}|[,\s])*\]");
+    let keys = Regex::new(&format!(r#""(?:waves|network|files)":(?:{text_of_any}|{list})"#));
+    let folders = Regex::new(r#""(?:[^"\\]|\\.)*/"#);
     let (Ok(keys), Ok(folders)) = (keys, folders) else { return text.into_bytes() };
     let name = |found: &Captures| folders.replace_all(&found[0], "\"").into_owned();
     keys.replace_all(&text, name).into_owned().into_bytes()

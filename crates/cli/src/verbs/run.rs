@@ -18,7 +18,7 @@ use tofsim::waves::{Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::notes::notes_of_firmware;
 use tofsim_learn::estimation::{EstimatorKind, Needs, Panel};
 
-use crate::choice::{self, Fidelity, WaveformChoice, words};
+use crate::choice::{self, Fidelity, WaveformChoice, seed, words};
 use crate::record::Record;
 use crate::report::frame_log::FrameLog;
 use crate::report::run_files::{RunFiles, Written};
@@ -47,7 +47,7 @@ pub struct Args {
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// How many frames to simulate; of dark and lit frames, how many pairs
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]

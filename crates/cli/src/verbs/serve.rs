@@ -5,8 +5,10 @@
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Input, Result, tell};
 use tofsim::sim::setup::Setup;
+
+use crate::choice::seed;
 
 use super::host::host;
 use super::options::ScenarioArgs;
@@ -29,7 +31,7 @@ pub struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// Simulation fidelity; the frames are the same
     #[arg(long, value_enum, default_value_t = Way::Cycle)]
@@ -68,10 +70,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     talk.heed(&setup.notes()?)?;
     let program = program()?;
     if !program.is_file() {
-        eprintln!(
+        tell(format_args!(
             "tofsim: {} is missing: build it with `cargo build --release -p {PROGRAM}`",
             program.display()
-        );
+        ));
         return Ok(ExitCode::FAILURE);
     }
     become_program(Command::new(&program).args(args.words(talk)))

@@ -7,17 +7,19 @@ use serde_json::{Value, json};
 use tofsim::Note;
 use tofsim::error::{Input, Result};
 use tofsim::files::digest::digest;
-use tofsim::files::output::{create_directory, write_bytes};
+use tofsim::files::folder::FolderLock;
+use tofsim::files::output::write_bytes;
 use tofsim::sim::setup::Setup;
 use tofsim_studies::sweep::Finished;
 use tofsim_studies::table::Row;
 use tofsim_studies::table::reader::TableReader;
 use tofsim_studies::{Plan, Shard, Sweep};
 
+use crate::choice::{seed, threads};
 use crate::record::Record;
 use crate::report::{sweep as report, sweep_plot};
 
-use super::draws::{MOST_THREADS, use_threads};
+use super::draws::use_threads;
 use super::terminal::{Talk, print_json, stop_signal};
 
 mod catalogue;
@@ -60,7 +62,7 @@ struct SweepArgs {
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random number, instead of the plan's
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// Work out one of N parts, every Nth point from the Ith on
     #[arg(long, value_name = "I/N", requires = "output")]
@@ -69,7 +71,7 @@ struct SweepArgs {
     #[arg(long, requires = "output")]
     restart: bool,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads())]
     threads: Option<u16>,
     /// Write the table there, as Parquet and CSV, and a picture if the plan has one
     #[arg(short, long, value_name = "DIR")]
@@ -134,7 +136,7 @@ impl SweepArgs {
             progress.finish_and_clear();
             return finished;
         };
-        create_directory(folder)?;
+        let _held = FolderLock::share(folder)?;
         if !self.restart && sweep.is_done(folder) {
             talk.note(format_args!("{} is there and whole", sweep.table(folder).display()));
             return read(sweep, folder);

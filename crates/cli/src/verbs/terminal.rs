@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use serde_json::Value;
 
 use tofsim::Note;
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Input, Result, tell};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 
@@ -78,7 +78,7 @@ impl Talk {
     /// Prints a message, unless `--quiet` is given.
     pub fn note(&self, text: impl std::fmt::Display) {
         if !self.quiet && (!self.within || self.verbose) {
-            eprintln!("{text}");
+            tell(text);
         }
     }
 
@@ -134,7 +134,7 @@ impl Talk {
     /// Prints a message if `--verbose` is given.
     pub fn detail(&self, text: impl std::fmt::Display) {
         if self.verbose {
-            eprintln!("{text}");
+            tell(text);
         }
     }
 

@@ -1,6 +1,10 @@
 //! Faults in the command line, with what the user wrote in them shortened.
 
-use clap::error::{ContextKind, ContextValue, Error};
+use std::error::Error as _;
+use std::num::{IntErrorKind, ParseFloatError, ParseIntError};
+
+use clap::Command;
+use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 
 use tofsim::error::shortened as short;
 
@@ -15,8 +19,37 @@ const TOLD: [ContextKind; 5] = [
     ContextKind::TrailingArg,
 ];
 
+/// Shortens what the command line has in a fault to a line, and says in words what was expected of a number.
+pub fn readable(fault: Error, command: &Command) -> Error {
+    let fault = shortened(fault);
+    let text = |kind| match fault.get(kind) {
+        Some(ContextValue::String(text)) => text.as_str(),
+        _ => "",
+    };
+    let (value, argument) = (text(ContextKind::InvalidValue), text(ContextKind::InvalidArg));
+    let Some(expected) = expected_number(&fault, value) else { return fault };
+    let message = format!("invalid value '{value}' for '{argument}': {expected}");
+    Error::raw(ErrorKind::ValueValidation, message + "\n").with_cmd(command)
+}
+
+/// Returns what was expected in the place of a number that cannot be read.
+fn expected_number(fault: &Error, value: &str) -> Option<&'static str> {
+    let source = fault.source()?;
+    if source.is::<ParseFloatError>() {
+        return Some("expected a number");
+    }
+    let number = value.parse::<f64>().ok();
+    Some(match source.downcast_ref::<ParseIntError>()?.kind() {
+        IntErrorKind::PosOverflow => "expected a smaller number",
+        IntErrorKind::NegOverflow => "expected a larger number",
+        _ if number.is_some_and(|number| number < 0.0) => "expected a whole number from 0",
+        _ if number.is_some() => "expected a whole number in digits alone, such as 1000000",
+        _ => "expected a whole number",
+    })
+}
+
 /// Shortens the command line in a fault to a line.
-pub fn shortened(mut fault: Error) -> Error {
+fn shortened(mut fault: Error) -> Error {
     for kind in TOLD {
         let value = match fault.get(kind) {
             Some(ContextValue::String(text)) => {

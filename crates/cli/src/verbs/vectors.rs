@@ -15,7 +15,7 @@ use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{Dut, RtlMap, Simulator, Task};
 
-use crate::choice::{self, words};
+use crate::choice::{self, seed, words};
 use crate::record::Record;
 
 use super::design::Design;
@@ -65,7 +65,7 @@ pub struct From {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     cycles: Option<u64>,
     /// Seed of the stimulus [default: the scenario's]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// Built-in scenario or file: network, chain and, for tof_top, what it runs
     #[arg(long, value_name = "NAME|FILE")]

@@ -3,7 +3,10 @@
 use std::fs;
 use std::process::Command;
 
-use crate::common::{device, json, refused, stdout};
+use tofsim::files::digest::digest;
+use tofsim::files::folder::FolderLock;
+
+use crate::common::{device, json, output, refused, stdout};
 
 use super::{same, sweep, with_plan};
 
@@ -62,11 +65,9 @@ fn what_is_there_is_not_done_again_and_another_plans_journal_is_not_gone_on_with
     assert_eq!(fs::metadata(&table).unwrap().modified().unwrap(), before);
     sweep(folder, &["-o", "out", "--restart"]);
     assert_ne!(fs::metadata(&table).unwrap().modified().unwrap(), before);
-    fs::write(
-        folder.join("out/sweep.journal"),
-        "{\"schema\":\"tofsim.sweep-journal/1\",\"about\":\"x\"}\n",
-    )
-    .unwrap();
+    let head = "{\"schema\":\"tofsim.sweep-journal/2\",\"about\":\"x\"}";
+    let journal = format!("{:016x} {head}\n", digest(0, head.as_bytes()));
+    fs::write(folder.join("out/sweep.journal"), journal).unwrap();
     let error = refused(folder, &["sweep", "plan.toml", "-o", "out", "--seed", "2"]);
     assert!(
         error.contains("out/sweep.journal: the sweep that was begun there is another"),
@@ -139,4 +140,56 @@ fn a_sweep_that_lost_its_csv_makes_it_again() {
     fs::remove_file(folder.join("two/sweep.csv")).unwrap();
     sweep(folder, &["-o", "two"]);
     same(folder, "one", "two");
+}
+
+#[test]
+fn a_changed_digit_of_a_journal_and_a_flipped_bit_of_a_shard_are_refused() {
+    let home = with_plan();
+    let folder = home.path();
+    // The table cannot be written, so that the journal stays.
+    fs::create_dir_all(folder.join("out/sweep.parquet")).unwrap();
+    assert_eq!(output(folder, &["sweep", "plan.toml", "-o", "out"]).status.code(), Some(2));
+    let path = folder.join("out/sweep.journal");
+    let journal = fs::read(&path).unwrap();
+    fs::remove_dir(folder.join("out/sweep.parquet")).unwrap();
+    let digits = journal.iter().enumerate().filter(|(_, byte)| byte.is_ascii_digit());
+    for (place, digit) in digits.step_by(999) {
+        let mut changed = journal.clone();
+        changed[place] = b'0' + (digit - b'0' + 1) % 10;
+        fs::write(&path, changed).unwrap();
+        let error = refused(folder, &["sweep", "plan.toml", "-o", "out"]);
+        assert!(error.contains("sweep.journal:") && error.contains("checksum"), "{error}");
+    }
+    fs::write(&path, &journal).unwrap();
+    sweep(folder, &["-o", "out"]);
+    for index in ["1/2", "2/2"] {
+        sweep(folder, &["-o", "s", "--shard", index]);
+    }
+    let path = folder.join("s/shard-2-of-2.parquet");
+    let shard = fs::read(&path).unwrap();
+    for k in 0..40 {
+        let place = (shard.len() - 1) * k / 39;
+        let mut changed = shard.clone();
+        changed[place] ^= 1 << (k % 8);
+        fs::write(&path, changed).unwrap();
+        // A flipped bit in the name of the checksum leaves all else as it is.
+        let merged = output(folder, &["sweep", "merge", "s", "-o", "m", "-q"]);
+        assert!(!merged.status.success() || shard[place..].starts_with(b"tofsim.crc32"), "{place}");
+    }
+    fs::write(&path, &shard).unwrap();
+    stdout(folder, &["sweep", "merge", "s", "-o", "m", "-q"]);
+    same(folder, "out", "m");
+}
+
+#[test]
+fn no_other_verb_writes_into_the_folder_of_a_sweep_and_shards_share_one() {
+    let home = with_plan();
+    let folder = home.path();
+    let _sweep = FolderLock::share(&folder.join("out")).unwrap();
+    let run = ["run", "--waves", "none", "-s", "firmware.shots_per_frame=40", "-o", "out"];
+    for args in [&run[..], &["evaluate", "--rows", "51", "-o", "out"]] {
+        let error = refused(folder, args);
+        assert!(error.contains("--output: out: another run is writing there"), "{error}");
+    }
+    sweep(folder, &["-o", "out", "--shard", "1/2"]);
 }

@@ -2,11 +2,9 @@
 //!
 //! CSV and `.npy` are read by [`histogram_file`]; here are Parquet files and folders with both.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
-use tofsim::error::{Error, Input, Result, read_text};
+use tofsim::error::{Input, Result, read_text};
 use tofsim::firmware::histogram_builder::Params;
 use tofsim::network::{Histogram, histogram_file};
 use tofsim::scenario::Scenario;
@@ -14,7 +12,8 @@ use tofsim::scenario::Scenario;
 use super::files::DESCRIPTION;
 use super::grid::Scene;
 use super::npy::numbers;
-use super::parquet_columns::{MAGIC, ParquetColumns};
+use super::parquet_columns::ParquetColumns;
+use super::parquet_input::is_parquet;
 
 /// Table, histograms and truth in the folder of a dataset.
 const FILES: [&str; 3] = ["dataset.parquet", "histograms.npy", "truth.npy"];
@@ -138,15 +137,17 @@ impl Labelled {
     }
 }
 
-fn is_parquet(path: &Path) -> Result<bool> {
-    let mut first = Vec::new();
-    let file = File::open(path).map_err(Error::io(path, "read"))?;
-    file.take(MAGIC.len() as u64).read_to_end(&mut first).map_err(Error::io(path, "read"))?;
-    Ok(first == MAGIC)
-}
-
-/// The counts of a table.
+/// The counts of a table, one row at least.
 fn counts(path: &Path, columns: &ParquetColumns, size: &Params) -> Result<Vec<Histogram>> {
+    let found = columns.names().iter().filter(|name| is_bin(name)).count();
+    if found > size.bins {
+        let expected = format!(
+            "expected {}, b0 to b{}: a column for each bin of the scenario's histogram",
+            size.bins,
+            size.last_bin()
+        );
+        return Err(Input::new(path.display(), expected).field("bins").value(found).into());
+    }
     let mut histograms: Vec<Histogram> = Vec::new();
     for bin in 0..size.bins {
         let name = format!("b{bin}");
@@ -164,6 +165,9 @@ fn counts(path: &Path, columns: &ParquetColumns, size: &Params) -> Result<Vec<Hi
             histogram[bin] = count;
         }
     }
+    if histograms.is_empty() {
+        return Err(Input::new(path.display(), "no rows; expected one histogram at least").into());
+    }
     for (row, histogram) in histograms.iter().enumerate() {
         let total: u64 = histogram.iter().map(|&count| u64::from(count)).sum();
         let most = size.most_hits();
@@ -174,6 +178,11 @@ fn counts(path: &Path, columns: &ParquetColumns, size: &Params) -> Result<Vec<Hi
         }
     }
     Ok(histograms)
+}
+
+/// Returns whether a column is named as that of a bin.
+fn is_bin(name: &str) -> bool {
+    name.strip_prefix('b').is_some_and(|number| number.parse::<u32>().is_ok())
 }
 
 /// A table with its truth.
@@ -216,9 +225,6 @@ fn labelled(
     truth: &[[f64; 3]],
     knows_light: bool,
 ) -> Result<Labelled> {
-    if histograms.is_empty() {
-        return Err(Input::new(path.display(), "expected one histogram at least").into());
-    }
     for (row, numbers) in truth.iter().enumerate() {
         if let Some((name, value)) =
             TRUTH.iter().zip(numbers).find(|(_, value)| !(0.0..=f64::MAX).contains(*value))

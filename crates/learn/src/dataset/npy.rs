@@ -3,14 +3,14 @@
 //! (n x 3 `f64`: distance [m], reflectance, irradiance [W/m^2/nm], and a column more for each other key of
 //! the grid) and `rows.npy` (n x 2 `u64`: row number and seed).
 
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
-use npyz::{DType, Deserialize, NpyFile, Order, TypeChar, WriteOptions, WriterBuilder};
+use npyz::{DType, Deserialize, Order, TypeChar, WriteOptions, WriterBuilder};
 
+use tofsim::error::open::open;
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::npy;
+use tofsim::files::npy::{self, NpyInput};
 use tofsim::files::output::OutputFile;
 
 use super::blocks::Sample;
@@ -76,10 +76,9 @@ fn header(file: &mut OutputFile, kind: &str, rows: u64, width: usize) -> io::Res
 /// The floats of an array of one or two dimensions, and how many there are in a row.
 pub(super) fn numbers(path: &Path) -> Result<(usize, Vec<f64>)> {
     let fault = |expected: String| Error::from(Input::new(path.display(), expected));
-    let mut file = std::io::BufReader::new(File::open(path).map_err(Error::io(path, "read"))?);
-    let header =
-        npy::header(&mut file).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
-    let width = match *header.shape() {
+    let file = npy::open(BufReader::new(open(path)?));
+    let file = file.map_err(|error| fault(format!("unreadable .npy: {error}")))?;
+    let width = match *file.shape() {
         [_] => 1,
         [_, width] if (1..=64).contains(&width) => width as usize,
         _ => {
@@ -88,14 +87,13 @@ pub(super) fn numbers(path: &Path) -> Result<(usize, Vec<f64>)> {
             ));
         }
     };
-    if header.order() == Order::Fortran && width > 1 {
+    if file.order() == Order::Fortran && width > 1 {
         return Err(fault("expected rows together (numpy.ascontiguousarray)".to_owned()));
     }
-    let size = match header.dtype() {
+    let size = match file.dtype() {
         DType::Plain(plain) if plain.type_char() == TypeChar::Float => plain.size_field(),
         _ => 0,
     };
-    let file = NpyFile::with_header(header, file);
     let all = match size {
         8 => floats::<f64>(file),
         4 => floats::<f32>(file),
@@ -105,7 +103,7 @@ pub(super) fn numbers(path: &Path) -> Result<(usize, Vec<f64>)> {
 }
 
 /// The floats after a header, one by one: it may promise more than there is.
-fn floats<T: Deserialize + Into<f64>>(file: NpyFile<impl Read>) -> io::Result<Vec<f64>> {
+fn floats<T: Deserialize + Into<f64>>(file: NpyInput<impl Read>) -> io::Result<Vec<f64>> {
     let values = file.data::<T>().map_err(io::Error::other)?;
     values.map(|value| Ok(value?.into())).collect()
 }

@@ -1,7 +1,6 @@
 //! Columns of numbers from a Parquet file, of any of its number types.
 
 use std::fs::File;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -10,8 +9,8 @@ use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use tofsim::error::{Error, Input, Result};
 
-/// First bytes of a Parquet file.
-pub const MAGIC: &[u8; 4] = b"PAR1";
+use super::parquet_input::{damaged, guarded, open};
+
 /// Values read at a time.
 const CHUNK: usize = 1 << 14;
 
@@ -27,13 +26,8 @@ impl<'a> ParquetColumns<'a> {
     /// # Errors
     /// When it is damaged, or `read` fails.
     pub fn with<T>(path: &'a Path, read: impl FnOnce(&Self) -> Result<T>) -> Result<T> {
-        let file = File::open(path).map_err(Error::io(path, "read"))?;
-        // Where the library panics over a damaged file after all, that is an error too.
-        let read = catch_unwind(AssertUnwindSafe(|| {
-            let file = SerializedFileReader::new(file).map_err(|error| damaged(path, error))?;
-            read(&ParquetColumns { path, file })
-        }));
-        read.unwrap_or_else(|_| Err(damaged(path, "its pages are not as its header says")))
+        let file = open(path)?;
+        guarded(path, || read(&ParquetColumns { path, file }))
     }
 
     /// Names of the columns, in order.
@@ -51,11 +45,18 @@ impl<'a> ParquetColumns<'a> {
     /// The numbers of a column, row by row.
     ///
     /// # Errors
-    /// When there is no such column, it is none of numbers, or one is missing.
+    /// When there is no such column, or more than one, it is none of numbers, or one is missing.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>> {
-        let Some(place) = self.names().iter().position(|known| known == name) else {
-            let missing = Input::new(self.path.display(), "missing, expected numbers");
-            return Err(missing.field(format!("column {name}")).into());
+        let names = self.names();
+        let mut places = (0..names.len()).filter(|&place| names[place] == name);
+        let place = match (places.next(), places.next()) {
+            (Some(place), None) => place,
+            (found, _) => {
+                let expected =
+                    if found.is_none() { "missing, expected numbers" } else { "there twice" };
+                let fault = Input::new(self.path.display(), expected);
+                return Err(fault.field(format!("column {name}")).into());
+            }
         };
         let column = self.file.metadata().file_metadata().schema_descr().column(place);
         if column.max_rep_level() > 0 || column.max_def_level() > 1 {
@@ -123,8 +124,4 @@ impl<'a> ParquetColumns<'a> {
         let expected = "expected a column of whole numbers or floats, one a row";
         Input::new(self.path.display(), expected).field(format!("column {name}")).into()
     }
-}
-
-fn damaged(path: &Path, error: impl std::fmt::Display) -> Error {
-    Input::new(path.display(), format!("unreadable Parquet: {error}")).into()
 }

@@ -5,10 +5,12 @@
 //! settings and give weights for raw counts and metres. The length of `b1` is the number of neurons.
 
 mod arrays;
+mod elements;
 mod json;
 mod mat;
 mod npy;
 mod unpack;
+mod widen;
 
 use std::path::Path;
 

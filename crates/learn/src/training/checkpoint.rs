@@ -1,5 +1,5 @@
 //! Checkpoints: a training's state in a file, every number to the bit, and the settings it belongs
-//! to.
+//! to. The last line is a checksum of the others.
 
 use std::collections::BTreeMap;
 use std::io::{ErrorKind, Write};
@@ -8,6 +8,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use tofsim::error::{Error, Input, Result, read_text};
+use tofsim::files::digest::digest;
 use tofsim::files::output::write_file;
 use tofsim::files::toml::Checked;
 
@@ -18,7 +19,9 @@ use super::state::TournamentState;
 use super::sums::parameters;
 
 /// Value of the key `schema`.
-const SCHEMA: &str = "tofsim.checkpoint/1";
+const SCHEMA: &str = "tofsim.checkpoint/2";
+/// Begins the line with the checksum.
+const SUM: &str = "# checksum ";
 
 /// Settings by name; a checkpoint is for these alone.
 pub type CheckpointSettings = BTreeMap<String, String>;
@@ -51,13 +54,18 @@ pub fn save(path: &Path, of: &CheckpointOf, state: &TournamentState) -> Result<(
     let (schema, state) = (SCHEMA.to_owned(), state.clone());
     let text = toml::to_string(&Checkpoint { schema, options: Some(options), settings, state });
     let text = text.map_err(|error| Input::new(path.display(), error))?;
-    write_file(path, |file| file.write_all(text.as_bytes()))
+    write_file(path, |file| file.write_all(with_checksum(&text).as_bytes()))
+}
+
+/// Adds the line with the checksum.
+fn with_checksum(text: &str) -> String {
+    format!("{text}{SUM}{:016x}\n", digest(0, text.as_bytes()))
 }
 
 /// Reads a state.
 ///
 /// # Errors
-/// When the file cannot be read or is no checkpoint, is one of another version or of other
+/// When the file cannot be read or is no checkpoint, does not match its checksum, is one of another version or of other
 /// settings, or does not fit the recipe.
 pub fn load(path: &Path, of: &CheckpointOf, recipe: &Recipe) -> Result<TournamentState> {
     if std::fs::metadata(path).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
@@ -77,9 +85,15 @@ pub fn load(path: &Path, of: &CheckpointOf, recipe: &Recipe) -> Result<Tournamen
     let checked = Checked::syntax(&name.to_string(), &text).map_err(no_checkpoint)?;
     let schema = checked.table().get("schema").and_then(|schema| schema.as_str());
     if schema != Some(SCHEMA) {
-        let expected = format!("expected \"{SCHEMA}\"");
+        let expected = format!("expected \"{SCHEMA}\"; without --resume the training begins anew");
         let fault = Input::new(&name, expected).field("schema");
         return Err(fault.value(schema.unwrap_or_default()).into());
+    }
+    let end = text.rfind(SUM).unwrap_or(text.len());
+    if with_checksum(&text[..end]) != text {
+        let expected = "damaged: does not match its checksum; expected the checkpoint as the training left it; \
+            without --resume the training begins anew";
+        return Err(Input::new(&name, expected).into());
     }
     let checkpoint: Checkpoint = checked.read().map_err(no_checkpoint)?;
     for key in of.settings.keys().chain(checkpoint.settings.keys()) {
@@ -234,13 +248,17 @@ mod tests {
             "{error}"
         );
         let text = std::fs::read_to_string(&path).unwrap();
-        std::fs::write(&path, text.replacen("checkpoint/1", "checkpoint/0", 1)).unwrap();
-        assert!(fault("1").contains("schema = tofsim.checkpoint/0: expected"));
-        std::fs::write(&path, text.replacen("epochs = 3", "epochs = 6", 1)).unwrap();
+        let state_text = &text[..text.rfind(SUM).unwrap()];
+        let change = |from: &str, to: &str| {
+            std::fs::write(&path, with_checksum(&state_text.replacen(from, to, 1))).unwrap();
+        };
+        change("checkpoint/2", "checkpoint/1");
+        assert!(fault("1").contains("schema = tofsim.checkpoint/1: expected"));
+        change("epochs = 3", "epochs = 6");
         assert!(fault("1").contains("state.epochs: does not fit the recipe"));
-        std::fs::write(&path, text.replacen("start = 0", "start = x", 1)).unwrap();
+        change("start = 0", "start = x");
         assert!(fault("1").contains("no checkpoint"));
-        std::fs::write(&path, text.replacen("made = 2", "made = 99", 1)).unwrap();
+        change("made = 2", "made = 99");
         assert!(fault("1").contains("state.candidates.made: does not fit the recipe"));
         let mut short = state(&recipe);
         short.candidates[1].lm.least = Some((0.5, vec![0.1]));
@@ -250,6 +268,24 @@ mod tests {
         assert!(fault("1").contains("schema"));
         std::fs::remove_file(&path).unwrap();
         assert!(fault("1").contains("no checkpoint there; expected the folder (-o)"));
+    }
+
+    #[test]
+    fn every_changed_digit_is_noticed() {
+        let (recipe, folder) = (Recipe::quick(), tempfile::tempdir().unwrap());
+        let path = folder.path().join("checkpoint");
+        save(&path, &of("1"), &state(&recipe)).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let digits = text.bytes().enumerate().filter(|(_, byte)| byte.is_ascii_digit());
+        for (place, digit) in digits.step_by(401) {
+            let mut changed = text.clone().into_bytes();
+            changed[place] = b'0' + (digit - b'0' + 1) % 10;
+            std::fs::write(&path, changed).unwrap();
+            assert!(load(&path, &of("1"), &recipe).is_err(), "byte {place}");
+        }
+        std::fs::write(&path, &text[..text.rfind(SUM).unwrap()]).unwrap();
+        let error = load(&path, &of("1"), &recipe).unwrap_err().to_string();
+        assert!(error.contains("does not match its checksum"), "{error}");
     }
 
     #[test]

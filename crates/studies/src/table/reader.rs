@@ -1,16 +1,15 @@
 //! Reader of a sweep's Parquet table, row by row.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use parquet::basic::Type;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::FileReader;
 use parquet::record::Field as Value;
 use parquet::record::reader::RowIter;
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::Result;
+use tofsim_learn::dataset::parquet_input::{damaged, guarded, open};
 
 use super::{Cell, Field, Kind, Row};
 
@@ -32,10 +31,8 @@ impl TableReader {
     /// # Errors
     /// If it cannot be read, or is not the table of a sweep.
     pub fn open(path: &Path) -> Result<Self> {
-        let file = File::open(path).map_err(Error::io(path, "read"))?;
-        // Where the library panics over a damaged file, that is an error too.
-        let opened = catch_unwind(AssertUnwindSafe(|| {
-            let file = SerializedFileReader::new(file).map_err(|error| damaged(path, error))?;
+        let file = open(path)?;
+        guarded(path, || {
             let about = file.metadata().file_metadata();
             let values = about.key_value_metadata().into_iter().flatten();
             let metadata =
@@ -54,8 +51,7 @@ impl TableReader {
             let count = about.num_rows().max(0) as u64;
             let rows = RowIter::from_file_into(Box::new(file));
             Ok(TableReader { path: path.to_owned(), metadata, fields, count, rows })
-        }));
-        opened.unwrap_or_else(|_| Err(damaged(path, "its pages are not as its header says")))
+        })
     }
 
     /// Reads the next row; returns `None` at the end.
@@ -64,9 +60,7 @@ impl TableReader {
     /// If the file is damaged.
     pub fn next_row(&mut self) -> Result<Option<Row>> {
         let rows = &mut self.rows;
-        let next = catch_unwind(AssertUnwindSafe(|| rows.next()));
-        let next = next.map_err(|_| damaged(&self.path, "its pages are not as its header says"))?;
-        let Some(row) = next else { return Ok(None) };
+        let Some(row) = guarded(&self.path, || Ok(rows.next()))? else { return Ok(None) };
         let row = row.map_err(|error| damaged(&self.path, error))?;
         let cell = |(_, value): (&String, &Value)| match value {
             Value::Null => Ok(Cell::None),
@@ -81,9 +75,4 @@ impl TableReader {
             _ => Err(damaged(&self.path, "a row without its point")),
         }
     }
-}
-
-/// Creates the error for a damaged file.
-pub fn damaged(path: &Path, error: impl std::fmt::Display) -> Error {
-    Input::new(path.display(), format!("unreadable Parquet: {error}")).into()
 }

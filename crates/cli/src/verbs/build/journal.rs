@@ -1,11 +1,13 @@
-//! Journal of a build's folder: `build.json`.
+//! Journal of a build's folder: `build.json`, with a checksum.
 
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use tofsim::error::open::open_file;
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::digest::digest;
 use tofsim::files::output::write_bytes;
@@ -21,6 +23,8 @@ const SCHEMA: &str = "tofsim.build/1";
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Journal {
     schema: String,
+    /// Digest of the steps; none if an older tofsim wrote the file.
+    checksum: Option<String>,
     /// Steps by their names.
     pub steps: BTreeMap<String, StepRecord>,
 }
@@ -41,8 +45,14 @@ pub struct StepRecord {
 }
 
 fn digest_of_file(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(Error::io(path, "read"))?;
+    let mut bytes = Vec::new();
+    open_file(path)?.read_to_end(&mut bytes).map_err(Error::io(path, "read"))?;
     Ok(format!("{:016x}", digest(0, &bytes)))
+}
+
+fn checksum(steps: &BTreeMap<String, StepRecord>) -> Result<String> {
+    let text = serde_json::to_string(steps).map_err(|error| Input::new(FILE, error))?;
+    Ok(format!("{:016x}", digest(0, text.as_bytes())))
 }
 
 impl StepRecord {
@@ -84,16 +94,22 @@ impl Journal {
     /// Reads the journal of the current folder, or creates an empty one.
     ///
     /// # Errors
-    /// When the file cannot be read, or is no such journal.
+    /// When the file cannot be read, is no such journal, or does not match its checksum.
     pub fn read() -> Result<Self> {
         let path = Path::new(FILE);
         if !path.exists() {
-            return Ok(Journal { schema: SCHEMA.to_owned(), steps: BTreeMap::new() });
+            let (schema, steps) = (SCHEMA.to_owned(), BTreeMap::new());
+            return Ok(Journal { schema, checksum: None, steps });
         }
         let journal: Option<Journal> = serde_json::from_str(&read_text(path)?).ok();
-        journal.filter(|journal| journal.schema == SCHEMA).ok_or_else(|| {
-            Input::new(FILE, "expected what a build leaves; remove it to begin anew").into()
-        })
+        let journal = journal.filter(|journal| journal.schema == SCHEMA).ok_or_else(|| {
+            Input::new(FILE, "expected what a build leaves; remove it to begin anew")
+        })?;
+        if journal.checksum.is_some() && journal.checksum != Some(checksum(&journal.steps)?) {
+            let expected = "damaged: does not match its checksum; remove it to begin anew";
+            return Err(Input::new(FILE, expected).into());
+        }
+        Ok(journal)
     }
 
     /// Keeps what came of a step.
@@ -102,6 +118,7 @@ impl Journal {
     /// When it cannot be written.
     pub fn put(&mut self, step: Step, record: StepRecord) -> Result<()> {
         self.steps.insert(step.name().to_owned(), record);
+        self.checksum = Some(checksum(&self.steps)?);
         let text = serde_json::to_string_pretty(self).map_err(|error| Input::new(FILE, error))?;
         write_bytes(Path::new(FILE), text + "\n")
     }

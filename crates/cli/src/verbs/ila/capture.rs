@@ -15,7 +15,7 @@ use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::export::{CaptureFormat, export};
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, capture};
 
-use crate::choice::{self, words};
+use crate::choice::{self, seed, words};
 use crate::record::Record;
 use crate::report::writer::{Findings, Report};
 use crate::text::table::facts;
@@ -49,7 +49,7 @@ pub struct Args {
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// How many frames to simulate at most [default: as the set-up says]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]

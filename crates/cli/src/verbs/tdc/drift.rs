@@ -10,11 +10,11 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::drift::{Drift, Plan};
 use tofsim_learn::estimation::EstimatorKind;
 
-use crate::choice::words;
+use crate::choice::{seed, threads, words};
 use crate::report::tdc_drift::DriftFindings;
 use crate::report::writer::Report;
 
-use crate::verbs::draws::{MOST_THREADS, use_threads};
+use crate::verbs::draws::use_threads;
 use crate::verbs::options::{ResultArgs, ScenarioArgs};
 use crate::verbs::terminal::{Talk, stop_signal};
 
@@ -55,10 +55,10 @@ pub struct Args {
     #[arg(long, value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", value_parser = threads())]
     threads: Option<u16>,
     #[command(flatten)]
     result: ResultArgs,

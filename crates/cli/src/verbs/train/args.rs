@@ -9,7 +9,7 @@ use tofsim::scenario::builtin::Source;
 use tofsim::scenario::{self, Loaded};
 use tofsim_learn::training::recipe::Recipe;
 
-use crate::verbs::draws::MOST_THREADS;
+use crate::choice::{seed, threads};
 use crate::verbs::formats::Formats;
 
 /// Train a depth network on simulated histograms, within the thesis's number formats or others
@@ -37,7 +37,7 @@ pub struct Args {
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) profile: Option<String>,
     /// Seed of data and starts
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = seed())]
     pub(super) seed: u64,
     /// Scenes to train for: thesis, KEY=FROM..TO:STEP or KEY=A,B,C of any numeric key of the scenario (may be
     /// repeated; what none has is the scenario's), or a TOML file of those [default: thesis]
@@ -77,7 +77,7 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) checkpoints: Option<u64>,
     /// Threads; the network is the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", value_parser = threads())]
     pub(super) threads: Option<u16>,
     /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there
     #[arg(short, long, value_name = "DIR", default_value = "training")]

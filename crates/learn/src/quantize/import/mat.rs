@@ -23,23 +23,34 @@ pub(super) fn read(path: &Path) -> Result<Arrays> {
     })?;
     let mut arrays = Arrays::new(path.display());
     for array in mat.arrays() {
-        let Some(values) = numbers(array.data()) else { continue };
+        let values = numbers(array.data());
+        let values = values
+            .ok_or_else(|| arrays.fault(array.name(), "expected real numbers, not complex ones"))?;
         arrays.put(array.name(), array.size().to_vec(), rows_first(array.size(), values));
     }
     Ok(arrays)
 }
 
-/// The values of a real array.
+/// The values of a real array, `None` if it is complex.
 fn numbers(data: &NumericData) -> Option<Vec<f64>> {
+    use NumericData::*;
     match data {
-        NumericData::Double { real, imag: None } => Some(real.clone()),
-        NumericData::Single { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
-        NumericData::UInt8 { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
-        NumericData::Int16 { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
-        NumericData::UInt16 { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
-        NumericData::Int32 { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
+        Double { real, imag: None } => Some(real.clone()),
+        Single { real, imag: None } => Some(floats(real)),
+        Int8 { real, imag: None } => Some(floats(real)),
+        UInt8 { real, imag: None } => Some(floats(real)),
+        Int16 { real, imag: None } => Some(floats(real)),
+        UInt16 { real, imag: None } => Some(floats(real)),
+        Int32 { real, imag: None } => Some(floats(real)),
+        UInt32 { real, imag: None } => Some(floats(real)),
+        Int64 { real, imag: None } => Some(real.iter().map(|&value| value as f64).collect()),
+        UInt64 { real, imag: None } => Some(real.iter().map(|&value| value as f64).collect()),
         _ => None,
     }
+}
+
+fn floats<T: Copy + Into<f64>>(values: &[T]) -> Vec<f64> {
+    values.iter().map(|&value| value.into()).collect()
 }
 
 /// MATLAB has the first index fastest.

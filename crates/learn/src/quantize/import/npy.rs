@@ -4,7 +4,7 @@ use std::fs;
 use std::io::BufReader;
 use std::path::Path;
 
-use npyz::{DType, NpyFile, Order, TypeChar};
+use npyz::{DType, Order, TypeChar};
 
 use tofsim::error::open::open_file;
 use tofsim::error::{Error, Input, Result};
@@ -33,10 +33,8 @@ pub(super) fn read(folder: &Path) -> Result<Arrays> {
 fn array(path: &Path) -> Result<(Vec<usize>, Vec<f64>)> {
     let file = open_file(path)?;
     let fault = |expected: String| Error::from(Input::new(path.display(), expected));
-    let mut reader = BufReader::new(file);
-    let header = npy::header(&mut reader);
-    let header = header.map_err(|error| fault(format!("unreadable .npy: {error}")))?;
-    let npy = NpyFile::with_header(header, reader);
+    let npy = npy::open(BufReader::new(file));
+    let npy = npy.map_err(|error| fault(format!("unreadable .npy: {error}")))?;
     let shape = npy.shape().to_vec();
     let count = shape.iter().try_fold(1u64, |count, &len| count.checked_mul(len));
     if count.is_none_or(|count| count > LARGEST) {
@@ -53,6 +51,6 @@ fn array(path: &Path) -> Result<(Vec<usize>, Vec<f64>)> {
         _ if real => npy.into_vec::<f64>(),
         other => return Err(fault(format!("{}: expected f4 or f8", other.descr()))),
     };
-    let values = values.map_err(|error| fault(error.to_string()))?;
+    let values = values.map_err(|error| fault(format!("unreadable .npy: {error}")))?;
     Ok((shape.iter().map(|&len| len as usize).collect(), values))
 }

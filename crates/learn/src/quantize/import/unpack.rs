@@ -1,15 +1,17 @@
 //! The compressed parts of a MATLAB file, unpacked with a bound: the library that reads such files
-//! unpacks whatever there is, and a thousandth of a gigabyte of zeros is a small file.
+//! unpacks whatever there is, and a thousandth of a gigabyte of zeros is a small file. Whole numbers are widened on the
+//! way.
 
 use miniz_oxide::inflate::TINFLStatus;
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
+
+use super::elements::{ByteOrder, TAG, tag};
+use super::widen::widened;
 
 /// Most that a file may hold, unpacked [bytes].
 pub(super) const LARGEST: usize = 64 << 20;
 /// Bytes before the first element.
 const HEADER: usize = 128;
-/// Bytes of an element's type and length.
-const TAG: usize = 8;
 /// Type of an element that is another one, compressed.
 const COMPRESSED: u32 = 15;
 
@@ -28,15 +30,14 @@ pub(super) fn unpacked(file: &[u8]) -> Result<Vec<u8>, String> {
     let Some((header, mut rest)) = file.split_at_checked(HEADER) else {
         return Ok(file.to_vec());
     };
-    let word: fn([u8; 4]) -> u32 =
-        if header.ends_with(b"MI") { u32::from_be_bytes } else { u32::from_le_bytes };
+    let order = if header.ends_with(b"MI") { ByteOrder::Big } else { ByteOrder::Little };
     let mut whole = header.to_vec();
-    while let Some((kind, length)) = tag(rest, word) {
+    while let Some((kind, length)) = tag(rest, order) {
         let (element, after) = rest.split_at(rest.len().min(TAG + length));
         if kind != COMPRESSED {
             // Aligned by the padding that stands there, too.
             let (element, after) = rest.split_at(rest.len().min(TAG + length.next_multiple_of(8)));
-            whole.extend_from_slice(element);
+            whole.append(&mut widened(element, order));
             rest = after;
             continue;
         }
@@ -46,21 +47,15 @@ pub(super) fn unpacked(file: &[u8]) -> Result<Vec<u8>, String> {
             TINFLStatus::HasMoreOutput => too_large(),
             status => format!("a compressed part cannot be unpacked ({status:?})"),
         })?;
-        if tag(&inner, word).is_none_or(|(kind, _)| kind == COMPRESSED) {
+        if tag(&inner, order).is_none_or(|(kind, _)| kind == COMPRESSED) {
             return Err("a compressed part holds no array".to_owned());
         }
         inner.resize(inner.len().next_multiple_of(8), 0);
-        whole.append(&mut inner);
+        whole.append(&mut widened(&inner, order));
         rest = after;
     }
     whole.extend_from_slice(rest);
     Ok(whole)
-}
-
-/// Type and length of the element that begins here.
-fn tag(bytes: &[u8], word: fn([u8; 4]) -> u32) -> Option<(u32, usize)> {
-    let (kind, rest) = bytes.split_first_chunk()?;
-    Some((word(*kind), word(*rest.first_chunk()?) as usize))
 }
 
 #[cfg(test)]

@@ -14,6 +14,8 @@ const MOST_CHOICE: u64 = 5;
 const LEAST_KNOTS: usize = 15;
 /// See [`LEAST_KNOTS`].
 const MOST_KNOTS: usize = 1031;
+/// Most candidates of a stage, which are in memory together.
+const MOST_CANDIDATES: usize = 1 << 16;
 /// Distances of the training grid; below that, some would be left out.
 const LEAST_SAMPLES: u64 = 201;
 
@@ -77,6 +79,8 @@ impl Recipe {
             let Stage { candidates, epochs, samples } = self.stage(place);
             let field = format!("{name}.candidates");
             at_least(&field, candidates as u64, 1)?;
+            let expected = format!("expected {MOST_CANDIDATES} at most");
+            ensure(candidates <= MOST_CANDIDATES, &field, candidates, expected)?;
             at_least(&format!("{name}.epochs"), epochs, 1)?;
             at_least(&format!("{name}.samples"), samples, LEAST_SAMPLES)?;
             let expected = format!("expected {before} at most, as in the stage before");

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use tofsim::error::{Input, Result};
+use tofsim::error::{Input, Result, read_bytes};
 
 use super::scan::Scan;
 use super::source::Source;
@@ -57,7 +57,7 @@ impl Included {
             let found = folders.map(|folder| folder.join(name)).find(|path| path.is_file());
             let Some(path) = found else { continue };
             if self.files.insert(path.clone())
-                && let Ok(bytes) = std::fs::read(&path)
+                && let Ok(bytes) = read_bytes(&path)
             {
                 self.add(tree, &path, &Scan::verilog(&String::from_utf8_lossy(&bytes)));
             }

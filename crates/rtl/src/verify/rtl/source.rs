@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Error, Result, read_bytes};
 
 use super::scan::Scan;
 use super::search;
@@ -24,9 +24,8 @@ impl Source {
     /// # Errors
     /// When it cannot be read.
     pub fn read(path: &Path, found: bool) -> Result<Self> {
-        let fault = || Error::io(path, "read");
-        let path = path.canonicalize().map_err(fault())?;
-        let bytes = std::fs::read(&path).map_err(fault())?;
+        let path = path.canonicalize().map_err(Error::io(path, "read"))?;
+        let bytes = read_bytes(&path)?;
         let text = String::from_utf8_lossy(&bytes);
         let mut source = Source { path, scan: Scan::default(), found };
         source.scan = if source.is_vhdl() { Scan::vhdl(&text) } else { Scan::verilog(&text) };
