@@ -60,8 +60,27 @@ fn unwrapped(file: &mut Bytes) -> Checked<Vec<u8>> {
     gzip_prefix(&file.range(1 + 2 * LENGTH, packed)?, size, "size of the packed file")
 }
 
-/// Checks a file, and returns its end time and its pieces for the library.
-pub(super) fn check(file: &mut Bytes) -> Checked<(Option<u64>, Vec<Piece>)> {
+/// Contents of a file.
+pub(super) struct Contents {
+    /// End time, in ticks.
+    pub(super) end: Option<u64>,
+    /// The file as the library sees it.
+    pub(super) pieces: Vec<Piece>,
+    sections: Vec<Section>,
+}
+
+impl Contents {
+    /// Returns the first part that cannot be unpacked; `name` is the name of a signal by index.
+    pub(super) fn fault(&self, file: &mut Bytes, name: impl Fn(usize) -> String) -> Option<Fault> {
+        self.sections.iter().find_map(|section| {
+            let block = format!("block at byte {}", section.begin - 1);
+            Some(section.unpack(file, &name).err()?.within(&block))
+        })
+    }
+}
+
+/// Checks a file, and returns its contents.
+pub(super) fn check(file: &mut Bytes) -> Checked<Contents> {
     let whole = file.length()?;
     let (mut end, mut signals) = (None, None);
     let (mut sections, mut hierarchies) = (Vec::new(), Vec::new());
@@ -111,11 +130,11 @@ pub(super) fn check(file: &mut Bytes) -> Checked<(Option<u64>, Vec<Piece>)> {
     if !pieces.is_empty() {
         pieces.push(Piece::Kept(kept..u64::MAX));
     }
-    for section in sections {
+    for section in &sections {
         let block = format!("block at byte {}", section.begin - 1);
         section.check(file, signals).map_err(|fault| fault.within(&block))?;
     }
-    Ok((end, pieces))
+    Ok(Contents { end, pieces, sections })
 }
 
 /// Parses the end time in the header.

@@ -22,6 +22,7 @@ use super::locate::located;
 use super::marks::{Marking, Style};
 use super::names::Name;
 use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, WIDEST, Words};
+use super::span::Fault;
 use super::spliced::{Piece, Spliced};
 use super::stream::{Cursor, Disconnected, Feed};
 use super::tick::Tick;
@@ -51,7 +52,10 @@ fn open(path: &Path, pieces: &Arc<[Piece]>) -> Result<StreamingWaveform<Bytes>> 
 pub(super) fn source(path: &Path, format: SourceFormat) -> Result<Source> {
     let mut file = fst::open(path)?;
     let (end, pieces) = match format {
-        SourceFormat::Fst => fst::check(&mut file).map_err(|fault| fault.of_file(path))?,
+        SourceFormat::Fst => {
+            let contents = fst::check(&mut file).map_err(|fault| fault.of_file(path))?;
+            (contents.end, contents.pieces)
+        }
         // Time stamps are looked for in text alone: packed bytes may look like some.
         _ => {
             let Body { end, texts } = body(path)?;
@@ -60,14 +64,33 @@ pub(super) fn source(path: &Path, format: SourceFormat) -> Result<Source> {
     };
     let pieces = Arc::from(pieces);
     let opened = guarded(&path.display().to_string(), || open(path, &pieces));
-    let wave = opened.map_err(|error| at_line(path, format, error))?;
+    let wave = opened.map_err(|error| at_place(path, format, error))?;
     let source = described(path, format, wave.hierarchy(), pieces)?;
     Ok(if source.is_capture() { source } else { Source { end, ..source } })
 }
 
-/// Adds the line to an error about a VCD.
-fn at_line(path: &Path, format: SourceFormat, error: Error) -> Error {
-    if format == SourceFormat::Vcd { located(path, error) } else { error }
+/// Adds line or byte, and signal, to an error about a file that the library cannot read.
+fn at_place(path: &Path, format: SourceFormat, error: Error) -> Error {
+    match format {
+        SourceFormat::Vcd => located(path, error),
+        _ => fst_fault(path).map_or(error, |fault| fault.of_file(path)),
+    }
+}
+
+/// Returns the first part of an FST file that cannot be unpacked.
+fn fst_fault(path: &Path) -> Option<Fault> {
+    let mut file = fst::open(path).ok()?;
+    let contents = fst::check(&mut file).ok()?;
+    let pieces = contents.pieces.clone().into();
+    let wave = guarded("", || open(path, &pieces)).ok();
+    contents.fault(&mut file, |index| {
+        let hierarchy = wave.as_ref().map(StreamingWaveform::hierarchy);
+        let name = hierarchy.and_then(|hierarchy| {
+            let mut vars = hierarchy.all_vars().map(|var| &hierarchy[var]);
+            Some(vars.find(|var| var.signal_ref().index() == index)?.full_name(hierarchy))
+        });
+        name.unwrap_or_else(|| format!("signal {index}"))
+    })
 }
 
 fn described(
@@ -138,7 +161,7 @@ impl signals::Origin for WaveOrigin {
         Ok(Cursor::spawn(widths, move |feed| {
             let source = origin.path.display().to_string();
             let result = guarded(&source, || stream(&origin, &references, feed));
-            result.map_err(|error| at_line(&origin.path, origin.format, error))
+            result.map_err(|error| at_place(&origin.path, origin.format, error))
         }))
     }
 }

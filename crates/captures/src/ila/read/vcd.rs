@@ -41,7 +41,7 @@ impl Vcd {
             let fault = |expected: &str| Input::new(source, expected).at(number, 1).value(line);
             let mut words = line.split_ascii_whitespace();
             match words.next() {
-                Some("$enddefinitions") if words.eq(["$end"]) => break,
+                Some("$enddefinitions") if words.clone().eq(["$end"]) => break,
                 Some("$enddefinitions") => {
                     return Err(
                         fault("expected `$enddefinitions $end` on a line of its own").into()
