@@ -5,6 +5,7 @@
 
 mod changes;
 mod names;
+mod range;
 mod types;
 
 use std::collections::HashMap;
@@ -130,14 +131,8 @@ fn header(file: &mut Span) -> Checked<Header> {
             b"EOH\0" => return Ok(header),
             _ => Err(Fault::of("name", "expected STR, TYP, WKT, HIE or EOH")),
         };
-        parsed.map_err(|fault| fault.within(&section(name, place)))?;
+        parsed.map_err(|fault| fault.within_section(name, place))?;
     }
-}
-
-/// Returns the name of a section for errors.
-fn section(name: &[u8], place: usize) -> String {
-    let name = String::from_utf8_lossy(name).trim_end_matches('\0').to_owned();
-    format!("section {name} at byte {place}")
 }
 
 fn known(file: &mut Span) -> Checked<()> {

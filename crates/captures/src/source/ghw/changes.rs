@@ -43,7 +43,7 @@ pub(super) fn read(
             b"TAI\0" => Ok(false),
             _ => Err(Fault::of("name", "expected SNP, CYC, DIR or TAI")),
         };
-        if !goes_on.map_err(|fault| fault.within(&super::section(name, place)))? {
+        if !goes_on.map_err(|fault| fault.within_section(name, place))? {
             return Ok(reader.last);
         }
     }

@@ -2,23 +2,24 @@
 
 use super::super::signals::WIDEST;
 use super::super::span::{Checked, Fault, Span, at_most};
-use super::types::{Dimensions, Form, Range, Scalar, Types, string};
+use super::range::Range;
+use super::types::{Dimensions, Form, Scalar, Types, string};
 
 /// Limit of the total length of all strings, which share prefixes [characters].
 const CHARACTERS: u64 = 1 << 27;
 
 /// A name, and the file's signals that it stands for, highest bit first.
 #[derive(Clone, Debug)]
-pub(in super::super) struct Variable {
+pub(super) struct Variable {
     /// Name with all scopes.
-    pub(in super::super) name: String,
+    pub(super) name: String,
     /// Numbers of the file's signals, from 1.
-    pub(in super::super) signals: Vec<u32>,
+    pub(super) signals: Vec<u32>,
     pub(super) scalar: Scalar,
     /// Index of the lowest bit.
-    pub(in super::super) lsb: i64,
+    pub(super) lsb: i64,
     /// Strings of the literals of an enumeration.
-    pub(in super::super) literals: Vec<usize>,
+    pub(super) literals: Vec<usize>,
 }
 
 /// Parses the section of strings; the first of them is empty.

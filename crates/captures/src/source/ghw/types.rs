@@ -1,6 +1,7 @@
 //! Types of a GHW file: what determines names, widths and encodings of its signals.
 
 use super::super::span::{Checked, Fault, Span, at_most};
+use super::range::Range;
 
 /// Largest nesting depth of types.
 const DEEPEST: u32 = 256;
@@ -26,29 +27,6 @@ impl Scalar {
     /// Returns whether an array of it is a vector of bits; `bit` is a literal of one bit.
     fn is_bit(self, literals: &[usize]) -> bool {
         self == Scalar::Nine || (self == Scalar::Literal(1) && literals.is_empty())
-    }
-}
-
-/// Range of an array's index or of a scalar.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Range {
-    left: i64,
-    pub(super) right: i64,
-    falls: bool,
-}
-
-impl Range {
-    /// Returns the number of values, 0 for a null range.
-    pub(super) fn length(self) -> u64 {
-        let (low, high) =
-            if self.falls { (self.right, self.left) } else { (self.left, self.right) };
-        u64::try_from(i128::from(high) - i128::from(low) + 1).unwrap_or(0)
-    }
-
-    /// Returns the values from left to right.
-    pub(super) fn values(self) -> impl Iterator<Item = i64> {
-        let (left, step) = (self.left, if self.falls { -1 } else { 1 });
-        (0..self.length()).map(move |k| left.wrapping_add(step * k as i64))
     }
 }
 
@@ -174,7 +152,7 @@ impl Types {
             }
             34 => {
                 let base = self.of(file)?;
-                range(file)?;
+                Range::parse(file)?;
                 Form::Alias(self.base(base))
             }
             31 => self.array(file)?,
@@ -211,7 +189,7 @@ impl Types {
         match self.types[base].form.clone() {
             Form::Array(_, Dimensions::Known(_)) => Ok(Form::Alias(base)),
             Form::Array(element, Dimensions::Open(count)) => {
-                let ranges = (0..count).map(|_| range(file)).collect::<Checked<_>>()?;
+                let ranges = (0..count).map(|_| Range::parse(file)).collect::<Checked<_>>()?;
                 let element = self.bounded_part(file, element)?;
                 Ok(Form::Array(element, Dimensions::Known(ranges)))
             }
@@ -287,19 +265,4 @@ fn enumeration(literals: Vec<usize>, strings: &[String]) -> Form {
     }
     let last = literals.len().saturating_sub(1).max(1);
     Form::Scalar(Scalar::Literal(usize::BITS - last.leading_zeros()), literals)
-}
-
-/// Parses a range.
-fn range(file: &mut Span) -> Checked<Range> {
-    let head = file.byte()?;
-    let (left, right) = match head & 0x7f {
-        22 | 23 => (file.byte()?.into(), file.byte()?.into()),
-        25 | 26 | 28 | 29 => (file.signed()?, file.signed()?),
-        27 => {
-            file.take(16)?;
-            (1, 0)
-        }
-        kind => return Err(Fault::value("a range's kind", kind.into(), "is none of GHDL's")),
-    };
-    Ok(Range { left, right, falls: head & 0x80 != 0 })
 }
