@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::Path;
 
-use vcd::{IdCode, TimescaleUnit, Writer};
+use vcd::{IdCode, Writer};
 
-pub use vcd::Value;
+pub use vcd::{TimescaleUnit, Value};
 
 /// Names of the scopes of the two sides.
 pub const SIDES: [&str; 2] = ["expected", "got"];
@@ -16,6 +16,8 @@ pub const SIDES: [&str; 2] = ["expected", "got"];
 pub struct Layout<'a> {
     /// Name and version of the program, to be written to the header.
     pub version: Option<&'a str>,
+    /// Unit of its times.
+    pub unit: TimescaleUnit,
     /// Name of the outermost scope.
     pub top: &'a str,
     /// Name of a bit declared before the inner scopes.
@@ -47,7 +49,7 @@ impl<W: Write> SideBySide<W> {
         if let Some(version) = layout.version {
             vcd.version(version)?;
         }
-        vcd.timescale(1, TimescaleUnit::PS)?;
+        vcd.timescale(1, layout.unit)?;
         vcd.add_module(layout.top)?;
         let mut bit = layout.first.map(|name| vcd.add_wire(1, name)).transpose()?;
         let mut codes = Vec::new();
@@ -65,12 +67,12 @@ impl<W: Write> SideBySide<W> {
         Ok(SideBySide { out, codes, bit: bit.unwrap_or(IdCode::FIRST) })
     }
 
-    /// Sets the time of the changes that follow [ps].
+    /// Sets the time of the changes that follow, in the layout's unit.
     ///
     /// # Errors
     /// If the output cannot be written.
-    pub fn time(&mut self, ps: u64) -> io::Result<()> {
-        Writer::new(&mut self.out).timestamp(ps)
+    pub fn time(&mut self, at: u64) -> io::Result<()> {
+        Writer::new(&mut self.out).timestamp(at)
     }
 
     /// Writes a change of the bit outside the inner scopes.
@@ -147,7 +149,7 @@ pub struct View<'a> {
     pub top: [&'a str; 2],
     /// GTKWave's colour number of that bit.
     pub colour: Option<u32>,
-    /// Start of the visible time range [ps].
+    /// Start of the visible time range, in the waveform's unit.
     pub from: u64,
     /// GTKWave's zoom value.
     pub zoom: String,
@@ -155,7 +157,7 @@ pub struct View<'a> {
     pub height: u32,
     /// Widths of the columns of scopes and names, if set [pixels].
     pub columns: Option<[u32; 2]>,
-    /// Time of the first difference [ps].
+    /// Time of the first difference, in the waveform's unit.
     pub marker: Option<u64>,
     /// Signals, in display order.
     pub signals: Vec<Shown<'a>>,
@@ -207,7 +209,8 @@ mod tests {
 
     #[test]
     fn both_sides_stand_under_one_top_with_the_bit_that_goes_with_them() {
-        let layout = Layout { version: None, top: "pair", first: None, last: Some("any") };
+        let unit = TimescaleUnit::PS;
+        let layout = Layout { version: None, unit, top: "pair", first: None, last: Some("any") };
         let scopes = SIDES.map(|side| (side, vec![("depth".to_owned(), 2)]));
         let mut wave = SideBySide::begin(Vec::new(), &layout, &scopes).unwrap();
         wave.time(8).unwrap();

@@ -118,7 +118,9 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     }
     let sampled = sources.iter().any(|source| source.is_capture()) || terms.sampling.is_some();
     let plan = Plan::new(sources, matching, terms, sampled)?;
-    let both = options.waves.as_deref().map(|path| Both::create(path, &plan.matching.pairs));
+    let axes = sources.map(|source| source.axis);
+    let create = |path| Both::create(path, &plan.matching.pairs, axes);
+    let both = options.waves.as_deref().map(create);
     let mut differences = Differences::new(&plan.matching, options.unknowns, both.transpose()?);
     let mut result = if sampled {
         let time_from = options.time_from.as_deref().or(options.map.time_from.as_deref());

@@ -126,7 +126,10 @@ pub fn replay(capture: &Source, setup: &Setup, options: &ReplayOptions) -> Resul
     let mut fault = None;
     for &kind in kinds {
         match of_kind(capture, setup, options, kind) {
-            Ok(Some(replay)) => return Ok(replay),
+            Ok(Some(replay)) => {
+                let notes = [&capture.notes[..], &replay.notes].concat();
+                return Ok(Replay { notes, ..replay });
+            }
             Ok(None) => {}
             // A map of one design names what another has not.
             Err(error) => fault = fault.or(Some(error)),

@@ -134,3 +134,24 @@ fn a_size_or_count_that_nothing_stands_behind_is_refused_with_its_block() {
         }
     }
 }
+
+#[test]
+fn changes_that_cannot_be_unpacked_are_refused_with_block_and_signal() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = simulated(folder.path(), "a.fst", 1);
+    let whole = fs::read(own).unwrap();
+    let path = folder.path().join("damaged.fst");
+    let (begin, length) = blocks(&whole).into_iter().find(|(at, _)| whole[*at] == 8).unwrap();
+    let (mut named, mut others) = (0, 0);
+    for place in (begin + 100..begin + length - 100).step_by(length / 50) {
+        let mut bytes = whole.clone();
+        bytes[place] ^= 0x10;
+        fs::write(&path, bytes).unwrap();
+        match compared(&path, &path) {
+            Err(error) if error.contains(&format!("block at byte {begin}: ")) => named += 1,
+            Err(error) => panic!("{place}: {error}"),
+            Ok(_) => others += 1,
+        }
+    }
+    assert!(named > others, "{named} {others}");
+}

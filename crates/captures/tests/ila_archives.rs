@@ -207,6 +207,21 @@ fn cells_that_are_not_the_dump_s_bits_are_noted() {
 }
 
 #[test]
+fn a_word_that_stands_for_two_values_has_none() {
+    let csv = String::from_utf8(bytes("views/waveform.csv")).unwrap();
+    let twice = csv.replace("1,1,2,\"Active\"", "1,1,\"run\",\"Active\"");
+    let (opened, _) = read_bytes(&views_but(&[("waveform.csv", twice.as_bytes())]), None).unwrap();
+    let state = opened.columns.iter().find(|column| column.name == "state").unwrap();
+    let states: Vec<_> = state.states.iter().map(|state| &state.name[..]).collect();
+    assert_eq!(states, ["idle"]);
+    let note = "state[1:0]: `run` stands for 0x1 and 0x2, so that it has no value";
+    assert!(opened.notes.iter().any(|own| own == note), "{:?}", opened.notes);
+    let words = twice.replace("\"idle\"", "\"run\"");
+    let (opened, _) = read_bytes(&views_but(&[("waveform.csv", words.as_bytes())]), None).unwrap();
+    assert!(opened.columns.iter().all(|column| column.name != "state" || column.states.is_empty()));
+}
+
+#[test]
 fn archives_of_which_no_part_can_be_read_are_refused() {
     let stored = read_bytes(&archive(&[("waveform.dmp", b"")]), None).err().unwrap();
     assert!(stored.contains("capture/waveform.dmp: expected data_width"), "{stored}");

@@ -4,6 +4,7 @@
 mod common;
 mod fst;
 mod fuzz;
+mod ghw;
 mod ila;
 mod ila_archives;
 mod ila_capture;

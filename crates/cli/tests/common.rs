@@ -42,6 +42,16 @@ pub fn refused(folder: &Path, args: &[&str]) -> String {
     error
 }
 
+/// Creates a folder with copies of some of the files that were read wrong once.
+pub fn cases(names: &[&str]) -> tempfile::TempDir {
+    let folder = empty();
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures/tests/cases");
+    for name in names {
+        fs::copy(from.join(name), folder.path().join(name)).unwrap();
+    }
+    folder
+}
+
 /// A device called `name` like `/dev/{name}`, in `folder` where the system lets us make one: a fault
 /// in our own writing must not cost the machine its devices.
 pub fn device(folder: &Path, name: &str) -> PathBuf {

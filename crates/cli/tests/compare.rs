@@ -3,6 +3,7 @@
 mod align;
 mod beats;
 mod captures;
+mod cases;
 mod damage;
 mod formats;
 mod how;

@@ -229,3 +229,37 @@ fn what_is_missing_is_said() {
     assert!(error.contains("expected a scenario file"), "{error}");
     assert!(!folder.join("again").exists());
 }
+
+#[test]
+fn the_next_command_names_the_clock_that_the_map_does_not_have() {
+    let files = ["c09_replay.csv", "c09_map_without_clock.toml"];
+    let folder = common::cases(&files);
+    let folder = folder.path();
+    let args = ["--map", files[1], "--scenario", "histogram_validation", "-o", "again/run.toml"];
+    let json = common::json(folder, &[&["ila", "replay", files[0], "--json"], &args[..]].concat());
+    let next = json["next"].as_str().unwrap();
+    assert!(next.contains(" --clock clk_sys"), "{next}");
+    let (next, offset) = next.split_once(" --align '").unwrap();
+    let align = ["--align", offset.trim_end_matches('\'')];
+    let words: Vec<&str> = next.split(' ').skip(1).chain(align).collect();
+    let output = common::output(folder, &words);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+}
+
+#[test]
+fn a_damaged_archive_is_noted_as_by_the_other_verbs() {
+    let folder = common::empty();
+    let folder = folder.path();
+    capture(folder, "depth = 4096", &PROBES, &[]);
+    let mut bytes = fs::read(folder.join("probes.ila")).unwrap();
+    let name = b"waveform.dmp";
+    let place = bytes.windows(name.len()).position(|window| window == name).unwrap();
+    bytes[place + 80] ^= 1;
+    fs::write(folder.join("damaged.ila"), bytes).unwrap();
+    let note = "waveform.dmp is not used";
+    let replay = ["ila", "replay", "damaged.ila", "--map", "probes.map.toml", "-o", "a/run.toml"];
+    for args in [&["ila", "info", "damaged.ila"][..], &replay] {
+        let json = common::json(folder, &[args, &["--json"]].concat());
+        assert!(json["notes"].to_string().contains(note), "{args:?} {json:#}");
+    }
+}

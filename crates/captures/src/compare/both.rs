@@ -6,12 +6,13 @@ use std::path::Path;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::{OutputFile, write_bytes};
 use tofsim::waves::side_by_side::{
-    BINARY, HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, View,
+    BINARY, HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, TimescaleUnit, View,
 };
 use tofsim::waves::zoom;
 
 use super::pair::Pair;
 use super::result::{Compared, Comparison};
+use crate::source::{Axis, Tick};
 use crate::words::Bits;
 
 /// Names of the scopes: both sides, and the differences.
@@ -31,6 +32,8 @@ const COLOURS: [u32; 3] = [4, 3, 1];
 /// Writer of a waveform of both sides.
 pub(super) struct Both {
     wave: SideBySide<OutputFile>,
+    /// Unit of the times.
+    unit: Tick,
     widths: Vec<u32>,
     wrong: Vec<bool>,
     /// Number of pairs that differ, and the last written level of the bit that shows it.
@@ -41,14 +44,28 @@ pub(super) struct Both {
 }
 
 impl Both {
-    /// Creates the waveform at `path`, whose extension must be `.vcd`.
-    pub(super) fn create(path: &Path, pairs: &[Pair]) -> Result<Both> {
+    /// Creates the waveform at `path`, whose extension must be `.vcd`. Its unit is a picosecond, or a femtosecond if
+    /// the sides have times below a picosecond.
+    ///
+    /// # Errors
+    /// If it cannot be written, or the sides have times below a femtosecond.
+    pub(super) fn create(path: &Path, pairs: &[Pair], sides: [Axis; 2]) -> Result<Both> {
+        let coarse = sides.into_iter().filter_map(Axis::tick).max().unwrap_or(Tick::PICOSECOND);
+        if coarse < Tick::FEMTOSECOND {
+            let expected = "expected waveforms with times of 1 fs or more";
+            return Err(Input::new("--waves", expected).into());
+        }
+        let (unit, tick) = if coarse < Tick::PICOSECOND {
+            (TimescaleUnit::FS, Tick::FEMTOSECOND)
+        } else {
+            (TimescaleUnit::PS, Tick::PICOSECOND)
+        };
         if path.extension().is_none_or(|extension| extension != "vcd") {
             let expected = "expected a name that ends in .vcd";
             return Err(Input::new("--waves", expected).value(path.display()).into());
         }
         let version = Some(concat!("tofsim ", env!("CARGO_PKG_VERSION")));
-        let layout = Layout { version, top: TOP[0], first: None, last: Some(TOP[1]) };
+        let layout = Layout { version, unit, top: TOP[0], first: None, last: Some(TOP[1]) };
         let scopes: [Scope; 3] = SCOPES.map(|scope| {
             let width = |pair: &Pair| if scope == SCOPES[2] { 1 } else { pair.width };
             (scope, pairs.iter().map(|pair| (flat(&pair.name), width(pair))).collect())
@@ -56,6 +73,7 @@ impl Both {
         let file = OutputFile::create(path)?;
         Ok(Both {
             wave: SideBySide::begin(file, &layout, &scopes).map_err(Error::io(path, "write"))?,
+            unit: tick,
             widths: pairs.iter().map(|pair| pair.width).collect(),
             wrong: vec![false; pairs.len()],
             count: 0,
@@ -65,20 +83,19 @@ impl Both {
         })
     }
 
-    /// Sets the time of the changes that follow [ps].
-    pub(super) fn at(&mut self, ps: u128) -> Result<()> {
-        let ps = u64::try_from(ps).unwrap_or(u64::MAX);
-        self.go_to(ps).map_err(|error| self.wave.out().fault(error))
+    /// Sets the place of the changes that follow.
+    pub(super) fn at(&mut self, axis: Axis, at: u64) -> Result<()> {
+        self.go_to(axis.place(at, self.unit)).map_err(|error| self.wave.out().fault(error))
     }
 
-    fn go_to(&mut self, ps: u64) -> io::Result<()> {
-        if self.last == Some(ps) {
+    fn go_to(&mut self, at: u64) -> io::Result<()> {
+        if self.last == Some(at) {
             return Ok(());
         }
         self.sum_up()?;
-        self.first.get_or_insert(ps);
-        self.last = Some(ps);
-        self.wave.time(ps)
+        self.first.get_or_insert(at);
+        self.last = Some(at);
+        self.wave.time(at)
     }
 
     /// Writes the bit that shows whether any pair differs, at the last time.
@@ -124,7 +141,7 @@ impl Both {
             return Ok(());
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let view = view(result, self.first.unwrap_or(0), self.last.unwrap_or(0));
+        let view = view(result, self.unit, self.first.unwrap_or(0), self.last.unwrap_or(0));
         write_bytes(&path.with_extension("gtkw"), view.gtkwave(&name))?;
         write_bytes(&path.with_extension("sucl"), view.surfer())
     }
@@ -135,10 +152,10 @@ fn flat(name: &str) -> String {
     name.replace('.', "/").replace(' ', "_").replace('\\', "")
 }
 
-/// Returns the initial view of a waveform with the given start and end [ps]; the first signals to differ are on top.
-fn view(result: &Comparison, begin: u64, end: u64) -> View<'static> {
+/// Returns the initial view of a waveform with the given unit, start and end; the first signals to differ are on top.
+fn view(result: &Comparison, unit: Tick, begin: u64, end: u64) -> View<'static> {
     let firsts = result.pairs.iter().filter_map(|pair| pair.first.as_ref());
-    let first = firsts.map(|first| result.sides[0].axis.picoseconds(first.at[0]) as u64).min();
+    let first = firsts.map(|first| result.sides[0].axis.place(first.at[0], unit)).min();
     let whole = end.saturating_sub(begin).max(1);
     let (from, span) = match first {
         Some(first) => (first.saturating_sub(whole / PART / 2), (whole / PART).max(1)),

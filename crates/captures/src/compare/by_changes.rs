@@ -132,7 +132,7 @@ pub(super) fn compare(
         };
         let spot = Spot { order: result.compared, window: 0, at: [at(0), at(1)] };
         if let Some(both) = &mut differences.both {
-            both.at(coarse.femtoseconds(now.max(0) as u64) / 1000)?;
+            both.at(Axis::Time(coarse), now.max(0) as u64)?;
         }
         differences.compare(touched, spot, states)?;
         result.compared += 1;
@@ -153,10 +153,7 @@ fn compare_ends(sides: &mut [ChangeStream; 2], until: i128, result: &mut Compari
 }
 
 fn tick(source: &Source) -> Tick {
-    match source.axis {
-        Axis::Time(tick) => tick,
-        Axis::Samples => Tick::FEMTOSECOND,
-    }
+    source.axis.tick().unwrap_or(Tick::FEMTOSECOND)
 }
 
 /// Converts a time to units of `coarse`, rounded down.

@@ -52,7 +52,7 @@ pub(super) fn compare(
             let at = [a.sample.at, b.sample.at];
             let spot = Spot { order: result.compared, window: a.piece, at };
             if let Some(both) = &mut differences.both {
-                both.at(plan.sources[0].axis.picoseconds(a.sample.at))?;
+                both.at(plan.sources[0].axis, a.sample.at)?;
             }
             let gaps = [a.sample.marks.gap, b.sample.marks.gap];
             for delay in &mut delays {

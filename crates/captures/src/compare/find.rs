@@ -111,10 +111,11 @@ fn bits(
     let signal = &source.signals[found];
     let fault = |expected: String| Err(Input::new(&source.name, expected).field(text).into());
     if signal.kind == SignalKind::Other {
-        return fault("is text, which is not compared".into());
+        return fault("is an event, or text without known values, which is not compared".into());
     }
+    let Some((high, low)) = slice else { return Ok((found, Part::whole(slots, signal))) };
+    let (high, low) = (i64::from(high), i64::from(low));
     let top = signal.lsb + i64::from(signal.width) - 1;
-    let (high, low) = slice.map_or((top, signal.lsb), |(high, low)| (high.into(), low.into()));
     if high < low || high > top || low < signal.lsb {
         return fault(format!("expected a slice within [{top}:{}]", signal.lsb));
     }

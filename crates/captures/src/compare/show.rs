@@ -57,7 +57,7 @@ impl Show {
     /// Formats a value.
     pub(super) fn text(self, bits: &Bits, width: u32) -> String {
         if self == Show::Text {
-            return word(&bits.value);
+            return if bits.is_known() { word(&bits.value) } else { "x".to_owned() };
         }
         let digits = digits(bits, width);
         let Some(number) = bits.number() else {

@@ -7,6 +7,7 @@ use tofsim::error::Result;
 
 use crate::source::{Name, Signal, SignalKind, Source, Translation};
 
+use crate::ila::read::{MOST_STATES, word};
 use crate::words::listed;
 
 use super::map::SignalMap;
@@ -15,6 +16,8 @@ use super::pair::Pair;
 
 /// Number of names listed in a note.
 const LISTED: usize = 6;
+/// Words for the values of one bit.
+const BOOLEANS: [(&str, u64); 4] = [("false", 0), ("true", 1), ("FALSE", 0), ("TRUE", 1)];
 
 /// Sources whose words have been replaced by bits, with notes.
 #[derive(Debug, Default)]
@@ -51,13 +54,18 @@ pub(super) fn resolve(
             _ => continue,
         };
         let other = ids[1 - side].first().and_then(|id| by_id(sides[1 - side], *id));
-        let states = states(pair, map, other, signal.words.width);
-        let names = signal.words.states.iter().map(|state| state.name.as_str());
-        let missing: Vec<&str> = names.filter(|name| !states.contains_key(*name)).collect();
-        let is_known = !states.is_empty() || signal.words.mixed;
+        let width = match signal.words.width {
+            0 => other.map_or(0, |other| other.width),
+            width => width,
+        };
+        let states = states(pair, map, other, width);
+        let names = names(sides[side], signal)?;
+        let missing = names.iter().map(String::as_str).filter(|name| !states.contains_key(*name));
+        let missing: Vec<&str> = missing.collect();
+        let is_known = missing.len() < names.len() || signal.words.mixed;
         let is_whole = pair.sides.iter().all(|parts| parts.len() == 1 && parts[0].whole);
         if is_known && is_whole {
-            let (width, radix) = (signal.words.width, signal.radix);
+            let radix = signal.radix;
             resolved.words[side].insert(signal.id);
             translations[side].insert(signal.id, Translation { width, radix, states });
         } else {
@@ -120,10 +128,29 @@ fn text<'a>(source: &'a Source, ids: &[usize]) -> Option<&'a Signal> {
     ids.iter().filter_map(|id| by_id(source, *id)).find(|signal| is_text(signal))
 }
 
-/// Returns the values of a pair's words.
+/// Returns the words of a signal; those of a waveform are read.
+fn names(source: &Source, signal: &Signal) -> Result<Vec<String>> {
+    if source.is_capture() {
+        return Ok(signal.words.states.iter().map(|state| state.name.clone()).collect());
+    }
+    let (mut cursor, mut names) = (source.read(&[signal.id])?, Vec::new());
+    while cursor.peek()?.is_some() && names.len() < MOST_STATES {
+        cursor.take(|_| ());
+        let name = word(cursor.state.value(0));
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    Ok(names)
+}
+
+/// Returns the values of a pair's words: those of the map, or else those that the side with the bits states. The words
+/// of a single bit are VHDL's booleans.
 fn states(pair: &Pair, map: &SignalMap, bits: Option<&Signal>, width: u32) -> HashMap<String, u64> {
     let learned = bits.iter().flat_map(|signal| &signal.words.states);
     let learned = learned.filter_map(|state| Some((state.name.clone(), state.bits?)));
+    let booleans = BOOLEANS.map(|(name, bits)| (name.to_owned(), bits));
+    let booleans = booleans.into_iter().filter(|_| width == 1);
     let called = |name: &String| {
         let wanted = Name::new(name.clone());
         let is_it = |own: &String| Name::new(own.clone()).common(&wanted) == Some(wanted.depth());
@@ -132,7 +159,7 @@ fn states(pair: &Pair, map: &SignalMap, bits: Option<&Signal>, width: u32) -> Ha
     let rules = map.signal.iter().filter(|rule| rule.a.iter().chain(&rule.b).any(called));
     let told = rules.flat_map(|rule| rule.states.iter().map(|(name, bits)| (name.clone(), *bits)));
     let fits = |(_, bits): &(String, u64)| width >= 64 || bits >> width == 0;
-    learned.chain(told).filter(fits).collect()
+    booleans.chain(learned).chain(told).filter(fits).collect()
 }
 
 /// Formats a note on words whose values are unknown.

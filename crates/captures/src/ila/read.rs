@@ -24,11 +24,11 @@ use tofsim::error::{Error, Result};
 
 use super::capture::Radix;
 
-pub(crate) use opened::word;
 pub use opened::{
     CaptureForm, CaptureRow, CaptureRows, Column, LARGEST, LONGEST_WORD, NamedValue, Opened,
     WIDEST_PROBE, WIDEST_SAMPLE,
 };
+pub(crate) use opened::{MOST_STATES, put_word, word};
 
 /// Opens a capture. `radix` applies to a CSV without radices that can be read in several ways.
 pub fn open(path: &Path, radix: Option<Radix>) -> Result<Opened> {

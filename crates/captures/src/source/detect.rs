@@ -9,7 +9,7 @@ use tofsim::error::{Error, Input, Result};
 use crate::ila::Radix;
 
 use super::signals::{Source, SourceFormat};
-use super::{capture, fst, wave};
+use super::{capture, fst, ghw, wave};
 
 /// First bytes of a zip archive, such as an `.ila` file.
 const ARCHIVE: &[u8] = b"PK";
@@ -39,7 +39,7 @@ pub(super) fn open(path: &Path, radix: Option<Radix>) -> Result<Source> {
     }
     let format = match head[0] {
         _ if text.starts_with(b"$") => SourceFormat::Vcd,
-        _ if head.starts_with(GHW) => SourceFormat::Ghw,
+        _ if head.starts_with(GHW) => return ghw::source(path),
         fst::HEADER | fst::WRAPPED => SourceFormat::Fst,
         _ => {
             let expected =

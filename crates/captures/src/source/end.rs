@@ -1,5 +1,6 @@
-//! The last time of a VCD, which may be later than its last change.
+//! The last time of a VCD, which may be later than its last change, and the signals with words.
 
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::BufRead;
 use std::path::Path;
@@ -8,19 +9,28 @@ use tofsim::error::{Error, Input, Result};
 
 use super::bytes::Bytes;
 
-/// Returns the last time of the VCD at `path`, in its ticks, if it has one.
+/// What the values of a VCD show.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Body {
+    /// Last time, in ticks, if there is one.
+    pub(super) end: Option<u64>,
+    /// Codes of the signals with words.
+    pub(super) texts: HashSet<Vec<u8>>,
+}
+
+/// Reads the values of the VCD at `path`.
 ///
 /// # Errors
 /// If the file cannot be read, or time goes back.
-pub(super) fn end(path: &Path) -> Result<Option<u64>> {
+pub(super) fn body(path: &Path) -> Result<Body> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     vcd(path, Bytes::new(file))
 }
 
-/// Returns the last time stamp of a VCD, and checks that time does not go back.
+/// Scans a VCD, and checks that time does not go back.
 ///
 /// The library assumes that times are in order: otherwise it prints a line on standard output and omits changes.
-fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
+fn vcd(path: &Path, mut file: impl BufRead) -> Result<Body> {
     let mut words = StampParser { line: 1, ..StampParser::default() };
     let fault = |(line, expected)| Input::new(path.display(), expected).at(line, 1);
     loop {
@@ -28,7 +38,7 @@ fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
         if block.is_empty() {
             // The last word may have no blank behind it.
             words.take(b"\n").map_err(fault)?;
-            return Ok(words.last);
+            return Ok(words.body);
         }
         words.take(block).map_err(fault)?;
         let length = block.len();
@@ -47,9 +57,9 @@ struct StampParser {
     word: Word,
     /// Whether the parser is within a command.
     in_command: bool,
-    /// Whether the next word is a signal's name.
-    is_name: bool,
-    last: Option<u64>,
+    /// First byte of the value whose signal's code is the next word.
+    value: Option<u8>,
+    body: Body,
 }
 
 /// The word being parsed.
@@ -60,6 +70,8 @@ enum Word {
     None,
     /// Neither time stamp nor command.
     Other,
+    /// Code of a signal with words, so far.
+    Code(Vec<u8>),
     /// Text of a time stamp or a command, so far.
     StampOrCommand(Vec<u8>),
 }
@@ -77,14 +89,18 @@ impl StampParser {
             }
             let end = rest.iter().position(u8::is_ascii_whitespace);
             let (word, behind) = rest.split_at(end.unwrap_or(rest.len()));
-            if let Word::StampOrCommand(text) = &mut self.word {
+            if let Word::StampOrCommand(text) | Word::Code(text) = &mut self.word {
                 text.extend_from_slice(word);
             }
             if end.is_none() {
                 return Ok(());
             }
-            if let Word::StampOrCommand(text) = std::mem::take(&mut self.word) {
-                self.parse_stamp_or_command(&text)?;
+            match std::mem::take(&mut self.word) {
+                Word::StampOrCommand(text) => self.parse_stamp_or_command(&text)?,
+                Word::Code(code) if !self.body.texts.contains(&code) => {
+                    self.body.texts.insert(code);
+                }
+                _ => {}
             }
             rest = behind;
         }
@@ -100,14 +116,17 @@ impl StampParser {
     /// Returns the kind of the word that begins with the byte.
     #[inline]
     fn kind(&mut self, first: u8) -> Word {
-        let is_name = std::mem::take(&mut self.is_name);
         match first {
-            _ if is_name => Word::Other,
+            _ if self.value.is_some() => match self.value.take() {
+                Some(b's' | b'S') => Word::Code(Vec::new()),
+                _ => Word::Other,
+            },
             b'$' => Word::StampOrCommand(Vec::new()),
             _ if self.in_command => Word::Other,
             b'#' => Word::StampOrCommand(Vec::new()),
             _ => {
-                self.is_name = matches!(first, b'b' | b'B' | b'r' | b'R' | b's' | b'S');
+                let has_code = matches!(first, b'b' | b'B' | b'r' | b'R' | b's' | b'S');
+                self.value = has_code.then_some(first);
                 Word::Other
             }
         }
@@ -120,10 +139,10 @@ impl StampParser {
             _ => {
                 let time =
                     stamp(&word[1..]).map_err(|expected| (self.line, expected.to_owned()))?;
-                if let Some(last) = self.last.filter(|&last| time < last) {
+                if let Some(last) = self.body.end.filter(|&last| time < last) {
                     return Err((self.line, format!("time goes back from {last} to {time}")));
                 }
-                self.last = Some(time);
+                self.body.end = Some(time);
             }
         }
         Ok(())
@@ -156,7 +175,7 @@ mod tests {
         };
         let whole = read(text.len());
         (1..20).for_each(|block| assert_eq!(read(block), whole, "{block} bytes at once"));
-        whole
+        whole.map(|body| body.end)
     }
 
     #[test]
@@ -166,6 +185,16 @@ mod tests {
             "$comment\n#5\n$end\n$var wire 1 # a $end\n#730 1!\nb0 $x\n#740 0!\nb0 #9\n0#\n";
         assert_eq!(last(names), Ok(Some(740)));
         assert_eq!(last("$end\n"), Ok(None));
+    }
+
+    #[test]
+    fn signals_with_words_are_found_by_their_codes() {
+        let text = "$end\n#0\nsidle !\nb0 s\nr1.5 #\n$comment sx a $end\n1s\nSRUN \"\n";
+        for block in 1..20 {
+            let file = BufReader::with_capacity(block, text.as_bytes());
+            let texts = vcd(Path::new("a.vcd"), file).unwrap().texts;
+            assert_eq!(texts, HashSet::from([b"!".to_vec(), b"\"".to_vec()]));
+        }
     }
 
     #[test]

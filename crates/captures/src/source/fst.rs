@@ -1,5 +1,6 @@
 //! Check of an FST file before the library reads it, because fst-reader 0.17.1 allocates memory by the lengths, sizes
-//! and counts that the file states, and seeks by its lengths.
+//! and counts that the file states, and seeks by its lengths; wellen 0.25.7 prints VHDL's types on standard output,
+//! and gets the names without them.
 //!
 //! The format is described in GTKWave's `block_format.txt` and `fstapi.c`.
 
@@ -18,6 +19,7 @@ use unpack::{gzip_prefix, most};
 
 use super::bytes::Bytes;
 use super::span::{Checked, Fault, Span, at_most};
+use super::spliced::Piece;
 
 /// First byte of a file that begins with its header.
 pub(super) const HEADER: u8 = 0;
@@ -58,8 +60,27 @@ fn unwrapped(file: &mut Bytes) -> Checked<Vec<u8>> {
     gzip_prefix(&file.range(1 + 2 * LENGTH, packed)?, size, "size of the packed file")
 }
 
-/// Checks a file, and returns its end time.
-pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
+/// Contents of a file.
+pub(super) struct Contents {
+    /// End time, in ticks.
+    pub(super) end: Option<u64>,
+    /// The file as the library sees it.
+    pub(super) pieces: Vec<Piece>,
+    sections: Vec<Section>,
+}
+
+impl Contents {
+    /// Returns the first part that cannot be unpacked; `name` is the name of a signal by index.
+    pub(super) fn fault(&self, file: &mut Bytes, name: impl Fn(usize) -> String) -> Option<Fault> {
+        self.sections.iter().find_map(|section| {
+            let block = format!("block at byte {}", section.begin - 1);
+            Some(section.unpack(file, &name).err()?.within(&block))
+        })
+    }
+}
+
+/// Checks a file, and returns its contents.
+pub(super) fn check(file: &mut Bytes) -> Checked<Contents> {
     let whole = file.length()?;
     let (mut end, mut signals) = (None, None);
     let (mut sections, mut hierarchies) = (Vec::new(), Vec::new());
@@ -87,7 +108,7 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
             1 | 5 | 8 => sections.push(Section { kind, begin, length }),
             2 => drop(Span::new(&body()?, "pauses").count("number").map_err(within)?),
             3 => signals = Some(names::widths(&body()?).map_err(within)?.len() as u64),
-            4 | 6 | 7 => hierarchies.push((body()?, kind, block)),
+            4 | 6 | 7 => hierarchies.push((body()?, kind, place..begin + length)),
             255 => {}
             _ => return Err(within(Fault::value("kind", kind.into(), "is none of FST's"))),
         }
@@ -96,14 +117,24 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
     let Some(signals) = signals else {
         return Err(Fault::of("geometry", "is missing: the file was not written to its end"));
     };
+    let (mut pieces, mut kept) = (Vec::new(), 0);
     for (body, kind, block) in hierarchies {
-        names::check(&body, kind, signals).map_err(|fault| fault.within(&block))?;
+        let place = block.start;
+        let names = names::check(&body, kind, signals);
+        let names = names.map_err(|fault| fault.within(&format!("block at byte {place}")))?;
+        if let Some(names) = names {
+            pieces.extend([Piece::Kept(kept..place), Piece::New(names)]);
+            kept = block.end;
+        }
     }
-    for section in sections {
+    if !pieces.is_empty() {
+        pieces.push(Piece::Kept(kept..u64::MAX));
+    }
+    for section in &sections {
         let block = format!("block at byte {}", section.begin - 1);
         section.check(file, signals).map_err(|fault| fault.within(&block))?;
     }
-    Ok(end)
+    Ok(Contents { end, pieces, sections })
 }
 
 /// Parses the end time in the header.

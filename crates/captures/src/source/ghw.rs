@@ -1,65 +1,138 @@
-//! Check of a GHW file's header before the library reads it, because wellen 0.25.7 allocates memory by the counts and
-//! ranges that the file states.
+//! GHW files, the waveforms of GHDL.
 //!
-//! The format is described by GHDL's `grt-waves.adb`. Constructs that the library does not support are left to it.
+//! The format is described by GHDL's `grt-waves.adb` and `libghw.c`. The crate `wellen` 0.25.7 counts the bits of a
+//! slice from the wrong end, and panics where names share parts of their signals.
 
+mod changes;
+mod names;
+mod range;
 mod types;
 
-use super::span::{Checked, Fault, Span, at_most};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 
-use types::Types;
+use tofsim::error::{Error, Result};
+
+use crate::ila::read::NamedValue;
+
+use super::names::Name;
+use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, Words};
+use super::span::{Checked, Fault, Span};
+use super::stream::{Cursor, Feed};
+use super::tick::Tick;
+use changes::Values;
+use names::{Names, Variable};
+use types::{Scalar, Types};
 
 /// Size of the file header, and the offsets of its byte order (2 for big-endian) and of its version [bytes].
 const HEADER: u64 = 16;
 const ORDER: usize = 12;
 const VERSION: usize = 11;
-/// Limit of the total length of all strings, which share prefixes [characters].
-const CHARACTERS: u64 = 1 << 27;
 
-/// Checks a file.
-pub(super) fn check(bytes: &[u8]) -> Checked<()> {
+/// Header of a file.
+#[derive(Debug)]
+struct Header {
+    strings: Vec<String>,
+    variables: Vec<Variable>,
+    /// Encoding of each of the file's signals.
+    scalars: Vec<Scalar>,
+}
+
+/// Path of a file, and the signals of each id.
+#[derive(Clone, Debug)]
+struct GhwOrigin {
+    path: PathBuf,
+    by_id: Vec<Vec<u32>>,
+}
+
+/// Opens the file at `path`.
+pub(super) fn source(path: &Path) -> Result<Source> {
+    let bytes = std::fs::read(path).map_err(Error::io(path, "read"))?;
+    let read = check(&bytes).map_err(|fault| fault.of_file(path))?;
+    let (Header { strings, variables, .. }, end) = read;
+    let (mut ids, mut by_id, mut signals) = (HashMap::new(), Vec::new(), Vec::new());
+    for variable in variables {
+        let id = *ids.entry(variable.signals.clone()).or_insert_with(|| {
+            by_id.push(variable.signals.clone());
+            by_id.len() - 1
+        });
+        signals.push(signal(&variable, &strings, id));
+    }
+    let origin = GhwOrigin { path: path.to_owned(), by_id };
+    let (name, axis) = (path.display().to_string(), Axis::Time(Tick::FEMTOSECOND));
+    Ok(Source { end, ..Source::new(name, SourceFormat::Ghw, axis, signals, origin) })
+}
+
+/// Parses a whole file, and returns its header and the time of its last step [fs].
+fn check(bytes: &[u8]) -> Checked<(Header, Option<u64>)> {
     let mut file = Span::new(bytes, "file");
-    let head = file.take(HEADER)?;
-    file.is_big = head[ORDER] == 2;
-    let mut types = Types::new(head[VERSION]);
-    loop {
-        let place = file.place();
-        let name = file.take(4)?;
-        let section = match name {
-            b"STR\0" => strings(&mut file),
-            b"TYP\0" => types.section(&mut file),
-            b"WKT\0" => known(&mut file),
-            b"HIE\0" => hierarchy(&mut file, &types),
-            b"EOH\0" => return Ok(()),
-            _ => Err(Fault::of("name", "expected STR, TYP, WKT, HIE or EOH")),
-        };
-        let name = String::from_utf8_lossy(name).trim_end_matches('\0').to_owned();
-        section.map_err(|fault| fault.within(&format!("section {name} at byte {place}")))?;
+    let header = header(&mut file)?;
+    let end = changes::read(&mut file, &header.scalars, &mut ())?;
+    Ok((header, end))
+}
+
+fn signal(variable: &Variable, strings: &[String], id: usize) -> Signal {
+    let (kind, width) = match variable.scalar {
+        Scalar::Real => (SignalKind::Real, 64),
+        Scalar::Number(width) | Scalar::Literal(width) if variable.signals.len() == 1 => {
+            (SignalKind::Bits, width)
+        }
+        _ => (SignalKind::Bits, variable.signals.len() as u32),
+    };
+    let literals = variable.literals.iter().zip(0..);
+    let states = literals
+        .map(|(&literal, bits)| NamedValue { name: strings[literal].clone(), bits: Some(bits) });
+    let words = Words { width, mixed: false, states: states.collect() };
+    let (name, lsb) = (Name::new(&variable.name), variable.lsb);
+    Signal { name, width, lsb, kind, radix: None, shape: None, words, id }
+}
+
+impl signals::Origin for GhwOrigin {
+    fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
+        let (origin, ids) = (self.clone(), ids.to_vec());
+        Ok(Cursor::spawn(widths, move |feed| origin.feed(&ids, feed)))
     }
 }
 
-fn strings(file: &mut Span) -> Checked<()> {
-    file.take(4)?;
-    let count = file.items("strings")?;
-    file.take(4)?;
-    let (mut length, mut total) = (0u64, 0);
-    // The section's end has the form of another string.
-    for _ in 0..=count {
-        let mut last = file.byte()?;
-        while last > 31 && !(128..=159).contains(&last) {
-            length += 1;
-            last = file.byte()?;
-        }
-        total = at_most("characters of all strings", total + length, CHARACTERS)?;
-        let (mut shared, mut shift) = (u64::from(last & 0x1f), 5);
-        while last >= 128 {
-            last = file.byte()?;
-            shared |= u64::from(last & 0x1f) << shift;
-            shift = 59.min(shift + 5);
-        }
-        length = length.min(shared);
+impl GhwOrigin {
+    /// Sends the changes of the signals with the given ids.
+    fn feed(&self, ids: &[usize], feed: &mut Feed) -> Result<()> {
+        let bytes = std::fs::read(&self.path).map_err(Error::io(&self.path, "read"))?;
+        let mut file = Span::new(&bytes, "file");
+        let read = header(&mut file).and_then(|header| {
+            let wanted: Vec<&[u32]> = ids.iter().map(|&id| &self.by_id[id][..]).collect();
+            let mut values = Values::new(feed, &wanted, header.scalars.len());
+            changes::read(&mut file, &header.scalars, &mut values)
+        });
+        read.map(drop).map_err(|fault| fault.of_file(&self.path))
     }
-    Ok(())
+}
+
+/// Parses a file up to the end of its header.
+fn header(file: &mut Span) -> Checked<Header> {
+    let head = file.take(HEADER)?;
+    file.is_big = head[ORDER] == 2;
+    let mut types = Types::new(head[VERSION]);
+    let mut header =
+        Header { strings: vec![String::new()], variables: Vec::new(), scalars: Vec::new() };
+    loop {
+        let place = file.place();
+        let name = file.take(4)?;
+        let parsed = match name {
+            b"STR\0" => names::strings(file).map(|strings| header.strings = strings),
+            b"TYP\0" => types.section(file, &header.strings),
+            b"WKT\0" => known(file),
+            b"HIE\0" => {
+                let mut names = Names::new(&types, &header.strings);
+                let parsed = names.section(file);
+                (header.variables, header.scalars) = (names.variables, names.scalars);
+                parsed
+            }
+            b"EOH\0" => return Ok(header),
+            _ => Err(Fault::of("name", "expected STR, TYP, WKT, HIE or EOH")),
+        };
+        parsed.map_err(|fault| fault.within_section(name, place))?;
+    }
 }
 
 fn known(file: &mut Span) -> Checked<()> {
@@ -69,40 +142,6 @@ fn known(file: &mut Span) -> Checked<()> {
     }
     Ok(())
 }
-
-fn hierarchy(file: &mut Span, types: &Types) -> Checked<()> {
-    file.take(12)?;
-    file.items("signals")?;
-    loop {
-        match file.byte()? {
-            0 => return Ok(()),
-            END_OF_SCOPE => {}
-            GENERATE_FOR => {
-                file.number()?;
-                let index = types.of(file)?;
-                types.value(file, index)?;
-            }
-            kind if SCOPES.contains(&kind) => drop(file.number()?),
-            kind if SIGNALS.contains(&kind) => {
-                file.number()?;
-                let found = types.of(file)?;
-                let signals = types.signals(found);
-                at_most("signals of a name", signals, file.left())?;
-                for _ in 0..signals {
-                    file.number()?;
-                }
-            }
-            kind => return Err(Fault::value("kind", kind.into(), "is none of GHDL's")),
-        }
-    }
-}
-
-/// Kinds of entries in the hierarchy.
-const END_OF_SCOPE: u8 = 15;
-const GENERATE_FOR: u8 = 5;
-/// Kinds of scopes: block, generate, instance, package, process and generic.
-const SCOPES: [u8; 6] = [3, 4, 6, 7, 13, 14];
-const SIGNALS: std::ops::RangeInclusive<u8> = 16..=21;
 
 #[cfg(test)]
 mod tests {

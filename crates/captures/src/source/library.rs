@@ -1,11 +1,14 @@
 //! Conversion of the crate `wellen`'s values and errors.
 
+use std::borrow::Cow;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 use wellen::{BitVecRef, FileFormat, SignalValueRef, States, WellenError};
 
 use tofsim::error::{Error, Input};
 
+use crate::ila::read::{LONGEST_WORD, put_word};
 use crate::words::Bits;
 
 /// Converts a value, with the number of words of its signal.
@@ -15,8 +18,21 @@ pub(super) fn set(bits: &mut Bits, value: SignalValueRef<'_>, words: usize) {
     match value {
         SignalValueRef::BitVec(found) => copy(found, bits),
         SignalValueRef::Real(real) => bits.value[0] = real.to_bits(),
-        SignalValueRef::Event | SignalValueRef::String(_) => {}
+        SignalValueRef::String(text) => put_word(shortened(text).as_bytes(), &mut bits.value),
+        SignalValueRef::Event => {}
     }
+}
+
+/// Returns a text that fits a signal's words: a long one is its beginning and a hash of the whole.
+fn shortened(text: &str) -> Cow<'_, str> {
+    if text.len() <= LONGEST_WORD {
+        return text.into();
+    }
+    let mut hasher = DefaultHasher::new();
+    text.hash(&mut hasher);
+    let hash = format!("..(hash {:016x})", hasher.finish());
+    let begin = &text[..text.floor_char_boundary(LONGEST_WORD - hash.len())];
+    (begin.to_owned() + &hash).into()
 }
 
 #[inline]

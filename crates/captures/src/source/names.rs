@@ -3,7 +3,8 @@
 /// A signal's name: scopes and name, without range.
 ///
 /// Simulators separate scopes by dots, Vivado by slashes; escaped names begin with a backslash; `gen[0]` may be a
-/// scope. Names are equal if their parts are equal, regardless of case.
+/// scope. Names are equal if their parts are equal, regardless of case and of characters that Vivado's VCD has
+/// underscores for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
     /// Text, as written in the source.
@@ -15,7 +16,7 @@ impl Name {
     /// Creates a name from its text, without range.
     pub fn new(text: impl Into<String>) -> Self {
         let text = text.into();
-        let bare = text.replace(['\\', ' '], "");
+        let bare = plain(&text);
         let parts = bare.split(['.', '/']).filter(|part| !part.is_empty());
         let parts = parts.map(str::to_lowercase).collect();
         Name { text, parts }
@@ -78,6 +79,26 @@ impl Name {
     }
 }
 
+/// Returns a name without backslashes and blanks, and with underscores for what is no part of a Verilog name.
+fn plain(text: &str) -> String {
+    let mut depth = 0u32;
+    let mut plain = |character: char| match character {
+        '\\' | ' ' => None,
+        '[' => {
+            depth += 1;
+            Some('[')
+        }
+        ']' => {
+            depth = depth.saturating_sub(1);
+            Some(']')
+        }
+        '.' | '/' | '$' | '*' | '_' => Some(character),
+        _ if depth > 0 || character.is_alphanumeric() => Some(character),
+        _ => Some('_'),
+    };
+    text.chars().filter_map(&mut plain).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -88,6 +109,14 @@ mod tests {
         assert!(ours.is(&Name::new("tof_top/tdc/TDC_latch/hit")));
         assert!(Name::new("\\a/b[3]").is(&Name::new("a.b[3]")));
         assert!(!ours.is(&Name::new("tdc.tdc_latch.hit")));
+    }
+
+    #[test]
+    fn a_view_has_the_name_that_vivado_s_vcd_gives_it() {
+        let view = Name::new("View_(i1:s0)_(port_a)");
+        assert!(view.is(&Name::new("View__i1_s0___port_a_")));
+        assert!(Name::new("gen(2)/a-b<1>").is(&Name::new("gen_2_/a_b_1_")));
+        assert!(!Name::new("a[3:0]").is(&Name::new("a[3_0]")));
     }
 
     #[test]

@@ -57,15 +57,20 @@ pub enum Axis {
 impl Axis {
     /// Returns the time of a place [fs], if places are times.
     pub fn femtoseconds(self, at: u64) -> Option<u128> {
+        self.tick().map(|tick| tick.femtoseconds(at))
+    }
+
+    /// Returns the unit of times, if places are times.
+    pub(crate) fn tick(self) -> Option<Tick> {
         match self {
-            Axis::Time(tick) => Some(tick.femtoseconds(at)),
+            Axis::Time(tick) => Some(tick),
             Axis::Samples => None,
         }
     }
 
-    /// Returns the time of a place in a waveform of both sides: the sample number if places are no times [ps].
-    pub(crate) fn picoseconds(self, at: u64) -> u128 {
-        self.femtoseconds(at).map_or(at.into(), |fs| fs / 1000)
+    /// Returns the time of a place in a waveform of both sides, in its unit: the sample number if places are no times.
+    pub(crate) fn place(self, at: u64, unit: Tick) -> u64 {
+        self.tick().map_or(at, |tick| tick.convert(at, unit))
     }
 }
 
@@ -78,18 +83,18 @@ pub enum SignalKind {
     Real,
     /// Words as bytes, first one lowest, padded with zeros.
     Text,
-    /// Text or events of a simulator, which are not compared.
+    /// Events of a simulator and words of unknown values, which are not compared.
     Other,
 }
 
 /// Words that represent values of a signal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Words {
-    /// Width of the represented values [bits].
+    /// Width of the represented values, 0 if the source does not state it [bits].
     pub width: u32,
     /// Whether the source has numbers among the words.
     pub mixed: bool,
-    /// Known words, with their values if the source states them.
+    /// Known words, with their values if the source states them; a waveform's words are known once it is read.
     pub states: Vec<NamedValue>,
 }
 
@@ -112,6 +117,14 @@ pub struct Signal {
     pub words: Words,
     /// Id, which all names of the signal share.
     pub id: usize,
+}
+
+impl Signal {
+    /// Returns whether its values can be compared with another's; the width of words may be unknown.
+    pub(crate) fn fits(&self, other: &Signal) -> bool {
+        let is_width = self.width == other.width || self.width == 0 || other.width == 0;
+        self.kind == other.kind && is_width
+    }
 }
 
 /// A source whose list of signals is known.

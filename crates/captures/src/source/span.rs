@@ -28,6 +28,12 @@ impl Fault {
         Fault::Wrong { field: field.to_owned(), value: None, expected: expected.to_owned() }
     }
 
+    /// Prefixes the field with a section that begins at byte `place`; `name` may end with a zero.
+    pub(super) fn within_section(self, name: &[u8], place: usize) -> Fault {
+        let name = String::from_utf8_lossy(name);
+        self.within(&format!("section {} at byte {place}", name.trim_end_matches('\0')))
+    }
+
     /// Prefixes the field with the one that contains it.
     pub(super) fn within(self, whole: &str) -> Fault {
         match self {

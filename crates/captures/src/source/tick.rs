@@ -7,6 +7,8 @@ pub struct Tick(u128);
 impl Tick {
     /// One femtosecond.
     pub const FEMTOSECOND: Tick = Tick(1_000_000);
+    /// One picosecond.
+    pub const PICOSECOND: Tick = Tick(1_000_000_000);
 
     /// Creates a unit of `factor` times 10 to the `exponent` seconds; `None` if it is 0 or not a multiple of 1e-21 s.
     pub fn new(factor: u32, exponent: i8) -> Option<Tick> {
@@ -20,7 +22,7 @@ impl Tick {
         if self == other {
             return at;
         }
-        (at as u128 * self.0 / other.0) as u64
+        u64::try_from(at as u128 * self.0 / other.0).unwrap_or(u64::MAX)
     }
 
     /// Converts `at` from this unit [fs].

@@ -1,24 +1,29 @@
-//! VCD, FST and GHW files, read by the crate `wellen`.
+//! VCD and FST files, read by the crate `wellen`.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use wellen::stream::{Filter, StreamError, StreamingWaveform};
 use wellen::{Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
 
-use tofsim::error::{Input, Result};
+use tofsim::error::{Error, Input, Result};
 
+use crate::ila::read::LONGEST_WORD;
 use crate::words::Bits;
 
 use super::bytes::Bytes;
-use super::end::end;
+use super::end::{Body, body};
 use super::fst;
 use super::guard::guarded;
+use super::head::{Head, HeadWords};
 use super::library::{fault, set};
-use super::loaded;
 use super::locate::located;
 use super::marks::{Marking, Style};
 use super::names::Name;
 use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, WIDEST, Words};
+use super::span::Fault;
+use super::spliced::{Piece, Spliced};
 use super::stream::{Cursor, Disconnected, Feed};
 use super::tick::Tick;
 
@@ -27,28 +32,64 @@ use super::tick::Tick;
 struct WaveOrigin {
     path: PathBuf,
     format: SourceFormat,
+    /// The file as the library sees it.
+    pieces: Arc<[Piece]>,
     /// The library's signal for each id.
     references: Vec<SignalRef>,
     /// Marks of a logic analyser.
     marks: Option<Style>,
 }
 
-fn open(path: &Path) -> Result<StreamingWaveform<Bytes>> {
+/// Opens a file for the library, which sees `pieces` of it.
+fn open(path: &Path, pieces: &Arc<[Piece]>) -> Result<StreamingWaveform<Bytes>> {
+    let file = Spliced::open(fst::open(path)?, pieces).map_err(Error::io(path, "read"))?;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
-    let wave = wellen::stream::read(fst::open(path)?, &options);
+    let wave = wellen::stream::read(file, &options);
     wave.map_err(|error| fault(path, error))
 }
 
 /// Opens the waveform at `path`.
 pub(super) fn source(path: &Path, format: SourceFormat) -> Result<Source> {
-    guarded(&path.display().to_string(), || match format {
-        SourceFormat::Ghw => described(path, format, &loaded::open(path)?.hierarchy, None),
+    let mut file = fst::open(path)?;
+    let (end, pieces) = match format {
         SourceFormat::Fst => {
-            let end = fst::check(&mut fst::open(path)?).map_err(|fault| fault.of_file(path))?;
-            described(path, format, open(path)?.hierarchy(), end)
+            let contents = fst::check(&mut file).map_err(|fault| fault.of_file(path))?;
+            (contents.end, contents.pieces)
         }
         // Time stamps are looked for in text alone: packed bytes may look like some.
-        _ => described(path, format, open(path)?.hierarchy(), end(path)?),
+        _ => {
+            let Body { end, texts } = body(path)?;
+            (end, Head::read(path, &mut HeadWords::new(file), &texts)?.pieces().into())
+        }
+    };
+    let pieces = Arc::from(pieces);
+    let opened = guarded(&path.display().to_string(), || open(path, &pieces));
+    let wave = opened.map_err(|error| at_place(path, format, error))?;
+    let source = described(path, format, wave.hierarchy(), pieces)?;
+    Ok(if source.is_capture() { source } else { Source { end, ..source } })
+}
+
+/// Adds line or byte, and signal, to an error about a file that the library cannot read.
+fn at_place(path: &Path, format: SourceFormat, error: Error) -> Error {
+    match format {
+        SourceFormat::Vcd => located(path, error),
+        _ => fst_fault(path).map_or(error, |fault| fault.of_file(path)),
+    }
+}
+
+/// Returns the first part of an FST file that cannot be unpacked.
+fn fst_fault(path: &Path) -> Option<Fault> {
+    let mut file = fst::open(path).ok()?;
+    let contents = fst::check(&mut file).ok()?;
+    let pieces = contents.pieces.clone().into();
+    let wave = guarded("", || open(path, &pieces)).ok();
+    contents.fault(&mut file, |index| {
+        let hierarchy = wave.as_ref().map(StreamingWaveform::hierarchy);
+        let name = hierarchy.and_then(|hierarchy| {
+            let mut vars = hierarchy.all_vars().map(|var| &hierarchy[var]);
+            Some(vars.find(|var| var.signal_ref().index() == index)?.full_name(hierarchy))
+        });
+        name.unwrap_or_else(|| format!("signal {index}"))
     })
 }
 
@@ -56,12 +97,12 @@ fn described(
     path: &Path,
     format: SourceFormat,
     hierarchy: &Hierarchy,
-    end: Option<u64>,
+    pieces: Arc<[Piece]>,
 ) -> Result<Source> {
     let source = path.display().to_string();
     let mut signals = Vec::new();
     let mut references: Vec<SignalRef> = Vec::new();
-    let mut ids = std::collections::HashMap::new();
+    let mut ids = HashMap::new();
     for var in hierarchy.all_vars().map(|var| &hierarchy[var]) {
         let reference = var.signal_ref();
         let id = *ids.entry(reference).or_insert_with(|| {
@@ -74,7 +115,8 @@ fn described(
         let expected = format!("expected {WIDEST} bits at most");
         return Err(Input::new(source, expected).field(&wide.name.text).value(wide.width).into());
     }
-    let mut origin = WaveOrigin { path: path.to_owned(), format, references, marks: None };
+    let path = path.to_owned();
+    let mut origin = WaveOrigin { path, format, pieces, references, marks: None };
     let style = Style::of(&signals, hierarchy.version());
     if let Some(style) = style.filter(|_| format == SourceFormat::Vcd) {
         style.hide(&mut signals);
@@ -83,12 +125,13 @@ fn described(
         return Ok(Source { radix_stated: false, ..source });
     }
     let axis = Axis::Time(tick(&source, hierarchy)?);
-    Ok(Source { end, ..Source::new(source, format, axis, signals, origin) })
+    Ok(Source::new(source, format, axis, signals, origin))
 }
 
 fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
     let (kind, width) = match var.signal_encoding(hierarchy) {
-        SignalEncoding::BitVector(0) | SignalEncoding::String => (SignalKind::Other, 0),
+        SignalEncoding::BitVector(0) => (SignalKind::Other, 0),
+        SignalEncoding::String => (SignalKind::Text, 8 * LONGEST_WORD as u32),
         SignalEncoding::BitVector(width) => (SignalKind::Bits, width),
         SignalEncoding::Real => (SignalKind::Real, 64),
     };
@@ -117,20 +160,14 @@ impl signals::Origin for WaveOrigin {
         let origin = self.clone();
         Ok(Cursor::spawn(widths, move |feed| {
             let source = origin.path.display().to_string();
-            let result = guarded(&source, || match origin.format {
-                SourceFormat::Ghw => loaded::feed(&origin.path, &references, feed),
-                _ => stream(&origin, &references, feed),
-            });
-            match origin.format {
-                SourceFormat::Vcd => result.map_err(|error| located(&origin.path, error)),
-                _ => result,
-            }
+            let result = guarded(&source, || stream(&origin, &references, feed));
+            result.map_err(|error| at_place(&origin.path, origin.format, error))
         }))
     }
 }
 
 fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
-    let mut wave = open(&origin.path)?;
+    let mut wave = open(&origin.path, &origin.pieces)?;
     let mut marking = origin.marks.as_ref().map(|style| Marking::new(style, &origin.references));
     let mut wanted = references.to_vec();
     wanted.extend(marking.iter().flat_map(Marking::references));

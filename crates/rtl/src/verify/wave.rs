@@ -8,7 +8,7 @@ use tofsim::error::Result;
 use tofsim::files::output::{write_bytes, write_file};
 use tofsim::kernel::Time;
 use tofsim::waves::side_by_side::{
-    HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, Value, View, range,
+    HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, TimescaleUnit, Value, View, range,
 };
 
 use crate::golden::spec::Vectors;
@@ -66,7 +66,8 @@ fn body(
     let expected: Vec<_> = expected.into_iter().filter(is_compared).collect();
     let sides = [(SIDES[0], &expected), (SIDES[1], &got), (INPUT, &inputs)];
     let top = vectors.bench_module();
-    let layout = Layout { version: None, top: &top, first: Some(timing.clock), last: None };
+    let (unit, first) = (TimescaleUnit::PS, Some(timing.clock));
+    let layout = Layout { version: None, unit, top: &top, first, last: None };
     let signal = |columns: &&[Column]| (columns[0].name.clone(), columns[0].width as u32);
     let scopes: [Scope; 3] = sides.map(|(name, side)| (name, side.iter().map(signal).collect()));
     let mut wave = SideBySide::begin(file, &layout, &scopes)?;

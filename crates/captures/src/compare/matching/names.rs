@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use crate::source::{Name, Source};
+use crate::source::{Name, Signal, SignalKind, Source};
 
 use super::super::pair::{MatchedBy, Pair};
 use super::super::parts::ordered;
@@ -196,11 +196,15 @@ fn refused(
     if let Some(others) = &back.several {
         return vec![(1, mutual[0], UnmatchedReason::Ambiguous(others.clone()))];
     }
-    if a.width == b.width && a.kind == b.kind {
+    if a.fits(b) {
         return Vec::new();
     }
-    let theirs = mutual.iter().map(|&other| (1, other, UnmatchedReason::Width(b.width, a.width)));
-    [(0, own, UnmatchedReason::Width(a.width, b.width))].into_iter().chain(theirs).collect()
+    let reason = |own: &Signal, other: &Signal| match (own.kind, other.kind) {
+        (SignalKind::Text, _) | (_, SignalKind::Text) => UnmatchedReason::Text,
+        _ => UnmatchedReason::Width(own.width, other.width),
+    };
+    let theirs = mutual.iter().map(|&other| (1, other, reason(b, a)));
+    [(0, own, reason(a, b))].into_iter().chain(theirs).collect()
 }
 
 /// Returns the names of some signals, if they are not the same signal.

@@ -53,7 +53,8 @@ pub(super) fn by_rule(
         }
     }
     let [width, other] = [0, 1].map(|side| parts[side].iter().map(|part| part.width).sum::<u32>());
-    if width != other {
+    // The width of words may be unknown.
+    if width != other && width > 0 && other > 0 {
         let expected = format!("expected signals of one width, not {width} and {other} bits");
         return Err(Input::new("map", expected).field(names[0].join(" ")).into());
     }

@@ -34,8 +34,7 @@ pub(super) fn by_tail(
         let (end, &found) = ends(&text).find_map(|end| others.get_key_value(end))?;
         let (Ending::One(b), Some(Ending::One(_))) = (found, own.get(end)) else { return None };
         let [a_signal, b_signal] = [&sides[0].signals[a], &sides[1].signals[b]];
-        let fits = a_signal.width == b_signal.width && a_signal.kind == b_signal.kind;
-        (fits && is_left.contains(&b)).then_some([a, b])
+        (a_signal.fits(b_signal) && is_left.contains(&b)).then_some([a, b])
     };
     left[0].iter().filter_map(partner).collect()
 }

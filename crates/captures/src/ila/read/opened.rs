@@ -15,8 +15,8 @@ pub const WIDEST_SAMPLE: u32 = 1 << 20;
 pub const LARGEST: u64 = 1 << 29;
 /// Longest word in a cell [bytes].
 pub const LONGEST_WORD: usize = 128;
-/// Largest number of distinct words of a column that are kept.
-const MOST_STATES: usize = 256;
+/// Largest number of distinct words of a signal that are kept.
+pub(crate) const MOST_STATES: usize = 256;
 
 /// A column of a capture: a probe, or a slice of one.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -158,7 +158,7 @@ pub(super) fn lay_out(columns: &mut [Column]) {
 }
 
 /// Stores the bytes of a word as the value of a text column.
-pub(super) fn put_word(cell: &[u8], place: &mut [u64]) {
+pub(crate) fn put_word(cell: &[u8], place: &mut [u64]) {
     for (k, &byte) in cell.iter().enumerate() {
         place[k / 8] |= u64::from(byte) << (8 * (k % 8));
     }

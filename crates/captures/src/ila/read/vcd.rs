@@ -41,7 +41,12 @@ impl Vcd {
             let fault = |expected: &str| Input::new(source, expected).at(number, 1).value(line);
             let mut words = line.split_ascii_whitespace();
             match words.next() {
-                Some("$enddefinitions") => break,
+                Some("$enddefinitions") if words.clone().eq(["$end"]) => break,
+                Some("$enddefinitions") => {
+                    return Err(
+                        fault("expected `$enddefinitions $end` on a line of its own").into()
+                    );
+                }
                 Some("$var") => {}
                 _ => continue,
             }
@@ -184,6 +189,7 @@ mod tests {
         assert!(fault("#x\n").ends_with("#x: expected the number of a sample"));
         assert!(fault("#2\n#1\n").ends_with("#1: expected a sample after those before"));
         assert!(Vcd::read("a.vcd", "$var wire 1 ! a $end\n").is_err());
+        assert!(Vcd::read("a.vcd", "$enddefinitions $end #0 1!\n").is_err());
         assert!(Vcd::read("a.vcd", "$var reg 2 ! a $end\n").is_err());
     }
 }

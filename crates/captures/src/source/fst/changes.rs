@@ -4,7 +4,7 @@ use std::io::{Read, Seek, SeekFrom};
 
 use super::super::bytes::Bytes;
 use super::super::span::{Checked, Fault, Span, at_most};
-use super::unpack::most;
+use super::unpack::{lz4, most, zlib};
 
 /// Size of the fields before the initial values: length, start, end and memory [bytes].
 const HEAD: u64 = 4 * 8;
@@ -27,6 +27,35 @@ pub(super) struct Section {
 impl Section {
     /// Checks that all parts lie within the block, and that no count or size exceeds its contents.
     pub(super) fn check(self, file: &mut Bytes, signals: u64) -> Checked<()> {
+        let parts = self.parts(file, signals)?;
+        sizes(file, &parts)
+    }
+
+    /// Unpacks all parts; `name` is the name of a signal by index.
+    pub(super) fn unpack(self, file: &mut Bytes, name: &dyn Fn(usize) -> String) -> Checked<()> {
+        let parts = self.parts(file, u64::MAX)?;
+        let [size, packed] = parts.times;
+        let place = self.begin + self.length - TAIL - packed;
+        zlib(&file.range(place, packed)?, size, "times' size")?;
+        let ends = parts.places.iter().skip(1).map(|place| place.at).chain([parts.length]);
+        for (place, end) in parts.places.iter().zip(ends) {
+            let bytes = file.range(parts.values + place.at, end - place.at)?;
+            let mut span = Span::new(&bytes, "changes");
+            let size = span.number()?;
+            let packed = span.take(span.left())?;
+            let what = || format!("changes of {}", name(place.signal as usize));
+            match parts.method {
+                _ if size == 0 => {}
+                b'4' => drop(lz4(packed, size, &what())?),
+                b'F' => {}
+                _ => drop(zlib(packed, size, &what())?),
+            }
+        }
+        Ok(())
+    }
+
+    /// Locates the parts of the block.
+    fn parts(self, file: &mut Bytes, signals: u64) -> Checked<Parts> {
         let end = self.begin + self.length;
         let least = HEAD + 3 + 2 + 8 + TAIL;
         if self.length < least {
@@ -50,8 +79,9 @@ impl Section {
         } else {
             places(&chain, signals)?
         };
-        let is_deflated = !matches!(file.range(values, 1)?[..], [b'4' | b'F']);
-        sizes(file, values, &places, chain_begin - values, is_deflated)
+        let method = file.range(values, 1)?.first().copied().unwrap_or_default();
+        let length = chain_begin - values;
+        Ok(Parts { times: [size, packed], values, length, places, method })
     }
 
     /// Returns the offset of the compressed changes, after the initial values.
@@ -71,8 +101,29 @@ impl Section {
     }
 }
 
-/// Parses the offset of each signal's changes, relative to the first compressed byte, in ascending order.
-fn places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
+/// Parts of a block.
+struct Parts {
+    /// Uncompressed and compressed size of the times [bytes].
+    times: [u64; 2],
+    /// Offset of the compressed changes, and their length [bytes].
+    values: u64,
+    length: u64,
+    places: Vec<Place>,
+    /// Compression of the changes: `4` is LZ4, `F` is FastLZ, others are deflate.
+    method: u8,
+}
+
+/// Changes of a signal.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// Index of the signal.
+    signal: u64,
+    /// Offset relative to the first compressed byte.
+    at: u64,
+}
+
+/// Parses where each signal's changes are, in ascending order.
+fn places(chain: &[u8], signals: u64) -> Checked<Vec<Place>> {
     let (mut span, mut places) = (Span::new(chain, "places"), Vec::new());
     let mut count = 0;
     while span.left() > 0 {
@@ -82,7 +133,7 @@ fn places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
                 1
             }
             number if number % 2 == 1 => {
-                add(&mut places, number / 2)?;
+                add(&mut places, count, number / 2)?;
                 1
             }
             number => at_most("signals without changes", number / 2, signals)?,
@@ -93,7 +144,7 @@ fn places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
 }
 
 /// Parses the offsets in the format since 2014.
-fn signed_places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
+fn signed_places(chain: &[u8], signals: u64) -> Checked<Vec<Place>> {
     let (mut span, mut places) = (Span::new(chain, "places"), Vec::new());
     let mut count = 0;
     while span.left() > 0 {
@@ -102,7 +153,7 @@ fn signed_places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
             let number = span.signed()? >> 1;
             match u64::try_from(number) {
                 Ok(0) => {}
-                Ok(further) => add(&mut places, further)?,
+                Ok(further) => add(&mut places, count, further)?,
                 Err(_) => {
                     at_most("a signal that another is like", number.unsigned_abs(), signals)?;
                 }
@@ -116,26 +167,24 @@ fn signed_places(chain: &[u8], signals: u64) -> Checked<Vec<u64>> {
     Ok(places)
 }
 
-fn add(places: &mut Vec<u64>, further: u64) -> Checked<()> {
-    let place = places.last().unwrap_or(&0).checked_add(further).filter(|_| further > 0);
-    places.push(place.ok_or_else(|| Fault::value("a place", further, "is none"))?);
+fn add(places: &mut Vec<Place>, signal: u64, further: u64) -> Checked<()> {
+    let last = places.last().map_or(0, |place| place.at);
+    let at = last.checked_add(further).filter(|_| further > 0);
+    let at = at.ok_or_else(|| Fault::value("a place", further, "is none"))?;
+    places.push(Place { signal, at });
     Ok(())
 }
 
 /// Checks the uncompressed size of each signal's changes against their compressed size.
-fn sizes(
-    file: &mut Bytes,
-    values: u64,
-    places: &[u64],
-    length: u64,
-    is_deflated: bool,
-) -> Checked<()> {
-    let ends = places.iter().skip(1).chain([&length]);
+fn sizes(file: &mut Bytes, parts: &Parts) -> Checked<()> {
+    let &Parts { values, length, ref places, method, .. } = parts;
+    let is_deflated = !matches!(method, b'4' | b'F');
+    let ends = places.iter().skip(1).map(|place| place.at).chain([length]);
     let mut total = 0;
-    for (&place, &end) in places.iter().zip(ends) {
-        at_most("a place", place, length)?;
-        let packed = at_most("a place", end, length)?.saturating_sub(place);
-        file.seek(SeekFrom::Start(values + place))?;
+    for (&Place { at, .. }, end) in places.iter().zip(ends) {
+        at_most("a place", at, length)?;
+        let packed = at_most("a place", end, length)?.saturating_sub(at);
+        file.seek(SeekFrom::Start(values + at))?;
         let mut head = [0; NUMBER as usize];
         let head = &mut head[..packed.min(NUMBER) as usize];
         file.read_exact(head)?;

@@ -2,7 +2,7 @@
 
 use super::super::signals::WIDEST;
 use super::super::span::{Checked, Fault, Span, at_most};
-use super::unpack::{gzip, lz4, zlib};
+use super::unpack::{gzip, gzipped, lz4, zlib};
 
 /// Parses the width of each signal's initial value in the geometry block [bytes].
 pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
@@ -20,13 +20,14 @@ pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
 }
 
 /// Checks that every name in a hierarchy block belongs to one of the first `signals` signals. The block's kind is 4 if it
-/// is compressed by gzip, 6 for LZ4, or 7 for LZ4 twice.
-pub(super) fn check(body: &[u8], kind: u8, signals: u64) -> Checked<()> {
+/// is compressed by gzip, 6 for LZ4, or 7 for LZ4 twice. If there are VHDL types among the names, the block is returned
+/// without them.
+pub(super) fn check(body: &[u8], kind: u8, signals: u64) -> Checked<Option<Vec<u8>>> {
     const SIZE: &str = "names' size";
     let mut span = Span::new(body, "names");
     let size = span.word(8)?;
     let bytes = match kind {
-        4 => gzip(span.take(span.left())?, size, SIZE)?,
+        GZIP_NAMES => gzip(span.take(span.left())?, size, SIZE)?,
         6 => lz4(span.take(span.left())?, size, SIZE)?,
         _ => {
             let once = span.number()?;
@@ -34,8 +35,10 @@ pub(super) fn check(body: &[u8], kind: u8, signals: u64) -> Checked<()> {
         }
     };
     let mut span = Span::new(&bytes, "names");
-    let mut own = 0;
+    let (mut own, mut kept) = (0, Vec::new());
     while span.left() > 0 {
+        let begin = span.place();
+        let mut is_kept = true;
         match span.byte()? {
             SCOPE => {
                 span.byte()?;
@@ -57,13 +60,28 @@ pub(super) fn check(body: &[u8], kind: u8, signals: u64) -> Checked<()> {
                 }
                 span.text()?;
                 span.number()?;
+                is_kept = kind != VHDL_TYPE;
             }
             ATTRIBUTE_END | SCOPE_END => {}
             kind => return Err(Fault::value("a name's kind", kind.into(), "is none")),
         }
+        if is_kept {
+            kept.extend_from_slice(&bytes[begin..span.place()]);
+        }
     }
-    Ok(())
+    Ok((kept.len() < bytes.len()).then(|| block(&kept)))
 }
+
+/// Returns a block of names.
+fn block(names: &[u8]) -> Vec<u8> {
+    let packed = gzipped(names);
+    let length = 2 * 8 + packed.len() as u64;
+    let size = names.len() as u64;
+    [&[GZIP_NAMES][..], &length.to_be_bytes(), &size.to_be_bytes(), &packed].concat()
+}
+
+/// Kind of a block of names that is compressed by gzip.
+const GZIP_NAMES: u8 = 4;
 
 /// Kinds of entries in the hierarchy: the last kind of a variable, and the starts and ends of attributes and scopes.
 const LAST_KIND: u8 = 29;
@@ -71,5 +89,7 @@ const ATTRIBUTE: u8 = 252;
 const ATTRIBUTE_END: u8 = 253;
 const SCOPE: u8 = 254;
 const SCOPE_END: u8 = 255;
+/// Attribute with the VHDL type of the next variable.
+const VHDL_TYPE: [u8; 2] = [0, 2];
 /// Attributes that have a number in place of their text: source stems.
 const SOURCES: [[u8; 2]; 2] = [[0, 4], [0, 5]];

@@ -2,6 +2,7 @@
 
 use lz4_flex::block::decompress;
 use miniz_oxide::DataFormat;
+use miniz_oxide::deflate::compress_to_vec;
 use miniz_oxide::inflate::stream::{InflateState, inflate};
 use miniz_oxide::inflate::{decompress_to_vec_with_limit, decompress_to_vec_zlib_with_limit};
 use miniz_oxide::{MZFlush, MZStatus};
@@ -39,6 +40,12 @@ pub(super) fn gzip(packed: &[u8], size: u64, what: &str) -> Checked<Vec<u8>> {
     let body = gzip_body(packed, what)?;
     let size = at_most(what, size, most(body.len() as u64, true))?;
     whole(decompress_to_vec_with_limit(body, size as usize).ok(), size, what)
+}
+
+/// Compresses to gzip's format, without the checksum at its end, which is not read.
+pub(super) fn gzipped(bytes: &[u8]) -> Vec<u8> {
+    let header = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 255];
+    [&header[..], &compress_to_vec(bytes, 1)].concat()
 }
 
 fn gzip_body<'a>(packed: &'a [u8], what: &str) -> Checked<&'a [u8]> {

@@ -1,25 +1,54 @@
-//! Types of a GHW file, as far as they determine the number of signals of a name.
+//! Types of a GHW file: what determines names, widths and encodings of its signals.
 
 use super::super::span::{Checked, Fault, Span, at_most};
+use super::range::Range;
 
 /// Largest nesting depth of types.
 const DEEPEST: u32 = 256;
-/// Limit of the library's steps for a name, per byte of the file.
+/// Limit of the steps for a name, per byte of the file.
 const STEPS: u64 = 64;
+/// Literals of `std_ulogic` and of `bit`, without quotes, in lower case.
+const NINE: &[u8] = b"ux01zwlh-";
+const TWO: &[u8] = b"01";
+
+/// Encoding of a scalar signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scalar {
+    /// Position in `std_ulogic`.
+    Nine,
+    /// Position of a literal, with its width [bits].
+    Literal(u32),
+    /// Number, with its width [bits].
+    Number(u32),
+    Real,
+}
+
+impl Scalar {
+    /// Returns whether an array of it is a vector of bits; `bit` is a literal of one bit.
+    fn is_bit(self, literals: &[usize]) -> bool {
+        self == Scalar::Nine || (self == Scalar::Literal(1) && literals.is_empty())
+    }
+}
 
 /// Structure of a type.
 #[derive(Clone, Debug, PartialEq)]
-enum Form {
-    /// An enumeration.
-    Literals,
-    /// A number, with the number of values in its range if it has one.
-    Number(Option<u64>),
-    Real,
-    /// An array of a type, with its length if it is known.
-    Array(usize, Option<u64>),
-    Record(Vec<usize>),
-    /// Another name of a type.
+pub(super) enum Form {
+    /// A scalar, with the strings of its literals if it is an enumeration other than `std_ulogic` and `bit`.
+    Scalar(Scalar, Vec<usize>),
+    /// An array of a type, with its ranges if they are known.
+    Array(usize, Dimensions),
+    /// Names and types of the fields.
+    Record(Vec<(usize, usize)>),
+    /// Another name of a type, or a subtype of a scalar.
     Alias(usize),
+}
+
+/// Dimensions of an array.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Dimensions {
+    /// Their number.
+    Open(u64),
+    Known(Vec<Range>),
 }
 
 /// A type with derived properties.
@@ -50,13 +79,14 @@ impl Types {
         Types { version, types: Vec::new(), numbered: Vec::new(), most: 0 }
     }
 
-    /// Parses the section of types.
-    pub(super) fn section(&mut self, file: &mut Span) -> Checked<()> {
+    /// Parses the section of types; `strings` are those of the file.
+    pub(super) fn section(&mut self, file: &mut Span, strings: &[String]) -> Checked<()> {
         file.take(4)?;
         let count = file.items("types")?;
         self.most = (file.left() + file.place() as u64).saturating_mul(STEPS);
         for number in 1..=count {
-            let form = self.form(file).map_err(|fault| fault.within(&format!("type {number}")))?;
+            let form = self.form(file, strings);
+            let form = form.map_err(|fault| fault.within(&format!("type {number}")))?;
             self.add(form)?;
             self.numbered.push(self.types.len() - 1);
         }
@@ -84,101 +114,90 @@ impl Types {
         if found.steps > self.most { u64::MAX } else { found.signals }
     }
 
-    /// Skips a value of this type.
-    pub(super) fn value(&self, file: &mut Span, index: usize) -> Checked<()> {
-        match self.types[self.base(index)].form {
-            Form::Literals => drop(file.byte()?),
-            Form::Number(_) => drop(file.signed()?),
-            Form::Real => drop(file.take(8)?),
-            _ => return Err(Fault::of("value", "expected a scalar")),
+    /// Returns the structure of a type that is no alias.
+    pub(super) fn resolved(&self, index: usize) -> &Form {
+        &self.types[self.base(index)].form
+    }
+
+    /// Returns the encoding of the elements if an array of them is a vector of bits.
+    pub(super) fn bit(&self, element: usize) -> Option<Scalar> {
+        match self.resolved(element) {
+            Form::Scalar(scalar, literals) if scalar.is_bit(literals) => Some(*scalar),
+            _ => None,
         }
-        Ok(())
     }
 
     fn base(&self, index: usize) -> usize {
         if let Form::Alias(base) = self.types[index].form { base } else { index }
     }
 
-    fn form(&mut self, file: &mut Span) -> Checked<Form> {
+    fn form(&mut self, file: &mut Span, strings: &[String]) -> Checked<Form> {
         let kind = file.byte()?;
         file.number()?;
         Ok(match kind {
             22 | 23 => {
-                for _ in 0..file.count("literals")? {
-                    file.number()?;
-                }
-                Form::Literals
+                let literals = (0..file.count("literals")?).map(|_| string(file, strings));
+                enumeration(literals.collect::<Checked<_>>()?, strings)
             }
-            25 | 26 => Form::Number(None),
-            27 => Form::Real,
+            25 => Form::Scalar(Scalar::Number(32), Vec::new()),
+            26 => Form::Scalar(Scalar::Number(64), Vec::new()),
+            27 => Form::Scalar(Scalar::Real, Vec::new()),
             28 | 29 => {
                 let units = if self.version == 0 { 0 } else { file.count("units")? };
                 for _ in 0..units {
                     file.number()?;
                     file.signed()?;
                 }
-                Form::Number(None)
+                Form::Scalar(Scalar::Number(if kind == 28 { 32 } else { 64 }), Vec::new())
             }
             34 => {
                 let base = self.of(file)?;
-                let length = range(file)?;
-                match self.types[self.base(base)].form {
-                    Form::Literals => Form::Alias(self.base(base)),
-                    Form::Real => Form::Real,
-                    _ => Form::Number(Some(length)),
-                }
+                Range::parse(file)?;
+                Form::Alias(self.base(base))
             }
             31 => self.array(file)?,
             32 => {
                 let count = file.count("fields")?;
-                let mut field = |_| {
-                    file.number()?;
-                    self.of(file)
-                };
-                Form::Record((0..count).map(&mut field).collect::<Checked<_>>()?)
+                let fields = (0..count).map(|_| Ok((string(file, strings)?, self.of(file)?)));
+                Form::Record(fields.collect::<Checked<_>>()?)
             }
             35 | 38 => {
                 let base = self.of(file)?;
                 self.bounded(file, base)?
             }
-            37 => {
-                let base = self.of(file)?;
-                match self.types[self.base(base)].form {
-                    Form::Array(element, _) => Form::Array(element, None),
-                    _ => return Err(Fault::of("base", "expected an array")),
-                }
-            }
+            37 | 39 => Form::Alias(self.base(self.of(file)?)),
             kind => return Err(Fault::value("kind", kind.into(), "is none that can be read")),
         })
     }
 
+    /// Parses an array, whose ranges a subtype states.
     fn array(&self, file: &mut Span) -> Checked<Form> {
         let element = self.of(file)?;
         let dimensions = file.count("dimensions")?;
-        if dimensions != 1 {
-            return Err(Fault::value("dimensions", dimensions, "expected 1"));
+        if dimensions == 0 {
+            return Err(Fault::value("dimensions", dimensions, "expected 1 or more"));
         }
-        let index = self.of(file)?;
-        let length = match self.types[self.base(index)].form {
-            Form::Literals => Some(u64::MAX),
-            Form::Number(length) => length,
-            _ => None,
-        };
-        Ok(Form::Array(element, length))
+        for _ in 0..dimensions {
+            self.of(file)?;
+        }
+        Ok(Form::Array(element, Dimensions::Open(dimensions)))
     }
 
     /// Parses the ranges of a type's arrays without a length.
     fn bounded(&mut self, file: &mut Span, base: usize) -> Checked<Form> {
         let base = self.base(base);
         match self.types[base].form.clone() {
-            Form::Array(element, _) => {
-                let length = range(file)?;
+            Form::Array(_, Dimensions::Known(_)) => Ok(Form::Alias(base)),
+            Form::Array(element, Dimensions::Open(count)) => {
+                let ranges = (0..count).map(|_| Range::parse(file)).collect::<Checked<_>>()?;
                 let element = self.bounded_part(file, element)?;
-                Ok(Form::Array(element, Some(length)))
+                Ok(Form::Array(element, Dimensions::Known(ranges)))
             }
             Form::Record(_) if self.types[base].is_whole => Ok(Form::Alias(base)),
             Form::Record(fields) => {
-                let fields = fields.into_iter().map(|field| self.bounded_part(file, field));
+                let fields = fields
+                    .into_iter()
+                    .map(|(name, field)| Ok((name, self.bounded_part(file, field)?)));
                 Ok(Form::Record(fields.collect::<Checked<_>>()?))
             }
             _ => Err(Fault::of("base", "expected an array or a record")),
@@ -197,45 +216,53 @@ impl Types {
 
     fn add(&mut self, form: Form) -> Checked<()> {
         let part = |index: usize| &self.types[index];
-        let (parts, times): (Vec<&Type>, u64) = match &form {
-            Form::Literals | Form::Number(_) | Form::Real => (Vec::new(), 1),
-            Form::Array(element, length) => (vec![part(*element)], length.unwrap_or(u64::MAX)),
-            Form::Record(fields) => (fields.iter().map(|&field| part(field)).collect(), 1),
-            Form::Alias(base) => (vec![part(*base)], 1),
+        let (parts, times, has_range): (Vec<&Type>, u64, bool) = match &form {
+            Form::Scalar(..) => (Vec::new(), 1, true),
+            Form::Array(element, Dimensions::Open(_)) => (vec![part(*element)], u64::MAX, false),
+            Form::Array(element, Dimensions::Known(ranges)) => {
+                let product = |product: u64, range: &Range| product.saturating_mul(range.length());
+                (vec![part(*element)], ranges.iter().fold(1, product), true)
+            }
+            Form::Record(fields) => {
+                (fields.iter().map(|&(_, field)| part(field)).collect(), 1, true)
+            }
+            Form::Alias(base) => (vec![part(*base)], 1, true),
         };
         let sum = |of: fn(&Type) -> u64| {
             let sum = parts.iter().fold(0u64, |sum, part| sum.saturating_add(of(part)));
             sum.saturating_mul(times)
         };
-        let is_scalar = parts.is_empty() && !matches!(form, Form::Record(_));
+        let is_scalar = matches!(form, Form::Scalar(..));
         let signals = sum(|part| part.signals).max(is_scalar.into());
         let steps = sum(|part| part.steps).saturating_add(1);
         let depth = 1 + parts.iter().map(|part| part.depth).max().unwrap_or(0);
         at_most("types within each other", depth.into(), DEEPEST.into())?;
-        let has_range = match form {
-            Form::Array(_, length) | Form::Number(length) => length.is_some(),
-            _ => true,
-        };
         let is_whole = has_range && parts.iter().all(|part| part.is_whole);
         self.types.push(Type { form, signals, steps, depth, is_whole });
         Ok(())
     }
 }
 
-/// Parses a range, and returns its number of values.
-fn range(file: &mut Span) -> Checked<u64> {
-    let head = file.byte()?;
-    let falls = head & 0x80 != 0;
-    let (left, right) = match head & 0x7f {
-        22 | 23 => (file.byte()?.into(), file.byte()?.into()),
-        25 | 26 | 28 | 29 => (file.signed()?, file.signed()?),
-        27 => {
-            file.take(16)?;
-            return Ok(0);
-        }
-        kind => return Err(Fault::value("a range's kind", kind.into(), "is none of GHDL's")),
+/// Parses a reference to a string, and returns its index; 0 is no name.
+pub(super) fn string(file: &mut Span, strings: &[String]) -> Checked<usize> {
+    let number = at_most("string", file.number()?, strings.len() as u64 - 1)?;
+    Ok(number as usize)
+}
+
+/// Returns the structure of an enumeration with the given literals.
+fn enumeration(literals: Vec<usize>, strings: &[String]) -> Form {
+    let is = |values: &[u8]| {
+        let same = |(&literal, value): (&usize, &u8)| {
+            strings[literal].trim_matches('\'').as_bytes().to_ascii_lowercase() == [*value]
+        };
+        literals.len() == values.len() && literals.iter().zip(values).all(same)
     };
-    let (low, high) = if falls { (right, left) } else { (left, right) };
-    let length = i128::from(high) - i128::from(low) + 1;
-    Ok(u64::try_from(length.max(0)).unwrap_or(u64::MAX))
+    if is(NINE) {
+        return Form::Scalar(Scalar::Nine, Vec::new());
+    }
+    if is(TWO) {
+        return Form::Scalar(Scalar::Literal(1), Vec::new());
+    }
+    let last = literals.len().saturating_sub(1).max(1);
+    Form::Scalar(Scalar::Literal(usize::BITS - last.leading_zeros()), literals)
 }

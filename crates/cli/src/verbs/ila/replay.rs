@@ -96,7 +96,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let files = [&place.scenario, &list].map(|name| place.folder.join(name));
     stage.commit()?;
     files.iter().for_each(|file| talk.wrote(file));
-    let next = next(args, &located);
+    let next = next(args, options.map.clock.is_some(), &located);
     let findings = ReplayFindings { replay: &replay, located: &located, files: &files, next };
     Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
 }
@@ -171,19 +171,25 @@ fn replayed(base: Loaded, replay: &Replay, list: &str) -> Result<Scenario> {
     Ok(scenario)
 }
 
-/// The command that compares the capture with its replay.
-fn next(args: &Args, located: &Located) -> String {
-    let quoted =
-        |text: String| if text.contains([' ', '\'']) { format!("\"{text}\"") } else { text };
+/// Quotes a word of a command line for a shell, if necessary.
+fn quoted(word: String) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-./,:=+@%".contains(&byte);
+    if word.bytes().all(is_plain) { word } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+/// The command that compares the capture with its replay; `has_clock` says whether the map states the clock.
+fn next(args: &Args, has_clock: bool, located: &Located) -> String {
     let mut words = vec!["tofsim compare --scenario".to_owned()];
     words.push(quoted(args.output.display().to_string()));
     words.push(quoted(args.capture.display().to_string()));
     words.extend(args.map.iter().map(|map| format!("--map {}", quoted(map.clone()))));
     match &args.clock {
         Some(SampleClock::Signal(clock)) => words.push(format!("--clock {clock}")),
-        _ if args.map.is_none() => words.push("--clock clk_sys".to_owned()),
+        _ if !has_clock => words.push("--clock clk_sys".to_owned()),
         _ => {}
     }
+    let radix = choice::RADIX.iter().find(|(_, radix, _)| Some(*radix) == args.radix);
+    words.extend(radix.map(|(word, ..)| format!("--radix {word}")));
     if let Some(offset) = located.offset {
         words.push(format!("--align 'offset {offset}'"));
     }

@@ -1,6 +1,6 @@
 //! The compressed parts of a MATLAB file, unpacked with a bound: the library that reads such files
-//! unpacks whatever there is, and a thousandth of a gigabyte of zeros is a small file. Whole numbers are widened on the
-//! way.
+//! unpacks whatever there is, and a thousandth of a gigabyte of zeros is a small file. Elements that are no arrays are
+//! left out, because it prints them on standard output; whole numbers are widened on the way.
 
 use miniz_oxide::inflate::TINFLStatus;
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
@@ -12,10 +12,13 @@ use super::widen::widened;
 pub(super) const LARGEST: usize = 64 << 20;
 /// Bytes before the first element.
 const HEADER: usize = 128;
-/// Type of an element that is another one, compressed.
+/// Types of an element that is an array, and of one that is another element, compressed.
+const ARRAY: u32 = 14;
 const COMPRESSED: u32 = 15;
+/// Bits of the type, whose others are the length of a short element.
+const KIND: u32 = 0xffff;
 
-/// The same file with nothing compressed; what is no MATLAB file comes back as it is.
+/// The same file with arrays alone, and nothing compressed; what is no MATLAB file comes back as it is.
 ///
 /// # Errors
 /// When it is too large, or a part cannot be unpacked, in words.
@@ -36,8 +39,11 @@ pub(super) fn unpacked(file: &[u8]) -> Result<Vec<u8>, String> {
         let (element, after) = rest.split_at(rest.len().min(TAG + length));
         if kind != COMPRESSED {
             // Aligned by the padding that stands there, too.
-            let (element, after) = rest.split_at(rest.len().min(TAG + length.next_multiple_of(8)));
-            whole.append(&mut widened(element, order));
+            let length = if kind > KIND { 0 } else { length.next_multiple_of(8) };
+            let (element, after) = rest.split_at(rest.len().min(TAG + length));
+            if kind & KIND == ARRAY {
+                whole.append(&mut widened(element, order));
+            }
             rest = after;
             continue;
         }
@@ -47,7 +53,7 @@ pub(super) fn unpacked(file: &[u8]) -> Result<Vec<u8>, String> {
             TINFLStatus::HasMoreOutput => too_large(),
             status => format!("a compressed part cannot be unpacked ({status:?})"),
         })?;
-        if tag(&inner, order).is_none_or(|(kind, _)| kind == COMPRESSED) {
+        if tag(&inner, order).is_none_or(|(kind, _)| kind & KIND != ARRAY) {
             return Err("a compressed part holds no array".to_owned());
         }
         inner.resize(inner.len().next_multiple_of(8), 0);
@@ -84,6 +90,8 @@ mod tests {
         let packed = compress_to_vec_zlib(&b, 6);
         let mixed = file(&[(14, &[1; 16]), (COMPRESSED, &packed), (14, &[1; 16])]);
         assert_eq!(unpacked(&mixed).unwrap()[HEADER..], [a.clone(), b, a].concat());
+        let others = file(&[(9, &[3; 8]), (14, &[1; 16]), (2, &[4; 8]), (0x4_0001, &[])]);
+        assert_eq!(unpacked(&others).unwrap()[HEADER..], element(&[1; 16]));
         assert_eq!(unpacked(b"no MATLAB file").unwrap(), b"no MATLAB file");
     }
 

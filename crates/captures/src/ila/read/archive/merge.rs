@@ -1,5 +1,7 @@
 //! Merging of an archive's parts: the dump, completed by the CSV and the VCD.
 
+use std::collections::BTreeMap;
+
 use tofsim::error::Result;
 
 use super::super::buffer::Buffer;
@@ -24,6 +26,8 @@ struct Merged {
     place: Option<usize>,
     /// Whether its bits come from another part than the CSV.
     has_bits: bool,
+    /// Words that stand for several values, with the first two.
+    ambiguous: BTreeMap<String, [u64; 2]>,
     /// Number of cells that differ from its bits, and the sample of the first.
     differing: (u64, u64),
 }
@@ -41,7 +45,7 @@ impl<'a> Merge<'a> {
         let has_dump = buffer.is_some();
         let merged = |(column, place): (Column, Option<usize>)| {
             let has_bits = place.is_some();
-            Merged { column, place, has_bits, differing: (0, 0) }
+            Merged { column, place, has_bits, ambiguous: BTreeMap::new(), differing: (0, 0) }
         };
         let columns = columns.into_iter().zip(places).map(merged).collect();
         let buffer = buffer.unwrap_or_default();
@@ -116,7 +120,7 @@ impl<'a> Merge<'a> {
 
     /// Processes a row of the CSV.
     fn row(&mut self, row: &CaptureRow, sample: u64) {
-        for Merged { column, place, has_bits, differing } in &mut self.columns {
+        for Merged { column, place, has_bits, ambiguous, differing } in &mut self.columns {
             let (Some(low), value) = (*place, &row.value[column.place()]) else { continue };
             if !*has_bits {
                 self.buffer.put(low, column.bits(), sample, value);
@@ -133,21 +137,35 @@ impl<'a> Merge<'a> {
                 None => value == bits,
             };
             // A word that is not kept, being one of too many, cannot be checked.
-            let known = |cell: &String| match column.states.iter_mut().find(|s| s.name == *cell) {
-                Some(state) => *state.bits.get_or_insert(bits[0]) == bits[0],
-                None => true,
+            let mut known = |cell: &String| {
+                let Some(state) = column.states.iter_mut().find(|s| s.name == *cell) else {
+                    return true;
+                };
+                let first = *state.bits.get_or_insert(bits[0]);
+                if first != bits[0] {
+                    ambiguous.entry(cell.clone()).or_insert([first, bits[0]]);
+                }
+                first == bits[0]
             };
-            if !same && !cell.as_ref().is_some_and(known) {
+            if !same && !cell.as_ref().is_some_and(&mut known) {
                 *differing = (differing.0 + 1, if differing.0 == 0 { sample } else { differing.1 });
             }
         }
     }
 
-    /// Adds notes on columns whose cells differ from their bits.
+    /// Adds notes on columns whose cells differ from their bits, and removes the values of ambiguous words.
     fn disagreements(&mut self) {
-        for Merged { column, differing: (count, first), .. } in &self.columns {
-            if *count > 0 {
-                let head = column.head();
+        for Merged { column, ambiguous, differing: (count, first), .. } in &mut self.columns {
+            let head = column.head();
+            for (word, [first, second]) in ambiguous.iter() {
+                let states = column.states.iter_mut().filter(|state| state.name == *word);
+                states.for_each(|state| state.bits = None);
+                self.notes.push(format!(
+                    "{head}: `{word}` stands for {first:#x} and {second:#x}, so that it has no value"
+                ));
+            }
+            let count = *count;
+            if count > 0 {
                 let text =
                     format!("{head}: {count} cells of waveform.csv, the first at sample {first}");
                 self.notes.push(format!(

@@ -1,0 +1,275 @@
+//! Header of a VCD, rewritten to what the waveform library understands.
+//!
+//! wellen 0.25.7 makes a tab or a line break before a range part of the name, ignores what follows
+//! `$enddefinitions $end` on its line, prints attributes on standard output, and panics on a second `$timescale` and
+//! on words of a signal that is not declared as a string.
+
+use std::collections::{HashMap, HashSet};
+use std::io::{BufRead, Result as IoResult};
+use std::path::Path;
+
+use tofsim::error::{Error, Input, Result};
+
+use super::spliced::Piece;
+use super::tick::Tick;
+
+/// Commands that are passed on, in the order of the standard.
+const COMMANDS: [&str; 5] = ["$version", "$timescale", "$scope", "$upscope", "$var"];
+/// Commands that are left out.
+const LEFT_OUT: [&str; 4] = ["$date", "$comment", "$attrbegin", "$attrend"];
+const END: &[u8] = b"$end";
+
+/// A declared signal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Variable {
+    pub(super) name: String,
+    /// Width [bits].
+    pub(super) width: u32,
+    pub(super) values: Values,
+}
+
+/// Values that a signal may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Values {
+    Bits,
+    Real,
+    Text,
+    Event,
+}
+
+/// Header of a VCD.
+#[derive(Debug, Default)]
+pub(super) struct Head {
+    /// Text for the library.
+    text: Vec<u8>,
+    /// Number of bytes of the file that it replaces.
+    length: u64,
+    /// Declared signals, by their codes.
+    pub(super) variables: HashMap<Vec<u8>, Variable>,
+    /// Line of the time scale.
+    scale: Option<usize>,
+}
+
+impl Head {
+    /// Reads the header of the file at `path`; the signals with the codes `texts` have words.
+    ///
+    /// # Errors
+    /// If it is invalid; with the line.
+    pub(super) fn read<R: BufRead>(
+        path: &Path,
+        words: &mut HeadWords<R>,
+        texts: &HashSet<Vec<u8>>,
+    ) -> Result<Head> {
+        let io = |error| Error::io(path, "read")(error);
+        let mut head = Head::default();
+        loop {
+            let Some(command) = words.next().map_err(io)? else {
+                let expected = "ends before $enddefinitions";
+                return Err(Input::new(path.display(), expected).at(words.line, 1).into());
+            };
+            let (line, name) = (words.line, String::from_utf8_lossy(&command).into_owned());
+            let fault = |expected: String| Input::new(path.display(), expected).at(line, 1);
+            let is_end = name == "$enddefinitions";
+            if !is_end && !COMMANDS.iter().chain(&LEFT_OUT).any(|known| *known == name) {
+                let expected = format!("expected {} or $enddefinitions", COMMANDS.join(", "));
+                return Err(fault(expected).value(name).into());
+            }
+            let mut body = Vec::new();
+            loop {
+                match words.next().map_err(io)? {
+                    Some(word) if word == END => break,
+                    Some(word) => body.push(word),
+                    None => return Err(fault("expected $end".into()).field(name).into()),
+                }
+            }
+            match &name[..] {
+                "$var" => head.declare(&mut body, texts).map_err(|found| found.of(&fault))?,
+                "$timescale" => head.scale(line, &body).map_err(|found| found.of(&fault))?,
+                _ => {}
+            }
+            if !LEFT_OUT.contains(&&name[..]) {
+                let all = [&[command][..], &body, &[END.to_vec()]].concat();
+                head.text.extend_from_slice(&all.join(&b' '));
+                head.text.push(b'\n');
+            }
+            if is_end {
+                head.length = words.place;
+                return Ok(head);
+            }
+        }
+    }
+
+    /// Returns the file with this header in place of its own.
+    pub(super) fn pieces(self) -> [Piece; 2] {
+        [Piece::New(self.text), Piece::Kept(self.length..u64::MAX)]
+    }
+
+    /// Adds a declaration of a signal, and changes its type if it has words.
+    fn declare(
+        &mut self,
+        body: &mut [Vec<u8>],
+        texts: &HashSet<Vec<u8>>,
+    ) -> std::result::Result<(), Wrong> {
+        let shown = |words: &[Vec<u8>]| String::from_utf8_lossy(&words.join(&b' ')).into_owned();
+        let [kind, width, code, name @ ..] = body else {
+            let expected = "expected a type, a width, a code and a name";
+            return Err(Wrong::new("$var", shown(body), expected));
+        };
+        let name = shown(name);
+        let bits = std::str::from_utf8(width).ok().and_then(|width| width.parse().ok());
+        let Some(bits) = bits else {
+            let width = String::from_utf8_lossy(width).into_owned();
+            return Err(Wrong::new(&name, width, "expected a width in bits"));
+        };
+        if texts.contains(code) {
+            *kind = b"string".to_vec();
+        }
+        let values = match &kind[..] {
+            b"string" => Values::Text,
+            b"real" | b"realtime" | b"shortreal" | b"real_parameter" => Values::Real,
+            b"event" => Values::Event,
+            b"port" => {
+                let expected =
+                    "is of an extended VCD ($dumpports), which is not read: use $dumpvars";
+                return Err(Wrong::new(&name, "port".into(), expected));
+            }
+            _ => Values::Bits,
+        };
+        let variable = Variable { name, width: bits, values };
+        self.variables.entry(code.clone()).or_insert(variable);
+        Ok(())
+    }
+
+    /// Checks the time scale.
+    fn scale(&mut self, line: usize, body: &[Vec<u8>]) -> std::result::Result<(), Wrong> {
+        let text = String::from_utf8_lossy(&body.concat()).into_owned();
+        if let Some(first) = self.scale {
+            let expected = format!("expected one time scale, and line {first} has it");
+            return Err(Wrong::new("$timescale", text, expected));
+        }
+        self.scale = Some(line);
+        let unit = text.trim_start_matches(|digit: char| digit.is_ascii_digit());
+        let factor = text[..text.len() - unit.len()].parse().ok();
+        let exponent =
+            UNITS.iter().find(|(known, _)| *known == unit).map(|(_, exponent)| *exponent);
+        let tick = factor.zip(exponent).and_then(|(factor, exponent)| Tick::new(factor, exponent));
+        if tick.is_none() {
+            let expected = "expected a number and one of zs, as, fs, ps, ns, us, ms, s";
+            return Err(Wrong::new("$timescale", text, expected));
+        }
+        Ok(())
+    }
+}
+
+/// Units of time, with their powers of ten.
+const UNITS: [(&str, i8); 8] = [
+    ("s", 0),
+    ("ms", -3),
+    ("us", -6),
+    ("ns", -9),
+    ("ps", -12),
+    ("fs", -15),
+    ("as", -18),
+    ("zs", -21),
+];
+
+/// Invalid field of a command, and what was expected.
+struct Wrong {
+    field: String,
+    value: String,
+    expected: String,
+}
+
+impl Wrong {
+    fn new(field: &str, value: String, expected: impl Into<String>) -> Wrong {
+        Wrong { field: field.to_owned(), value, expected: expected.into() }
+    }
+
+    fn of(self, fault: &dyn Fn(String) -> Input) -> Error {
+        fault(self.expected).field(self.field).value(self.value).into()
+    }
+}
+
+/// Words of a text, separated by blanks and line ends.
+pub(super) struct HeadWords<R> {
+    file: R,
+    /// Line of the last word, from 1.
+    pub(super) line: usize,
+    /// Line of the next byte.
+    next_line: usize,
+    /// Number of bytes read.
+    place: u64,
+}
+
+impl<R: BufRead> HeadWords<R> {
+    pub(super) fn new(file: R) -> HeadWords<R> {
+        HeadWords { file, line: 1, next_line: 1, place: 0 }
+    }
+
+    /// Reads a word and the byte behind it; `None` at the end.
+    pub(super) fn next(&mut self) -> IoResult<Option<Vec<u8>>> {
+        let mut word = Vec::new();
+        loop {
+            let Some(&byte) = self.file.fill_buf()?.first() else {
+                return Ok(Some(word).filter(|word| !word.is_empty()));
+            };
+            self.file.consume(1);
+            self.place += 1;
+            if !byte.is_ascii_whitespace() {
+                self.line = self.next_line;
+                word.push(byte);
+            }
+            self.next_line += usize::from(byte == b'\n');
+            if byte.is_ascii_whitespace() && !word.is_empty() {
+                return Ok(Some(word));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn head(text: &str, texts: &[&str]) -> std::result::Result<(String, String), String> {
+        let texts = texts.iter().map(|code| code.as_bytes().to_vec()).collect();
+        let mut words = HeadWords::new(text.as_bytes());
+        let head = Head::read(Path::new("a.vcd"), &mut words, &texts);
+        let head = head.map_err(|error| error.to_string())?;
+        let body = text[head.length as usize..].to_owned();
+        let head = String::from_utf8(head.text).unwrap();
+        Ok((head.strip_suffix("$enddefinitions $end\n").unwrap().to_owned(), body))
+    }
+
+    #[test]
+    fn blanks_within_a_declaration_are_one_and_the_body_begins_behind_the_header() {
+        let text = "$timescale\n\t1 ns $end $date today $end\n$var\twire 2 !\ttwo\n[1:0]\r\n$end\n\
+            $attrbegin misc 02 CHARACTER 1039 $end\n$enddefinitions\t$end #0 b01 !\n#6 b10 !\n";
+        let head = head(text, &[]).unwrap();
+        assert_eq!(head.0, "$timescale 1 ns $end\n$var wire 2 ! two [1:0] $end\n");
+        assert_eq!(head.1, "#0 b01 !\n#6 b10 !\n");
+    }
+
+    #[test]
+    fn a_signal_with_words_is_a_string() {
+        let text = "$var real 1 ! a $end $var real 1 # b $end $enddefinitions $end ";
+        let head = head(text, &["#"]).unwrap().0;
+        assert_eq!(head, "$var real 1 ! a $end\n$var string 1 # b $end\n");
+    }
+
+    #[test]
+    fn a_fault_has_its_line_and_signal() {
+        let told = |text: &str| head(text, &[]).unwrap_err();
+        let ends = "$enddefinitions $end\n";
+        let twice = told(&format!("$timescale 1ns $end\n\n$timescale 1ps $end\n{ends}"));
+        let expected = "expected one time scale, and line 1 has it";
+        assert_eq!(twice, format!("a.vcd:3:1: $timescale = 1ps: {expected}"));
+        let port = told(&format!("$scope module a $end\n$var port 2 <0 p $end\n{ends}"));
+        assert!(port.starts_with("a.vcd:2:1: p = port: is of an extended VCD"), "{port}");
+        let width = told("$var\n wire x ! a $end\n");
+        assert_eq!(width, "a.vcd:1:1: a = x: expected a width in bits");
+        assert!(told("$var wire 1 ! a\n").ends_with("$var: expected $end"));
+        assert!(told("$date $end\n$fall $end").starts_with("a.vcd:2:1: $fall: expected $version"));
+        assert!(told("$date $end\n").ends_with("ends before $enddefinitions"));
+    }
+}
