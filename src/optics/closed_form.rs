@@ -72,6 +72,14 @@ impl Bins {
         Bins { spans, scale }
     }
 
+    /// Bins of equal width, of a sensor whose converter is not modelled.
+    pub fn even(first: Time, bin: Time, count: usize) -> Self {
+        let scale = TimeScale::new(TimeScale::default().period(), bin, first, 0, count);
+        let at = |code: usize| first + Time::from_fs(code as u64 * bin.fs());
+        let span = |code| Span { from: at(code), until: at(code + 1), code: code as u16 };
+        Bins { spans: (0..count).map(span).collect(), scale }
+    }
+
     /// Returns the spans of all codes, in order of time.
     pub fn spans(&self) -> &[Span] {
         &self.spans

@@ -15,6 +15,8 @@ pub struct Partings {
     pub parted: u64,
     /// Frames of which no depth is to be believed.
     pub unbelieved: u64,
+    /// Name of what is numbered, if it is no frame of a run.
+    things: Option<&'static str>,
     furthest: Option<Parting>,
     first_unbelieved: Option<(u64, String)>,
 }
@@ -35,6 +37,11 @@ impl Parting {
 }
 
 impl Partings {
+    /// Of histograms that are no frames of a run.
+    pub fn of_histograms() -> Self {
+        Partings { things: Some("histogram"), ..Partings::default() }
+    }
+
     /// Takes the next frame, and what `second` said of it.
     pub fn add(&mut self, second: &SecondOpinion, frame: &Frame, opinion: &Estimate) {
         self.add_depth(second, (frame.index, frame.depth_m()), opinion);
@@ -89,9 +96,10 @@ impl Partings {
 
     /// So many of the frames, of which one is shown.
     fn which(&self, count: u64, shown: u64, how: &str) -> String {
+        let one = self.things.unwrap_or("frame");
         match count {
-            1 => format!("frame {shown}"),
-            _ => format!("{count} of {} frames ({how} frame {shown})", self.frames),
+            1 => format!("{one} {shown}"),
+            _ => format!("{count} of {} {one}s ({how} {one} {shown})", self.frames),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod likelihood;
 mod naive;
+mod sensor;
 mod two_echoes;
 
 use std::path::Path;

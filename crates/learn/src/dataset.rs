@@ -22,6 +22,7 @@ pub mod parquet_input;
 mod parquet_pages;
 pub mod parquet_table;
 pub mod rows;
+pub mod sensor;
 pub mod source;
 
 pub use axis::Axis;

@@ -47,6 +47,8 @@ pub struct Numbers {
 pub struct EstimateFindings<'a> {
     /// The network, if it is in the firmware.
     pub network: Option<&'a Network>,
+    /// Bins of the sensor, if they are not the scenario's.
+    pub sensor: Option<Value>,
     pub rows: Vec<Row<'a>>,
     /// Whether there are several files.
     pub several: bool,
@@ -62,6 +64,7 @@ impl Findings for EstimateFindings<'_> {
         if let Some(network) = self.network {
             json["network"] = json!(network.name);
         }
+        self.sensor.iter().for_each(|sensor| json["sensor"] = sensor.clone());
         // Once more for scripts, if there is just one histogram.
         if let [row] = &self.rows[..] {
             let numbers = json!(row.numbers);
@@ -117,9 +120,9 @@ fn rows_table(rows: &[Row], several: bool) -> String {
     header.extend(several.then_some("file"));
     let rows = rows.iter().map(|row| {
         let Numbers { estimate, .. } = &row.numbers;
-        let mut cells = vec![row.index.to_string(), format!("{:.6}", row.numbers.depth_m())];
+        let mut cells = vec![row.index.to_string(), number_or_dash(estimate.depth_m, 6)];
         cells.extend([number_or_dash(estimate.sigma_m.map(|m| 1e3 * m), 3), in_word(estimate)]);
-        cells.push(row.numbers.depth_raw());
+        cells.push(estimate.depth_raw.map_or("-".to_owned(), digits));
         cells.extend(row.second_opinion.iter().map(|opinion| {
             let depth = number_or_dash(opinion.depth_m, 6);
             if opinion.valid { depth } else { format!("rejected: {}", opinion.status) }
@@ -134,7 +137,9 @@ fn rows_table(rows: &[Row], several: bool) -> String {
 
 /// The status of an estimate: `valid`, its reasons, or a dash where the estimator states none.
 fn in_word(estimate: &Estimate) -> String {
-    if !estimate.status.is_empty() {
+    if let Some(failure) = &estimate.failure {
+        failure.clone()
+    } else if !estimate.status.is_empty() {
         estimate.status.to_string()
     } else if estimate.sigma_m.is_some() {
         "valid".to_owned()

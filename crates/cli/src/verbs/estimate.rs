@@ -22,13 +22,20 @@ use crate::report::writer::Report;
 use super::draws::from_here;
 use super::terminal::Talk;
 
+mod sensor;
+
+use sensor::Sensor;
+
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// CSV with header bin,count and a row for each bin, .npy of 256 or n x 256 whole numbers, or Parquet with columns
-    /// b0 to b255
+    /// CSV with header bin,count (or time_ns,count) and a row for each bin, .npy of 256 or n x 256 whole numbers, or
+    /// Parquet with columns b0 to b255
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Width of a bin, of histograms of another sensor, which may have any number of bins [ps]
+    #[arg(long, value_name = "PS", value_parser = width, conflicts_with_all = ["network", "explain"])]
+    bin_ps: Option<f64>,
     /// Built-in network, such as uniform-16, or network file [default: the scenario's]
     #[arg(long, value_name = "NAME|FILE")]
     network: Option<String>,
@@ -51,12 +58,21 @@ pub struct Args {
     json: bool,
 }
 
+fn width(text: &str) -> std::result::Result<f64, String> {
+    let width = text.parse().ok().filter(|ps| (1.0..=1e6).contains(ps));
+    width.ok_or_else(|| "expected the width of a bin, 1 to 1e6 ps".to_owned())
+}
+
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = args.setup()?;
+    if let Some(sensor) = Sensor::of(args, &setup)? {
+        return sensor.run(args, &setup, talk);
+    }
+    setup.check_estimator()?;
     let network = &setup.network;
     let size = setup.params.histogram;
-    let params = network.params(&size);
+    let params = &setup.params.estimators.depth_estimator;
     let is_network = setup.params.estimator == FirmwareEstimator::Network;
     let mut notes = args.notes(&setup)?;
     talk.heed(&notes)?;
@@ -65,11 +81,16 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let explainer = args.explains_likelihood(&setup).then(|| LikelihoodExplainer::new(&setup));
     let explainer = explainer.transpose()?;
     let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
-    let (mut rows, mut partings) = (Vec::new(), Partings::default());
+    let mut rows = Vec::new();
+    let mut partings = Partings::of_histograms();
+    let shots = setup.shots(1);
+    let mut crowded = None;
     for (path, file) in args.files.iter().zip(&names) {
         for histogram in histograms(path, size)? {
             let histogram = histogram?;
             let index = rows.len();
+            let hits: u64 = histogram.iter().map(|&count| u64::from(count)).sum();
+            crowded = crowded.or((hits > shots).then_some((index, hits)));
             let words = setup.estimate_words(&histogram);
             let own = Estimate::of_words(setup.params.estimator, &words);
             let second_opinion = second.as_ref().map(|second| {
@@ -78,7 +99,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
                 partings.add_depth(second, (index as u64, own_m), &opinion);
                 opinion
             });
-            let sums = is_network.then(|| estimate(&params, &histogram).l1_in);
+            let sums = is_network.then(|| estimate(params, &histogram).l1_in);
             let l1_in =
                 sums.map(|sums| sums[..params.neurons()].iter().map(|sum| sum.get()).collect());
             let explanation = args.explains_network(&setup).then(|| explain(network, &histogram));
@@ -96,12 +117,28 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             });
         }
     }
-    let late = second.as_ref().map_or(Vec::new(), |second| partings.notes(second));
+    let mut late = second.as_ref().map_or(Vec::new(), |second| partings.notes(second));
+    late.extend(crowded.map(|(index, hits)| {
+        let text = format!("histogram {index} has {hits} hits, more than its shots");
+        let expected = format!("{hits} or more");
+        Note::new(
+            NoteCode::EstimatorOutsideModel,
+            "firmware.shots_per_frame",
+            shots as f64,
+            expected,
+            text,
+        )
+    }));
     talk.heed(&late)?;
     notes.extend(late);
     let (several, explain) = (names.len() > 1, args.explain);
-    let findings =
-        EstimateFindings { network: is_network.then_some(network), rows, several, explain };
+    let findings = EstimateFindings {
+        network: is_network.then_some(network),
+        sensor: None,
+        rows,
+        several,
+        explain,
+    };
     Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
 }
 
@@ -113,9 +150,7 @@ impl Args {
             loaded.scenario.estimator.network = from_here(network, &loaded)?;
             loaded.scenario.estimator.kind = FirmwareEstimator::Network;
         }
-        let setup = Setup::of_counts(loaded)?;
-        setup.check_estimator()?;
-        Ok(setup)
+        Setup::of_counts(loaded)
     }
 
     fn explains_likelihood(&self, setup: &Setup) -> bool {

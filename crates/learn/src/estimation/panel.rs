@@ -1,6 +1,7 @@
 //! Several estimators over the same histograms.
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
+use tofsim::optics::Bins;
 use tofsim::sim::setup::Setup;
 
 use super::acquisition::Acquisition;
@@ -27,6 +28,31 @@ impl Panel {
             } else {
                 setup.params.frame_ctrl.shots_per_frame.into()
             };
+            let acquisition = Acquisition::of(setup, bins, shots);
+            let network = &setup.network;
+            Ok(kind.estimator(&EstimatorInputs { acquisition, network, setup })?)
+        };
+        let estimators = kinds.iter().map(estimator);
+        Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
+    }
+
+    /// Estimators for the histograms of a sensor with other bins; pulse, shots and delay are a scenario's.
+    ///
+    /// # Errors
+    /// When one is for the bins of an instrument, or cannot be made.
+    pub fn of_bins(kinds: &[EstimatorKind], setup: &Setup, bins: &Bins) -> Result<Self> {
+        let shots = setup.params.frame_ctrl.shots_per_frame.into();
+        let estimator = |kind: &EstimatorKind| {
+            if !kind.takes_any_bins() {
+                let all = EstimatorKind::ALL.iter().filter(|(_, kind, _)| kind.takes_any_bins());
+                let names: Vec<_> = all.map(|(name, ..)| *name).collect();
+                let expected = format!(
+                    "it is for {} bins as tdc.bins says; expected one of {}",
+                    setup.params.histogram.bins,
+                    names.join(", ")
+                );
+                return Err(Input::new("--estimator", expected).value(kind.name()).into());
+            }
             let acquisition = Acquisition::of(setup, bins, shots);
             let network = &setup.network;
             Ok(kind.estimator(&EstimatorInputs { acquisition, network, setup })?)

@@ -218,6 +218,13 @@ impl EstimatorKind {
         Self::ALL[scenario.estimator.kind as usize].1
     }
 
+    /// Returns whether it takes histograms of any bins: its model is of pulse and ambient light alone, and it has no
+    /// constants of an instrument.
+    pub fn takes_any_bins(self) -> bool {
+        use EstimatorKind::{Likelihood, Matched, TwoEchoes};
+        matches!(self, Likelihood | Matched | TwoEchoes)
+    }
+
     /// Checks what the estimator needs of a setup beside its histograms.
     ///
     /// # Errors

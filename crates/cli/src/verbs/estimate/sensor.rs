@@ -1,0 +1,116 @@
+//! Histograms of somebody's own sensor: bins of any number and width, seen by estimators whose model is of light alone.
+
+use serde_json::json;
+
+use tofsim::error::{Input, Result};
+use tofsim::firmware::tof_top::FirmwareEstimator;
+use tofsim::kernel::Time;
+use tofsim::optics::Bins;
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim::{Note, NoteCode};
+use tofsim_learn::dataset::sensor::Layout;
+use tofsim_learn::estimation::{EstimatorKind, Panel};
+
+use crate::report::estimates::{EstimateFindings, Numbers, Row};
+use crate::report::writer::Report;
+use crate::verbs::terminal::Talk;
+
+use super::Args;
+
+/// Keys by which a scenario says how histograms were made, with what they are.
+const ASSUMED: [(&str, &str); 2] = [
+    ("firmware.shots_per_frame", "the laser pulses of a histogram"),
+    ("laser.pulse_sigma_ps", "the standard deviation of the pulse as the detector times it"),
+];
+
+/// A sensor that is not the scenario's.
+pub(super) struct Sensor {
+    layout: Layout,
+    bins: Bins,
+}
+
+impl Sensor {
+    /// The sensor of the first file's histograms, if they are not those of the scenario's firmware.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or its bins are of no known width.
+    pub fn of(args: &Args, setup: &Setup) -> Result<Option<Self>> {
+        let path = &args.files[0];
+        let Some(layout) = Layout::of(path)? else { return Ok(None) };
+        let own = setup.params.histogram.bins;
+        let width_ps = args.bin_ps.or(layout.times_ps.map(|[_, bin_ps]| bin_ps));
+        let Some(bin_ps) = width_ps else {
+            if layout.bins != own {
+                let expected = format!(
+                    "expected {own} as tdc.bins of scenario {} says, or --bin-ps with the width of these",
+                    setup.name
+                );
+                let fault = Input::new(path.display(), expected).field("bins");
+                return Err(fault.value(layout.bins).into());
+            }
+            // No network is for so many: what needs none sees them.
+            let has_network = setup.params.estimator != FirmwareEstimator::Network
+                || setup.network.fits(&setup.params.histogram);
+            let may = !has_network && args.network.is_none() && !args.explain;
+            return Ok(may.then(|| Sensor { layout, bins: setup.known_bins() }));
+        };
+        let first_ps = layout.times_ps.map_or(0.0, |[first_ps, _]| first_ps);
+        let [first, bin] = [first_ps, bin_ps].map(Time::from_ps_f64);
+        Ok(Some(Sensor { layout, bins: Bins::even(first, bin, layout.bins) }))
+    }
+
+    /// Estimates the depths of all files.
+    pub fn run(&self, args: &Args, setup: &Setup, talk: &Talk) -> Result<()> {
+        let usual = [EstimatorKind::Likelihood];
+        let kinds = if args.estimator.is_empty() { &usual[..] } else { &args.estimator };
+        let notes: Vec<_> =
+            assumed(args, setup).chain(kinds.iter().flat_map(|kind| kind.notes(setup))).collect();
+        talk.heed(&notes)?;
+        let panel = Panel::of_bins(kinds, setup, &self.bins)?;
+        let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
+        let mut rows = Vec::new();
+        for (path, file) in args.files.iter().zip(&names) {
+            if let Some(other) = Layout::of(path)?.filter(|other| *other != self.layout) {
+                let expected = format!("expected bins as in {}: {}", names[0], self.layout.bins);
+                let fault = Input::new(file, expected).field("bins");
+                return Err(fault.value(other.bins).into());
+            }
+            for histogram in self.layout.histograms(path)? {
+                let mut estimates = panel.read(&histogram?);
+                let estimate = estimates.remove(0);
+                rows.push(Row {
+                    index: rows.len(),
+                    file,
+                    numbers: Numbers { estimate, l1_in: None },
+                    second_opinion: None,
+                    estimates,
+                    explanation: None,
+                    likelihood_explanation: None,
+                });
+            }
+        }
+        let (count, bin_ps) = (self.bins.count(), self.bins.bin_ps());
+        let sensor =
+            json!({ "bins": count, "bin_ps": bin_ps, "first_bin_ps": self.bins.first_ps() });
+        let several = names.len() > 1;
+        let findings =
+            EstimateFindings { network: None, sensor: Some(sensor), rows, several, explain: false };
+        Report::new(findings, setup, &notes, talk).deliver(None, args.json, talk)
+    }
+}
+
+/// Notes on what the default scenario says of these histograms, as nobody else has.
+fn assumed(args: &Args, setup: &Setup) -> impl Iterator<Item = Note> {
+    let is_default = args.scenario == scenario::DEFAULT;
+    let is_set = |key: &str| args.set.iter().any(|set| set.split('=').next() == Some(key));
+    let keys: Vec<_> = ASSUMED.into_iter().filter(|(key, _)| is_default && !is_set(key)).collect();
+    let firmware = &setup.scenario.firmware;
+    let values = [firmware.shots_per_frame as f64, setup.scenario.laser.pulse_sigma_ps];
+    keys.into_iter().map(move |(key, meaning)| {
+        let place = ASSUMED.iter().position(|(known, _)| *known == key).unwrap_or_default();
+        let text = format!("taken from scenario {}; it decides depth and sigma", scenario::DEFAULT);
+        let expected = format!("{meaning}: -s {key}=..");
+        Note::new(NoteCode::EstimatorOutsideModel, key, values[place], expected, text)
+    })
+}
