@@ -22,8 +22,9 @@ fn notes(found: &Value) -> Vec<String> {
 fn a_depth_that_the_second_opinion_does_not_share_has_a_note() {
     let folder = empty();
     let folder = folder.path();
-    let write =
-        |name: &str, counts: &[u32]| std::fs::write(folder.join(name), csv(counts)).unwrap();
+    let write = |name: &str, counts: &[u32]| {
+        std::fs::write(folder.join(name), csv(&counts.to_vec())).unwrap()
+    };
     write("zeros.csv", &[0; 256]);
     let far = ["run", "-s", "target.distance_m=0.8", "--fidelity", "shot", "--json"];
     let counts = json(folder, &far)["frames"][0]["histogram"].clone();
