@@ -91,7 +91,7 @@ const OF_CHAIN: [(&str, &str, &str); 5] = [
     ("taps = 220", "taps = 100", "the 100 taps take 4000 ps"),
     ("taps = 220", "taps = 1000", "expected"),
     ("tap_ps = 40.0", "tap_ps = -40.0", "tap_ps = -40.0: expected"),
-    ("offset_ps = 2230", "ofset_ps = 2230", "offset_ps: missing; expected a number from 0.001"),
+    ("offset_ps = 2230", "ofset_ps = 2230", "did you mean `offset_ps`?"),
 ];
 
 /// The same of the network's file.
