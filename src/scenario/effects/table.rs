@@ -246,8 +246,8 @@ effects! {
     /// The firmware calibrates its TDC between frames.
     Recalibration {
         keys: [key!(tdc.recalibrate_frames)],
-        breaks: [&[FastForward, SeparateFrames, IndependentShots]],
-        why: "the ages in the decoder are those of the last calibration",
+        breaks: [&[FastForward, SeparateFrames, IndependentShots], MODELS],
+        why: "the ages in the decoder are those of the last calibration, with the errors that its hits leave",
         example: ["tdc.recalibrate_frames=1", "tdc.calibration_hits_log2=10"],
     }
     /// Photons or codes of a list stand in for light.
