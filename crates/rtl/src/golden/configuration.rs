@@ -70,6 +70,10 @@ pub const CLOCKS: Configuration = Configuration {
     ..DEFAULTS
 };
 
+/// Laser pulses of two cycles and a half.
+pub const LONG_PULSE: Configuration =
+    Configuration { name: "long_pulse", set: &["firmware.pulse_half_cycles=5"], ..DEFAULTS };
+
 /// Nothing else than usual.
 pub(super) const DEFAULTS: Configuration =
     Configuration { name: "", scenario: DEFAULT, set: &[], parameters: &[], module: None };

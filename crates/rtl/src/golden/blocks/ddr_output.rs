@@ -8,6 +8,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: timing::CLK_LASER,
     fast: &["q"],
     latency: &[Latency { from: "d", to: "q", cycles: |_| 0 }],
+    configurations: &[Configuration { parameters: &["Halves"], ..LONG_PULSE }],
     model: Some(Model::new::<In>(|at| {
         let (i, output) = (at.input(), &mut at.top.vcsel_driver.ddr_output);
         *output = if at.edge == Edge::Fall { output.fall() } else { output.rise(&i) };

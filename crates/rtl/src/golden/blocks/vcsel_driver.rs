@@ -10,6 +10,7 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &["laser_on", "fire_last", "pulse_0", "pulse_1", "laser_pulse", "stretch", "ddr_output.q", "ddr_output.second"],
     latency: &[Latency { from: "acquire", to: "start", cycles: |_| 5 }],
+    configurations: &[Configuration { parameters: &["PulseHalfCycles"], ..LONG_PULSE }],
     model: Some(Model::new::<In>(|at| {
         let (i, driver) = (at.input(), &mut at.top.vcsel_driver);
         match at.edge {
