@@ -247,6 +247,23 @@ fn the_next_command_names_the_clock_that_the_map_does_not_have() {
 }
 
 #[test]
+fn the_next_command_aligns_a_map_without_a_trigger() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let capture = ["ila", "capture", "estimator_validation", "--probes", "fig_6_21", "-o", "."];
+    common::stdout(folder, &capture);
+    let map = fs::read_to_string(folder.join("fig_6_21.map.toml")).unwrap();
+    let lines = map.lines().filter(|line| !line.starts_with("trigger"));
+    fs::write(folder.join("map.toml"), lines.collect::<Vec<_>>().join("\n")).unwrap();
+    let replay = ["ila", "replay", "fig_6_21.csv", "--map", "map.toml", "-o", "again/run.toml"];
+    let scenario = ["--scenario", "estimator_validation", "--json"];
+    let json = common::json(folder, &[&replay[..], &scenario].concat());
+    let next: Vec<&str> = json["next"].as_str().unwrap().split(' ').skip(1).collect();
+    let output = common::output(folder, &next);
+    assert_eq!(output.status.code(), Some(0), "{next:?} {output:?}");
+}
+
+#[test]
 fn a_damaged_archive_is_noted_as_by_the_other_verbs() {
     let folder = common::empty();
     let folder = folder.path();

@@ -77,6 +77,13 @@ impl Contents {
             Some(section.unpack(file, &name).err()?.within(&block))
         })
     }
+
+    /// Returns the fault of changes that can be unpacked and have no meaning.
+    pub(super) fn undecoded(&self) -> Option<Fault> {
+        let block = format!("block at byte {}", self.sections.first()?.begin - 1);
+        let later = if self.sections.len() > 1 { " or a later one" } else { "" };
+        Some(Fault::of(&(block + later), "changes cannot be decoded"))
+    }
 }
 
 /// Checks a file, and returns its contents.

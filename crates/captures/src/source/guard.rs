@@ -6,6 +6,9 @@ use std::sync::Once;
 
 use tofsim::error::{Input, Result};
 
+/// Reason for a file that the library cannot read, and does not say why.
+pub(super) const DAMAGED: &str = "is damaged, or not as its format asks";
+
 thread_local! {
     /// Whether panics of this thread are converted to errors.
     static GUARDED: Cell<bool> = const { Cell::new(false) };
@@ -17,8 +20,7 @@ pub(super) fn guarded<T>(source: &str, work: impl FnOnce() -> Result<T>) -> Resu
     let before = GUARDED.replace(true);
     let result = catch_unwind(AssertUnwindSafe(work));
     GUARDED.set(before);
-    result
-        .unwrap_or_else(|_| Err(Input::new(source, "is damaged, or not as its format asks").into()))
+    result.unwrap_or_else(|_| Err(Input::new(source, DAMAGED).into()))
 }
 
 /// Suppresses the output of panics that become errors.

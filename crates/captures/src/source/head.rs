@@ -78,6 +78,11 @@ impl Head {
             loop {
                 match words.next().map_err(io)? {
                     Some(word) if word == END => break,
+                    // The library ends a command there, and would read others from its text.
+                    Some(word) if word.windows(END.len()).any(|part| part == END) => {
+                        let word = String::from_utf8_lossy(&word).into_owned();
+                        return Err(fault("expected blanks around $end".into()).value(word).into());
+                    }
                     Some(word) => body.push(word),
                     None => return Err(fault("expected $end".into()).field(name).into()),
                 }
@@ -270,6 +275,8 @@ mod tests {
         assert_eq!(width, "a.vcd:1:1: a = x: expected a width in bits");
         assert!(told("$var wire 1 ! a\n").ends_with("$var: expected $end"));
         assert!(told("$date $end\n$fall $end").starts_with("a.vcd:2:1: $fall: expected $version"));
+        let joined = told("$date $end $scope module a$end\n$attrbegin misc 02 A 1039 $end\n");
+        assert_eq!(joined, "a.vcd:1:1: a$end: expected blanks around $end");
         assert!(told("$date $end\n").ends_with("ends before $enddefinitions"));
     }
 }

@@ -11,6 +11,8 @@ use tofsim::error::{Error, Input};
 use crate::ila::read::{LONGEST_WORD, put_word};
 use crate::words::Bits;
 
+use super::guard::DAMAGED;
+
 /// Converts a value, with the number of words of its signal.
 #[inline]
 pub(super) fn set(bits: &mut Bits, value: SignalValueRef<'_>, words: usize) {
@@ -70,8 +72,6 @@ pub(super) fn fault(path: &Path, error: WellenError) -> Error {
             let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
             Input::new(source, format!("cannot be read: {text}")).into()
         }
-        WellenError::FailedToLoad(..) => {
-            Input::new(source, "is damaged, or not as its format asks").into()
-        }
+        WellenError::FailedToLoad(..) => Input::new(source, DAMAGED).into(),
     }
 }

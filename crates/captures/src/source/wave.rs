@@ -15,7 +15,7 @@ use crate::words::Bits;
 use super::bytes::Bytes;
 use super::end::{Body, body};
 use super::fst;
-use super::guard::guarded;
+use super::guard::{DAMAGED, guarded};
 use super::head::{Head, HeadWords};
 use super::library::{fault, set};
 use super::locate::located;
@@ -63,34 +63,39 @@ pub(super) fn source(path: &Path, format: SourceFormat) -> Result<Source> {
         }
     };
     let pieces = Arc::from(pieces);
-    let opened = guarded(&path.display().to_string(), || open(path, &pieces));
-    let wave = opened.map_err(|error| at_place(path, format, error))?;
-    let source = described(path, format, wave.hierarchy(), pieces)?;
+    let described = guarded(&path.display().to_string(), || {
+        described(path, format, open(path, &pieces)?.hierarchy(), Arc::clone(&pieces))
+    });
+    let source = described.map_err(|error| at_place(path, format, error))?;
     Ok(if source.is_capture() { source } else { Source { end, ..source } })
 }
 
 /// Adds line or byte, and signal, to an error about a file that the library cannot read.
 fn at_place(path: &Path, format: SourceFormat, error: Error) -> Error {
-    match format {
-        SourceFormat::Vcd => located(path, error),
-        _ => fst_fault(path).map_or(error, |fault| fault.of_file(path)),
+    match &error {
+        _ if format == SourceFormat::Vcd => located(path, error),
+        Error::Input(input) if input.expected == DAMAGED => {
+            fst_fault(path).map_or(error, |fault| fault.of_file(path))
+        }
+        _ => error,
     }
 }
 
-/// Returns the first part of an FST file that cannot be unpacked.
+/// Returns the first part of an FST file that cannot be unpacked, or the block that cannot be decoded.
 fn fst_fault(path: &Path) -> Option<Fault> {
     let mut file = fst::open(path).ok()?;
     let contents = fst::check(&mut file).ok()?;
     let pieces = contents.pieces.clone().into();
     let wave = guarded("", || open(path, &pieces)).ok();
-    contents.fault(&mut file, |index| {
+    let found = contents.fault(&mut file, |index| {
         let hierarchy = wave.as_ref().map(StreamingWaveform::hierarchy);
         let name = hierarchy.and_then(|hierarchy| {
             let mut vars = hierarchy.all_vars().map(|var| &hierarchy[var]);
             Some(vars.find(|var| var.signal_ref().index() == index)?.full_name(hierarchy))
         });
         name.unwrap_or_else(|| format!("signal {index}"))
-    })
+    });
+    found.or_else(|| wave.as_ref().and_then(|_| contents.undecoded()))
 }
 
 fn described(

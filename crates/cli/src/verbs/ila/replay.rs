@@ -12,7 +12,7 @@ use tofsim::scenario::builtin::Source as Files;
 use tofsim::scenario::{Control, DEFAULT, Loaded, Scenario, load, show};
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode, NoteValue};
-use tofsim_captures::compare::SampleClock;
+use tofsim_captures::compare::{SampleClock, SignalMap};
 use tofsim_captures::ila::Radix;
 use tofsim_captures::replay::{Located, Replay, ReplayKind, ReplayOptions, replay};
 use tofsim_captures::source::Source;
@@ -96,7 +96,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let files = [&place.scenario, &list].map(|name| place.folder.join(name));
     stage.commit()?;
     files.iter().for_each(|file| talk.wrote(file));
-    let next = next(args, options.map.clock.is_some(), &located);
+    let next = next(args, &options.map, &located);
     let findings = ReplayFindings { replay: &replay, located: &located, files: &files, next };
     Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
 }
@@ -177,21 +177,24 @@ fn quoted(word: String) -> String {
     if word.bytes().all(is_plain) { word } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
-/// The command that compares the capture with its replay; `has_clock` says whether the map states the clock.
-fn next(args: &Args, has_clock: bool, located: &Located) -> String {
+/// The command that compares the capture with its replay, with what the map does not say.
+fn next(args: &Args, map: &SignalMap, located: &Located) -> String {
     let mut words = vec!["tofsim compare --scenario".to_owned()];
     words.push(quoted(args.output.display().to_string()));
     words.push(quoted(args.capture.display().to_string()));
     words.extend(args.map.iter().map(|map| format!("--map {}", quoted(map.clone()))));
     match &args.clock {
         Some(SampleClock::Signal(clock)) => words.push(format!("--clock {clock}")),
-        _ if !has_clock => words.push("--clock clk_sys".to_owned()),
+        _ if map.clock.is_none() => words.push("--clock clk_sys".to_owned()),
         _ => {}
     }
     let radix = choice::RADIX.iter().find(|(_, radix, _)| Some(*radix) == args.radix);
     words.extend(radix.map(|(word, ..)| format!("--radix {word}")));
-    if let Some(offset) = located.offset {
-        words.push(format!("--align 'offset {offset}'"));
+    let by_trigger = map.align.as_deref() == Some("trigger") && map.trigger.is_none();
+    match located.offset {
+        Some(offset) => words.push(format!("--align 'offset {offset}'")),
+        None if by_trigger => words.push("--align correlation".to_owned()),
+        None => {}
     }
     words.join(" ")
 }
