@@ -89,14 +89,14 @@ impl<T> Drop for Unfinished<T> {
 /// Creates a path that follows the naming scheme.
 fn made<T>(make: impl FnOnce(&mut Builder) -> io::Result<T>) -> io::Result<T> {
     let prefix = format!("{PREFIX}{}-", std::process::id());
-    make(Builder::new().prefix(&prefix).suffix(SUFFIX))
-        .map_err(|error| system_error(&error).unwrap_or_else(|| error.kind().into()))
+    make(Builder::new().prefix(&prefix).suffix(SUFFIX)).map_err(|error| without_path(&error))
 }
 
-/// Returns the system's error without the name of the temporary file, which says nothing to a user.
-fn system_error(error: &io::Error) -> Option<io::Error> {
-    let system = error.get_ref()?.source()?.downcast_ref::<io::Error>()?;
-    system.raw_os_error().map(io::Error::from_raw_os_error)
+/// Returns an error of the temporary file without its name, which says nothing to a user, but with the system's words.
+fn without_path(error: &io::Error) -> io::Error {
+    let text = error.to_string();
+    let words = text.rsplit_once(" at path ").map_or(text.as_str(), |(words, _)| words);
+    io::Error::new(error.kind(), words)
 }
 
 /// Locks a file to show that this process is alive. Where the file system has no locks, the file's age decides

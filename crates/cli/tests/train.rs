@@ -191,10 +191,15 @@ fn a_checkpoint_of_another_training_is_refused() {
     assert!(refusal(&["-s", "spad.pdp=0.013"]).contains("settings.scenario"));
     let path = folder.join("a/checkpoint");
     let text = fs::read_to_string(&path).unwrap();
-    fs::write(&path, text.replacen("tofsim.checkpoint/1", "tofsim.checkpoint/2", 1)).unwrap();
+    fs::write(&path, text.replacen("tofsim.checkpoint/2", "tofsim.checkpoint/1", 1)).unwrap();
     assert!(
-        refusal(&[]).contains("schema = tofsim.checkpoint/2: expected \"tofsim.checkpoint/1\"")
+        refusal(&[]).contains("schema = tofsim.checkpoint/1: expected \"tofsim.checkpoint/2\"")
     );
+    let digit = text.find("x = [").unwrap() + "x = [".len() + 4;
+    let changed = text[digit..].find(|letter: char| letter.is_ascii_digit()).unwrap() + digit;
+    let other = if &text[changed..=changed] == "7" { "3" } else { "7" };
+    fs::write(&path, [&text[..changed], other, &text[changed + 1..]].concat()).unwrap();
+    assert!(refusal(&[]).contains("does not match its checksum"));
     fs::write(&path, &text[..text.len() / 2]).unwrap();
     assert!(refusal(&[]).contains("no checkpoint"));
 }

@@ -12,6 +12,7 @@ use rayon::ThreadPoolBuilder;
 
 use tofsim::error::{Input, Result};
 use tofsim_cli::choice::MOST_THREADS;
+use tofsim_cli::verbs::draws::useful;
 
 use crate::errors::{self, internal};
 
@@ -69,7 +70,7 @@ pub fn run<T: Send + 'static>(
     if let Some(threads) = terms.threads.filter(|threads| !(1..=most).contains(threads)) {
         return Err(Input::new("threads", format!("expected 1 to {most}")).value(threads).into());
     }
-    let threads = terms.threads.unwrap_or(0);
+    let threads = terms.threads.map_or(0, useful);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| Input::new("threads", error))?;
     let watch = Watch::default();

@@ -84,7 +84,8 @@ impl Draws {
         talk: &Talk,
         work: impl FnOnce(&(dyn Fn(u64) + Sync)) -> Result<T> + Send,
     ) -> Result<T> {
-        let pool = ThreadPoolBuilder::new().num_threads(self.threads.map_or(0, useful));
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(self.threads.map_or(0, |threads| useful(threads.into())));
         let pool = pool.build().map_err(|error| Input::new("--threads", error))?;
         let progress = talk.progress(rows, "rows");
         let done = pool.install(|| work(&|rows| progress.inc(rows)));
@@ -102,15 +103,15 @@ pub fn load(scenario: &str, set: &[String], seed: Option<u64>) -> Result<Loaded>
 
 /// Returns the number of threads to make where so many are asked for: the results are the same for any number, and
 /// those beyond a few for each core only take memory, and hold each other up.
-fn useful(threads: u16) -> usize {
+pub fn useful(threads: usize) -> usize {
     let cores = available_parallelism().map_or(1, usize::from);
-    usize::from(threads).min(MOST_PER_CORE * cores)
+    threads.min(MOST_PER_CORE * cores)
 }
 
 /// Makes the pool of so many threads, if a number is asked for; within another program, that makes it.
 pub fn use_threads(threads: Option<u16>) -> Result<()> {
     let Some(threads) = threads.filter(|_| host().is_none()) else { return Ok(()) };
-    let pool = ThreadPoolBuilder::new().num_threads(useful(threads)).build_global();
+    let pool = ThreadPoolBuilder::new().num_threads(useful(threads.into())).build_global();
     pool.map_err(|error| Input::new("--threads", error).value(threads).into())
 }
 

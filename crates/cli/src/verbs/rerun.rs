@@ -166,6 +166,9 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
     if verb != "vectors" {
         command.arg("--json");
     }
+    if verb == "sweep" {
+        command.args(shard(&name.to_string_lossy(), given).map(|shard| format!("--shard={shard}")));
+    }
     command.stdin(Stdio::null()).stderr(Stdio::piped());
     let done = command.output().map_err(Error::io(Path::new("tofsim"), "run"))?;
     if !matches!(done.status.code(), Some(0 | 1)) {
@@ -186,6 +189,17 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
             Err(Input::new(file.display(), expected).into())
         }
     }
+}
+
+/// Returns which shard of a sweep an output is, by the name of its table or by its object; the record, which all shards
+/// have, does not say.
+fn shard(name: &str, given: &[u8]) -> Option<String> {
+    let stem = name.strip_prefix("shard-").and_then(|name| name.strip_suffix(".parquet"));
+    if let Some((index, count)) = stem.and_then(|stem| stem.split_once("-of-")) {
+        return Some(format!("{index}/{count}"));
+    }
+    let object: serde_json::Value = serde_json::from_slice(given).ok()?;
+    object["shard"].as_str().map(str::to_owned)
 }
 
 /// Removes the folder of the files from printed JSON or a summary, because the user chooses it.

@@ -179,6 +179,11 @@ fn a_changed_digit_of_a_journal_and_a_flipped_bit_of_a_shard_are_refused() {
     fs::write(&path, &shard).unwrap();
     stdout(folder, &["sweep", "merge", "s", "-o", "m", "-q"]);
     same(folder, "out", "m");
+    let again = ["sweep", "plan.toml", "--shard", "2/2", "-o", "s", "--restart", "--json"];
+    fs::write(folder.join("s/shard.json"), stdout(folder, &again)).unwrap();
+    for name in ["s/shard-2-of-2.parquet", "s/shard.json"] {
+        assert!(stdout(folder, &["rerun", name]).contains("the same"), "{name}");
+    }
 }
 
 #[test]
