@@ -159,5 +159,5 @@ fn a_second_opinion_is_right_or_there_is_none() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert!(given >= 4, "{given}");
+    assert!(given >= 3, "{given}");
 }

@@ -11,6 +11,7 @@ use tofsim::sim::partings::Partings;
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
 use tofsim_learn::dataset::labelled::histograms;
+use tofsim_learn::dataset::sensor::Layout;
 use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
 use tofsim_learn::quantize::{LikelihoodExplainer, explain};
 
@@ -24,7 +25,7 @@ use super::terminal::Talk;
 
 mod sensor;
 
-use sensor::Sensor;
+use sensor::{Request, Sensor};
 
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
@@ -66,8 +67,9 @@ fn width(text: &str) -> std::result::Result<f64, String> {
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = args.setup()?;
-    if let Some(sensor) = Sensor::of(args, &setup)? {
-        return sensor.run(args, &setup, talk);
+    let request = args.request();
+    if let Some(sensor) = Sensor::of(&request, &setup)? {
+        return sensor.run(&request, &setup, talk);
     }
     setup.check_estimator()?;
     let network = &setup.network;
@@ -145,12 +147,29 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 impl Args {
     /// Returns the setup of the histograms, as far as it is known.
     fn setup(&self) -> Result<Setup> {
-        let mut loaded = scenario::load(&self.scenario, &self.set)?;
+        // A count of another sensor may be as wide as a count can be.
+        let is_own =
+            self.bin_ps.is_some() || Layout::of(&self.files[0])?.is_some_and(Layout::has_times);
+        let widest = is_own.then(|| "firmware.count_bits=24".to_owned());
+        let set: Vec<_> = widest.into_iter().chain(self.set.iter().cloned()).collect();
+        let mut loaded = scenario::load(&self.scenario, &set)?;
         if let Some(network) = &self.network {
             loaded.scenario.estimator.network = from_here(network, &loaded)?;
             loaded.scenario.estimator.kind = FirmwareEstimator::Network;
         }
         Setup::of_counts(loaded)
+    }
+
+    fn request(&self) -> Request<'_> {
+        let is_default = self.scenario == scenario::DEFAULT;
+        Request {
+            files: &self.files,
+            bin_ps: self.bin_ps,
+            estimators: &self.estimator,
+            wants_firmware: self.network.is_some() || self.explain,
+            set: is_default.then_some(&self.set),
+            json: self.json,
+        }
     }
 
     fn explains_likelihood(&self, setup: &Setup) -> bool {

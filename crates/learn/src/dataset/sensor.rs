@@ -64,6 +64,11 @@ impl Layout {
         Ok(Some(layout))
     }
 
+    /// Whether the file has times.
+    pub fn has_times(self) -> bool {
+        self.times_ps.is_some()
+    }
+
     /// Of a CSV file with the begin of each bin.
     fn of_times(path: &Path, text: &str) -> Result<Self> {
         let source = path.display().to_string();

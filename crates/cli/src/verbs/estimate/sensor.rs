@@ -1,5 +1,7 @@
 //! Histograms of somebody's own sensor: bins of any number and width, seen by estimators whose model is of light alone.
 
+use std::path::PathBuf;
+
 use serde_json::json;
 
 use tofsim::error::{Input, Result};
@@ -16,13 +18,24 @@ use crate::report::estimates::{EstimateFindings, Numbers, Row};
 use crate::report::writer::Report;
 use crate::verbs::terminal::Talk;
 
-use super::Args;
-
 /// Keys by which a scenario says how histograms were made, with what they are.
 const ASSUMED: [(&str, &str); 2] = [
     ("firmware.shots_per_frame", "the laser pulses of a histogram"),
     ("laser.pulse_sigma_ps", "the standard deviation of the pulse as the detector times it"),
 ];
+
+/// What is asked for, of a sensor that may be anybody's.
+pub(super) struct Request<'a> {
+    pub files: &'a [PathBuf],
+    /// Width of a bin, if it is given [ps].
+    pub bin_ps: Option<f64>,
+    pub estimators: &'a [EstimatorKind],
+    /// Whether something asks for the estimator of the firmware.
+    pub wants_firmware: bool,
+    /// Keys of the default scenario that are set; `None` for another scenario.
+    pub set: Option<&'a [String]>,
+    pub json: bool,
+}
 
 /// A sensor that is not the scenario's.
 pub(super) struct Sensor {
@@ -35,11 +48,11 @@ impl Sensor {
     ///
     /// # Errors
     /// When the file cannot be read, or its bins are of no known width.
-    pub fn of(args: &Args, setup: &Setup) -> Result<Option<Self>> {
-        let path = &args.files[0];
+    pub fn of(asked: &Request, setup: &Setup) -> Result<Option<Self>> {
+        let path = &asked.files[0];
         let Some(layout) = Layout::of(path)? else { return Ok(None) };
         let own = setup.params.histogram.bins;
-        let width_ps = args.bin_ps.or(layout.times_ps.map(|[_, bin_ps]| bin_ps));
+        let width_ps = asked.bin_ps.or(layout.times_ps.map(|[_, bin_ps]| bin_ps));
         let Some(bin_ps) = width_ps else {
             if layout.bins != own {
                 let expected = format!(
@@ -52,7 +65,7 @@ impl Sensor {
             // No network is for so many: what needs none sees them.
             let has_network = setup.params.estimator != FirmwareEstimator::Network
                 || setup.network.fits(&setup.params.histogram);
-            let may = !has_network && args.network.is_none() && !args.explain;
+            let may = !has_network && !asked.wants_firmware;
             return Ok(may.then(|| Sensor { layout, bins: setup.known_bins() }));
         };
         let first_ps = layout.times_ps.map_or(0.0, |[first_ps, _]| first_ps);
@@ -61,16 +74,17 @@ impl Sensor {
     }
 
     /// Estimates the depths of all files.
-    pub fn run(&self, args: &Args, setup: &Setup, talk: &Talk) -> Result<()> {
+    pub fn run(&self, asked: &Request, setup: &Setup, talk: &Talk) -> Result<()> {
         let usual = [EstimatorKind::Likelihood];
-        let kinds = if args.estimator.is_empty() { &usual[..] } else { &args.estimator };
+        let kinds = if asked.estimators.is_empty() { &usual[..] } else { asked.estimators };
         let notes: Vec<_> =
-            assumed(args, setup).chain(kinds.iter().flat_map(|kind| kind.notes(setup))).collect();
+            assumed(asked, setup).chain(kinds.iter().flat_map(|kind| kind.notes(setup))).collect();
         talk.heed(&notes)?;
         let panel = Panel::of_bins(kinds, setup, &self.bins)?;
-        let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
+        let names: Vec<String> =
+            asked.files.iter().map(|file| file.display().to_string()).collect();
         let mut rows = Vec::new();
-        for (path, file) in args.files.iter().zip(&names) {
+        for (path, file) in asked.files.iter().zip(&names) {
             if let Some(other) = Layout::of(path)?.filter(|other| *other != self.layout) {
                 let expected = format!("expected bins as in {}: {}", names[0], self.layout.bins);
                 let fault = Input::new(file, expected).field("bins");
@@ -96,15 +110,16 @@ impl Sensor {
         let several = names.len() > 1;
         let findings =
             EstimateFindings { network: None, sensor: Some(sensor), rows, several, explain: false };
-        Report::new(findings, setup, &notes, talk).deliver(None, args.json, talk)
+        Report::new(findings, setup, &notes, talk).deliver(None, asked.json, talk)
     }
 }
 
 /// Notes on what the default scenario says of these histograms, as nobody else has.
-fn assumed(args: &Args, setup: &Setup) -> impl Iterator<Item = Note> {
-    let is_default = args.scenario == scenario::DEFAULT;
-    let is_set = |key: &str| args.set.iter().any(|set| set.split('=').next() == Some(key));
-    let keys: Vec<_> = ASSUMED.into_iter().filter(|(key, _)| is_default && !is_set(key)).collect();
+fn assumed(asked: &Request, setup: &Setup) -> impl Iterator<Item = Note> {
+    let is_unset = |key: &str| {
+        asked.set.is_some_and(|keys| keys.iter().all(|set| set.split('=').next() != Some(key)))
+    };
+    let keys: Vec<_> = ASSUMED.into_iter().filter(|(key, _)| is_unset(key)).collect();
     let firmware = &setup.scenario.firmware;
     let values = [firmware.shots_per_frame as f64, setup.scenario.laser.pulse_sigma_ps];
     keys.into_iter().map(move |(key, meaning)| {
