@@ -129,7 +129,7 @@ fn bins_of_any_number_width_and_begin_give_the_depth_of_their_echo() {
     let uneven = "time_ns,count\n0,1\n0.1,2\n0.3,9\n0.4,1\n";
     std::fs::write(folder.join("uneven.csv"), uneven).unwrap();
     let error = refused(folder, &["estimate", "uneven.csv"]);
-    assert!(error.contains("uneven.csv:3:1: 0.1: expected 0.133333"), "{error}");
+    assert!(error.contains("uneven.csv:3:1: time_ns = 0.1: expected 0.133333"), "{error}");
     std::fs::write(folder.join("one.csv"), "time_ns,count\n0,1\n").unwrap();
     assert!(refused(folder, &["estimate", "one.csv"]).contains("two bins"));
     assert!(Path::new(&case("c05_64_bins.csv")).exists());
