@@ -20,6 +20,20 @@ fn at<'a>(report: &'a Value, estimator: &str, distance_m: f64) -> &'a Value {
 }
 
 #[test]
+fn what_is_measured_is_the_estimator_of_the_scenarios_firmware() {
+    let folder = empty();
+    let names = |set: &str| {
+        let args = ["evaluate", "--rows", "200", "--check", "0", "--json", "-s", set];
+        let report = json(folder.path(), &args);
+        let all = report["estimators"].as_array().unwrap().iter();
+        all.map(|one| one["name"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(names("estimator.kind=network"), ["network", "network-float"]);
+    assert_eq!(names("estimator.kind=centroid"), ["centroid"]);
+    assert_eq!(names("estimator.kind=likelihood"), ["likelihood_estimator"]);
+}
+
+#[test]
 fn every_estimator_is_measured_on_the_same_histograms() {
     let folder = empty();
     let all = "network,network-float,peak,likelihood,likelihood_estimator,matched";

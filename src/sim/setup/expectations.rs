@@ -78,7 +78,7 @@ impl Setup {
             format!("{what}: a pulse has {energy:.2} nJ, above the {limit:.2} nJ of Class 1")
         } else {
             format!(
-                "{what}: what counts as one of {:.0} pulses has {energy:.2} nJ, above the {limit:.2} nJ of Class 1 for so many",
+                "{what}: pulses of {energy:.2} nJ within 5 us, above the {limit:.2} nJ of Class 1 for {:.0} of them",
                 train.count
             )
         };

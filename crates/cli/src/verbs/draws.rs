@@ -20,7 +20,7 @@ use super::terminal::Talk;
 const MOST_PER_CORE: usize = 4;
 
 /// Which histograms.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct Draws {
     /// Set a scenario key, e.g. `firmware.shots_per_frame=15000`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]

@@ -16,7 +16,7 @@ use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::dataset::{Grid, GridPurpose, Scene};
-use tofsim_learn::estimation::{Estimator, EstimatorInputs, subtraction};
+use tofsim_learn::estimation::{Estimator, EstimatorInputs, EstimatorKind, subtraction};
 use tofsim_learn::evaluation::bound;
 use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
@@ -39,6 +39,7 @@ type Estimators = Vec<Box<dyn Estimator>>;
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    let args = &args.with_estimators()?;
     if let Some(data) = &args.data {
         measured::run(args, data, talk)?;
         return Ok(ExitCode::SUCCESS);
@@ -185,6 +186,19 @@ impl Args {
             notes.extend(of_scene.filter(|note| note.key == "target.distance_m"));
         }
         Ok(notes)
+    }
+
+    /// The same with the estimators of the scenario's firmware, where none is named.
+    fn with_estimators(&self) -> Result<Self> {
+        let mut args = self.clone();
+        if args.estimator.is_empty() {
+            let loaded = self.draws.load_with(&self.scenario, None, &self.draws.set)?;
+            let own = EstimatorKind::in_socket(&loaded.scenario);
+            let is_network = own.is_network() || self.network.is_some();
+            let networks = vec![EstimatorKind::Network, EstimatorKind::NetworkFloat];
+            args.estimator = if is_network { networks } else { vec![own] };
+        }
+        Ok(args)
     }
 
     fn measures_a_network(&self) -> bool {

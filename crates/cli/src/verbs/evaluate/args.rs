@@ -12,7 +12,7 @@ use crate::verbs::draws::Draws;
 pub(super) const SHOWN: usize = 6;
 
 /// Measure how exactly the network and other estimators find the distance
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 #[command(
     after_help = "Histograms are drawn afresh over the thesis's test grid: 51 distances from 0.1 \
     to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones,\nbut for \
@@ -35,8 +35,8 @@ pub struct Args {
     pub(super) scenario: String,
     #[command(flatten)]
     pub(super) draws: Draws,
-    /// Estimators, separated by commas
-    #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
+    /// Estimators, separated by commas [default: that of the scenario's firmware, and its network in double precision]
+    #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
     pub(super) estimator: Vec<EstimatorKind>,
     /// Which scenes: thesis or test (51 distances, every 10 mm), train (201), KEY=FROM..TO:STEP or KEY=A,B,C
     /// of any numeric key of the scenario (may be repeated), or a TOML file of those [default: the scenario's
