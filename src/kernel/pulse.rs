@@ -1,12 +1,14 @@
 //! A pulse of light as the detector times it: how the arrivals of an echo's photons are spread around their mean.
 
 mod sampled;
+mod short_tail;
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, SQRT_2};
 
 use statrs::function::erf::erfc_inv;
 
 pub use sampled::{Samples, Unusable};
+use short_tail::ShortTail;
 
 /// Part of a pulse that may be cut off: that beyond 4.5 deviations of a Gaussian.
 const TAIL: f64 = 3.4e-6;
@@ -16,8 +18,6 @@ const GAUSSIAN_END: f64 = 4.5;
 const GAUSSIAN_REACH: f64 = 8.0;
 /// Reach of an exponential tail, beyond which 4e-11 of it is left [time constants].
 const TAIL_REACH: f64 = 24.0;
-/// From so far below the mean on, a normal distribution function is its asymptotic series [standard deviations].
-const FAR: f64 = 25.0;
 
 /// Distribution of the arrivals of an echo's photons around their mean.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,40 +163,6 @@ fn tailed_density(t_ps: f64, sigma_ps: f64, tail_ps: f64) -> f64 {
     let z = t_ps / sigma_ps - ratio;
     // The logarithm of either factor alone can be far from zero.
     libm::exp(0.5 * ratio * ratio - t_ps / tail_ps + libm::log(normal_cdf(z))) / tail_ps
-}
-
-/// An exponential tail that is short beside the normal time: factors of the normal density, as series in which nothing
-/// cancels, however short the tail is.
-struct ShortTail {
-    /// Time since the tail's begin [standard deviations].
-    u: f64,
-    /// Length of the tail [standard deviations].
-    w: f64,
-    /// 1 - u w [1].
-    q: f64,
-    /// (1 - S) / x, where S = 1 - x + 3 x^2 - .. is the asymptotic series of Mills' ratio in x = (w / q)^2 [1].
-    p: f64,
-}
-
-impl ShortTail {
-    /// `None` where the series does not hold.
-    fn of(t_ps: f64, sigma_ps: f64, tail_ps: f64) -> Option<Self> {
-        let (u, w) = ((t_ps + tail_ps) / sigma_ps, tail_ps / sigma_ps);
-        let q = 1.0 - u * w;
-        let x = (w / q).powi(2);
-        let p = 1.0 - x * (3.0 - x * (15.0 - x * (105.0 - x * 945.0)));
-        (q > FAR * w).then_some(ShortTail { u, w, q, p })
-    }
-
-    /// The density, of the normal one at the tail's begin [1].
-    fn density(&self) -> f64 {
-        (1.0 - (self.w / self.q).powi(2) * self.p) / self.q
-    }
-
-    /// The slope, of the normal density there over its standard deviation [1].
-    fn slope(&self) -> f64 {
-        (self.w / self.q.powi(2) * self.p - self.u) / self.q
-    }
 }
 
 #[cfg(test)]

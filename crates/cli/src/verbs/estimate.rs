@@ -66,9 +66,10 @@ fn width(text: &str) -> std::result::Result<f64, String> {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let setup = args.setup()?;
+    let layout = Layout::of(&args.files[0])?;
+    let setup = args.setup(layout)?;
     let request = args.request();
-    if let Some(sensor) = Sensor::of(&request, &setup)? {
+    if let Some(sensor) = Sensor::of(&request, layout, &setup)? {
         return sensor.run(&request, &setup, talk);
     }
     setup.check_estimator()?;
@@ -146,10 +147,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 
 impl Args {
     /// Returns the setup of the histograms, as far as it is known.
-    fn setup(&self) -> Result<Setup> {
+    fn setup(&self, layout: Option<Layout>) -> Result<Setup> {
         // A count of another sensor may be as wide as a count can be.
-        let is_own =
-            self.bin_ps.is_some() || Layout::of(&self.files[0])?.is_some_and(Layout::has_times);
+        let is_own = self.bin_ps.is_some() || layout.is_some_and(Layout::has_times);
         let widest = is_own.then(|| "firmware.count_bits=24".to_owned());
         let set: Vec<_> = widest.into_iter().chain(self.set.iter().cloned()).collect();
         let mut loaded = scenario::load(&self.scenario, &set)?;

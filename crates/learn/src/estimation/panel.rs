@@ -28,9 +28,7 @@ impl Panel {
             } else {
                 setup.params.frame_ctrl.shots_per_frame.into()
             };
-            let acquisition = Acquisition::of(setup, bins, shots);
-            let network = &setup.network;
-            Ok(kind.estimator(&EstimatorInputs { acquisition, network, setup })?)
+            made(*kind, setup, bins, shots)
         };
         let estimators = kinds.iter().map(estimator);
         Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
@@ -53,9 +51,7 @@ impl Panel {
                 );
                 return Err(Input::new("--estimator", expected).value(kind.name()).into());
             }
-            let acquisition = Acquisition::of(setup, bins, shots);
-            let network = &setup.network;
-            Ok(kind.estimator(&EstimatorInputs { acquisition, network, setup })?)
+            made(*kind, setup, bins, shots)
         };
         let estimators = kinds.iter().map(estimator);
         Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
@@ -94,6 +90,12 @@ impl Panel {
         let estimators = self.estimators.iter().map(AsRef::as_ref);
         estimators.map(|one| Found::estimate(one.name(), find(one))).collect()
     }
+}
+
+/// The estimator of that kind for histograms of so many shots in those bins.
+fn made(kind: EstimatorKind, setup: &Setup, bins: &Bins, shots: u64) -> Result<Box<dyn Estimator>> {
+    let (acquisition, network) = (Acquisition::of(setup, bins, shots), &setup.network);
+    Ok(kind.estimator(&EstimatorInputs { acquisition, network, setup })?)
 }
 
 #[cfg(test)]

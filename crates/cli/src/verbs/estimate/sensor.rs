@@ -18,12 +18,6 @@ use crate::report::estimates::{EstimateFindings, Numbers, Row};
 use crate::report::writer::Report;
 use crate::verbs::terminal::Talk;
 
-/// Keys by which a scenario says how histograms were made, with what they are.
-const ASSUMED: [(&str, &str); 2] = [
-    ("firmware.shots_per_frame", "the laser pulses of a histogram"),
-    ("laser.pulse_sigma_ps", "the standard deviation of the pulse as the detector times it"),
-];
-
 /// What is asked for, of a sensor that may be anybody's.
 pub(super) struct Request<'a> {
     pub files: &'a [PathBuf],
@@ -44,13 +38,13 @@ pub(super) struct Sensor {
 }
 
 impl Sensor {
-    /// The sensor of the first file's histograms, if they are not those of the scenario's firmware.
+    /// The sensor of the histograms, if they are not those of the scenario's firmware; `layout` is that of the first file,
+    /// `None` of a pipe.
     ///
     /// # Errors
-    /// When the file cannot be read, or its bins are of no known width.
-    pub fn of(asked: &Request, setup: &Setup) -> Result<Option<Self>> {
-        let path = &asked.files[0];
-        let Some(layout) = Layout::of(path)? else { return Ok(None) };
+    /// When its bins are of no known width.
+    pub fn of(asked: &Request, layout: Option<Layout>, setup: &Setup) -> Result<Option<Self>> {
+        let Some(layout) = layout else { return Ok(None) };
         let own = setup.params.histogram.bins;
         let width_ps = asked.bin_ps.or(layout.times_ps.map(|[_, bin_ps]| bin_ps));
         let Some(bin_ps) = width_ps else {
@@ -59,7 +53,7 @@ impl Sensor {
                     "expected {own} as tdc.bins of scenario {} says, or --bin-ps with the width of these",
                     setup.name
                 );
-                let fault = Input::new(path.display(), expected).field("bins");
+                let fault = Input::new(asked.files[0].display(), expected).field("bins");
                 return Err(fault.value(layout.bins).into());
             }
             // No network is for so many: what needs none sees them.
@@ -84,8 +78,9 @@ impl Sensor {
         let names: Vec<String> =
             asked.files.iter().map(|file| file.display().to_string()).collect();
         let mut rows = Vec::new();
-        for (path, file) in asked.files.iter().zip(&names) {
-            if let Some(other) = Layout::of(path)?.filter(|other| *other != self.layout) {
+        for (k, (path, file)) in asked.files.iter().zip(&names).enumerate() {
+            let layout = if k > 0 { Layout::of(path)? } else { None };
+            if let Some(other) = layout.filter(|other| *other != self.layout) {
                 let expected = format!("expected bins as in {}: {}", names[0], self.layout.bins);
                 let fault = Input::new(file, expected).field("bins");
                 return Err(fault.value(other.bins).into());
@@ -116,16 +111,20 @@ impl Sensor {
 
 /// Notes on what the default scenario says of these histograms, as nobody else has.
 fn assumed(asked: &Request, setup: &Setup) -> impl Iterator<Item = Note> {
+    let (firmware, laser) = (&setup.scenario.firmware, &setup.scenario.laser);
+    let shots = firmware.shots_per_frame as f64;
+    let pulse = "the standard deviation of the pulse as the detector times it";
+    let keys = [
+        ("firmware.shots_per_frame", shots, "the laser pulses of a histogram"),
+        ("laser.pulse_sigma_ps", laser.pulse_sigma_ps, pulse),
+    ];
     let is_unset = |key: &str| {
         asked.set.is_some_and(|keys| keys.iter().all(|set| set.split('=').next() != Some(key)))
     };
-    let keys: Vec<_> = ASSUMED.into_iter().filter(|(key, _)| is_unset(key)).collect();
-    let firmware = &setup.scenario.firmware;
-    let values = [firmware.shots_per_frame as f64, setup.scenario.laser.pulse_sigma_ps];
-    keys.into_iter().map(move |(key, meaning)| {
-        let place = ASSUMED.iter().position(|(known, _)| *known == key).unwrap_or_default();
+    let note = |(key, value, meaning): (&str, f64, &str)| {
         let text = format!("taken from scenario {}; it decides depth and sigma", scenario::DEFAULT);
         let expected = format!("{meaning}: -s {key}=..");
-        Note::new(NoteCode::EstimatorOutsideModel, key, values[place], expected, text)
-    })
+        Note::new(NoteCode::EstimatorOutsideModel, key, value, expected, text)
+    };
+    keys.into_iter().filter(move |(key, ..)| is_unset(key)).map(note)
 }
