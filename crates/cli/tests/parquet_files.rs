@@ -67,6 +67,8 @@ fn a_table_with_more_bins_than_the_scenario_or_a_bin_twice_is_refused() {
     assert!(refused(folder, &["estimate", "m.parquet"]).contains("column b7: there twice"));
     table(&path, &bins(255), 2, Compression::UNCOMPRESSED);
     assert!(refused(folder, &["estimate", "m.parquet"]).contains("bins = 255"));
+    let error = refused(folder, &["evaluate", "--data", "m.parquet"]);
+    assert!(error.contains("column b255: missing"), "{error}");
 }
 
 #[test]
