@@ -111,7 +111,8 @@ module likelihood_estimator #(
     wire [BinBits:0] next_end = window_end > {1'b0, All} ? All : window_end[BinBits:0];
 
     wire unsure = flags[1] && start_score < 14'sd425;
-    wire no_echo = unsure || flags[0] || flags[2] || start_score < 14'sd297;
+    wire faint = flags[0] && start_score < 14'sd850;
+    wire no_echo = unsure || faint || flags[2] || start_score < 14'sd297;
 
     // begin_pass: 1 a fit, 2 a scan; begin_program: its entry
     reg [3:0] state_next;

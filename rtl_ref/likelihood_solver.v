@@ -62,6 +62,7 @@ module likelihood_solver #(
     localparam [2:0] Whole = 3'd0, Positive = 3'd1, OfSignal = 3'd2, OfAmbient = 3'd3, OfChance = 3'd4,
         OfWindow = 3'd5;
     localparam [3:0] Large = 4'd1;
+    localparam signed [CountBits+18:0] Scarce = 512;  // 8 counts of information on log b
     // Words that are outputs too, and constants
     localparam [5:0] Arrival = 6'd0, Signal = 6'd1, Ambient = 6'd2, Depth = 6'd32, SigmaAt = 6'd33;
     localparam [4:0] One = 5'd18, KappaAt = 5'd19, Stride = 5'd20, MetresAt = 5'd21, Third = 5'd22, Nineteen = 5'd23,
@@ -71,6 +72,7 @@ module likelihood_solver #(
     localparam [1:0] Sum13 = 2'd0, Sum23 = 2'd1, Sum33 = 2'd2, Ended = 2'd0, Exposure = 2'd1, Excess = 2'd2;
     localparam [1:0] Sum11 = 2'd0, Sum12 = 2'd1, Sum22 = 2'd2;
 
+    reg scarce;                                // little is known of log b
     reg running;                               // a program is running
     reg [6:0] counter;                         // its instruction
     reg [5:0] pause;                           // cycles until that one begins
@@ -135,7 +137,7 @@ module likelihood_solver #(
         words[Variance] = 64;
         words[Unsure] = 40;
         words[Two] = 2;
-        {ran, arrival, strength, ambient, depth, sigma, flags, cut, running, counter, pause} = 0;
+        {ran, arrival, strength, ambient, depth, sigma, flags, cut, scarce, running, counter, pause} = 0;
         {at_0, at_1, at_2, at_3, at_4, at_5, at_6, at_7, at_8, from_a, from_b, a, b, c} = 0;
         {number_0, number_1, number_2, number_3, number_4, number_5, number_6, number_7} = 0;
         {from_c, base, by, alu, to, mark, pair} = 0;
@@ -249,7 +251,10 @@ module likelihood_solver #(
     wire under = past ? opposite : sum[ShiftedBits];
     wire past_word = past || sum[ShiftedBits-1:WordBits-1] != {ShiftedBits - WordBits + 1{under}};
     wire past_24 = past_word || |sum[WordBits-2:24];
-    wire past_growth = past_word || (under ? !(&sum[WordBits-2:13]) : past_24 || |sum[23:16] || sum[15:14] == 2'd3);
+    // b does not fall while little is known of it, or the step is shortened.
+    wire held = scarce || cut != 6'd0;
+    wire below_half = held || !(&sum[WordBits-2:13]);
+    wire past_growth = past_word || (under ? below_half : past_24 || |sum[23:16] || sum[15:14] == 2'd3);
     wire below_16 = under || !past_24 && sum[23:4] == 20'd0;
     wire below_1 = under || below_16 && sum[3:0] == 4'd0;
     reg past_end;
@@ -266,7 +271,7 @@ module likelihood_solver #(
             OfAmbient: begin least = 1; most = 16777215; end
             OfChance: begin least = 1; most = 8388608; end
             OfWindow: begin least = 0; most = WindowEnd; end
-            default: begin least = -8192; most = 49152; end
+            default: begin least = held ? 0 : -8192; most = 49152; end
         endcase
         case (limits)
             Whole: {below, outside} = {under, past_word};
@@ -290,7 +295,7 @@ module likelihood_solver #(
 
     always @(posedge clk_sys) begin
         if (rst) begin
-            {ran, arrival, strength, ambient, depth, sigma, flags, cut, running, counter, pause} <= 0;
+            {ran, arrival, strength, ambient, depth, sigma, flags, cut, scarce, running, counter, pause} <= 0;
             {at_0, at_1, at_2, at_3, at_4, at_5, at_6, at_7, at_8, from_a, from_b, a, b, c} <= 0;
             {number_0, number_1, number_2, number_3, number_4, number_5, number_6, number_7} <= 0;
             {from_c, base, by, alu, to, mark, pair} <= 0;
@@ -299,6 +304,7 @@ module likelihood_solver #(
             {minus, divides, roots, sum, past, opposite, limits, result, dividing, divided, digit} <= 0;
             {bits, exponent, magnitude, remainder, quotient} <= 0;
         end else begin
+            scarce <= sum_33 < Scarce;
             // What begins
             ran <= begins && op == Stop;
             if (run) begin

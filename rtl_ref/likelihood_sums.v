@@ -42,7 +42,7 @@ module likelihood_sums #(
     localparam integer WeightSlopeBits = WeightBits + 9, WordBits = CountBits + 19;
     localparam integer FactorBits = NearBits > 14 ? NearBits : 14;
     localparam integer LastBits = (WordBits > BinBits + 25 ? WordBits : BinBits + 25) + 1;
-    localparam [WordBits-1:0] Count = 64, Sixteenth = 4;
+    localparam [WordBits-1:0] Count = 64, Quarter = 16, Sixteenth = 4;
     localparam [NearBits-1:0] Nearest = {2'b01, {CountBits{1'b1}}};
     localparam signed [12:0] Half = 2048;   // of what is cut off a product, to round it
     localparam signed [9:0] Far = 25;       // squared deviations that are no chance
@@ -228,7 +228,7 @@ module likelihood_sums #(
             sum_11 <= {Sixteenth, 1'b0};
             {sum_12, sum_13, sum_23, score_1, score_2, score_3} <= 0;
             sum_22 <= Sixteenth;
-            last_sum <= check ? 0 : Count;
+            last_sum <= check ? 0 : Quarter;
             far <= 1'b0;
             // What is on the way from a pass that was no check is no square.
             {square_0, square_1, square_2, reciprocal, twice_first} <= 0;

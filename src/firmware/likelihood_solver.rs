@@ -15,6 +15,7 @@ use crate::signals;
 
 use super::histogram_builder::Count;
 use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::words::SCARCE;
 use super::likelihood_memory::{Exposure, Place};
 use super::likelihood_scan::Excess;
 
@@ -117,6 +118,8 @@ signals! {
         pub flags: U<7>,
         /// By how many bits the last step was shortened.
         pub cut: U<6>,
+        /// Little is known of log b.
+        scarce: bool,
         /// A program is running.
         running: bool,
         /// Its instruction.
@@ -266,6 +269,7 @@ impl LikelihoodSolver {
     pub fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;
         let mut d = q;
+        d.scarce = i.sum_33.get() < SCARCE;
         q.begin(i, &mut d);
         q.go_on(&mut d);
         self.fetch(i, p, &mut d);

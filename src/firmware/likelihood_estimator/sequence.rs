@@ -8,7 +8,7 @@ use crate::firmware::tof_top::status::{Status, StatusSet};
 use crate::kernel::U;
 
 use super::params::Params;
-use super::words::{ANOTHER_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE};
+use super::words::{ANOTHER_SCORE, CERTAIN_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE};
 use super::{In, LikelihoodEstimator, Registers, State};
 
 impl LikelihoodEstimator {
@@ -78,7 +78,8 @@ impl LikelihoodEstimator {
         let solver = &self.likelihood_solver.registers;
         let flag = |flag: u64| solver.flags.get() >> flag & 1 != 0;
         let unsure = flag(1) && d.start_score.get() < SURE_SCORE;
-        let no_echo = unsure || flag(0) || flag(2) || d.start_score.get() < LEAST_SCORE;
+        let faint = flag(0) && d.start_score.get() < CERTAIN_SCORE;
+        let no_echo = unsure || faint || flag(2) || d.start_score.get() < LEAST_SCORE;
         let reasons = [
             (no_echo, Status::NoEcho),
             (flag(3) || flag(4), Status::CutOff),

@@ -57,5 +57,10 @@ pub const LEAST_WAITING: u64 = 32;
 pub const LEAST_SCORE: i64 = 297;
 /// Score of one that is sure, of 100.
 pub const SURE_SCORE: i64 = 425;
+/// Score of a certain echo, of 10,000 squared deviations: its signal may be uncertain.
+pub const CERTAIN_SCORE: i64 = 850;
+/// Information on log b below which a step does not lower b: 8 counts, 6 fraction bits. Below it the sums round away
+/// how the depth depends on b, so that sigma would be too small.
+pub const SCARCE: i64 = 8 << WEIGHT_FRACTION;
 /// Score above which something else is another echo, of 36.
 pub const ANOTHER_SCORE: i64 = 331;

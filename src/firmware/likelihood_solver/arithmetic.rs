@@ -8,8 +8,10 @@ use crate::kernel::{S, U, wrapped};
 use super::instruction::{By, Clamp, Op};
 use super::{LOW_BITS, Registers};
 
-/// Limits of a step in log b: it falls to a half at most, and grows by three times.
+/// Limits of a step in log b: b falls to a half at most, and grows by three times.
 const GROWTH: [i64; 2] = [-(1 << 13), 3 << 14];
+/// The same while little is known of log b, or the step is shortened: b does not fall then.
+const HELD_GROWTH: [i64; 2] = [0, 3 << 14];
 
 impl Registers {
     /// The product.
@@ -71,7 +73,10 @@ impl Registers {
         (d.past, d.opposite) = (self.beyond, (self.shifted.get() < 0) != self.minus);
         d.limits = U::new(self.instruction(6).clamp as u64);
 
-        let [least, most] = p.limits(Clamp::ALL[self.limits.index()]);
+        let [least, most] = match Clamp::ALL[self.limits.index()] {
+            Clamp::Growth if self.scarce || self.cut != 0 => HELD_GROWTH,
+            clamp => p.limits(clamp),
+        };
         d.result = S::new(match (self.divided, self.past, self.opposite) {
             (true, ..) => self.quotient.get() as i64,
             (_, true, true) => least,

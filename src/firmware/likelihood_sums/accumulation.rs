@@ -5,9 +5,9 @@ use crate::kernel::{S, U};
 use super::{COUNT, In, LikelihoodSums};
 
 impl LikelihoodSums {
-    /// Sums begin with a ridge of a count for log b, and of a 16th of one for the others.
+    /// Sums begin with a ridge of a quarter of a count for log b, and of a 16th of one for the others.
     pub(super) fn clear(&mut self, check: bool) {
-        self.last_sum = S::new(if check { 0 } else { COUNT });
+        self.last_sum = S::new(if check { 0 } else { COUNT >> 2 });
         self.sum_11 = S::new(COUNT >> 4 << 1);
         (self.sum_12, self.sum_13) = (S::new(0), S::new(0));
         (self.sum_22, self.sum_23) = (S::new(COUNT >> 4), S::new(0));

@@ -43,6 +43,8 @@ struct Scene<'a> {
     codes: BinProbabilities,
     /// Least standard deviation of an unbiased estimate [m].
     bound_m: f64,
+    /// Detected laser photons [per shot].
+    signal: f64,
 }
 
 impl Instrument {
@@ -62,9 +64,10 @@ impl Instrument {
         let pulse = &self.setup.budget.pulse;
         let budget = Budget::new(&scenario, pulse.clone());
         let acquisition = Acquisition::new(&self.bins, shots, pulse);
-        let bound_m = Model::new(&acquisition).unwrap().cramer_rao_m(&Echo::from(&budget))?;
+        let echo = Echo::from(&budget);
+        let bound_m = Model::new(&acquisition).unwrap().cramer_rao_m(&echo)?;
         let codes = BinProbabilities::new(&Hazard::new(&budget), &self.bins);
-        Some(Scene { instrument: self, shots, codes, bound_m })
+        Some(Scene { instrument: self, shots, codes, bound_m, signal: echo.signal })
     }
 }
 

@@ -1,6 +1,8 @@
 //! A step of Fisher scoring in (mu, log S, log b).
 
-use crate::firmware::likelihood_estimator::words::{LEAST_SIGNAL, MOST_LEVEL, QUOTIENT_FRACTION};
+use crate::firmware::likelihood_estimator::words::{
+    LEAST_SIGNAL, MOST_LEVEL, QUOTIENT_FRACTION, SCARCE,
+};
 
 use super::histogram::Shots;
 use super::instrument::Instrument;
@@ -42,6 +44,7 @@ pub fn step<I: Instrument>(
     let (whole, one) = (I::Number::whole, I::Number::whole(1));
     let times = |a: I::Number, b: I::Number| a.times(b).shifted(Q);
     let Sums { a11, a12, a13, a22, a23, a33, y1, y2, y3 } = Sums::new(&from.terms(p, shots));
+    let scarce = a33 < whole(SCARCE);
     // log b is eliminated.
     let (over_a33, bits) = a33.at_least(one).reciprocal();
     let [f1, f2, f3] = [a13, a23, y3].map(|a| product(a, over_a33, bits + 16 - Q, word));
@@ -65,7 +68,9 @@ pub fn step<I: Instrument>(
     let d3 = (f3 - times(f1, d1)).kept(word) - times(f2, d2);
     let move_by = product(d1, scales.stride, 17, word);
     let growth = (d2 + (d2 * d2).shifted(Q + 1)).kept(word);
-    let fall = d3.within([-ONE / 2, 3 * ONE].map(whole));
+    // b does not fall while the point is far off, or little is known of it.
+    let lowest = if scarce || cut > 0 { 0 } else { -ONE / 2 };
+    let fall = d3.within([lowest, 3 * ONE].map(whole));
     let to = Point {
         arrival: (from.arrival + move_by).within([whole(0), scales.end]),
         signal: (from.signal + times(from.signal, growth))

@@ -32,9 +32,9 @@ pub struct Sums<N> {
 }
 
 impl<N: Number> Sums<N> {
-    /// With a ridge of a count for log b and of a 16th for the others.
+    /// With a ridge of a quarter of a count for log b and of a 16th for the others.
     pub fn new(terms: &[(Terms<N>, N)]) -> Self {
-        let [a11, a22, a33] = [COUNT >> 4 << 1, COUNT >> 4, COUNT].map(N::whole);
+        let [a11, a22, a33] = [COUNT >> 4 << 1, COUNT >> 4, COUNT >> 2].map(N::whole);
         let mut sums = Sums { a11, a22, a33, ..Sums::default() };
         for &(Terms { residual, weight, share, .. }, z) in terms {
             let of = |value: N| (value * share).shifted(12);

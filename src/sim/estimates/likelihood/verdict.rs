@@ -2,8 +2,8 @@
 
 use crate::firmware::forward2::Depth;
 use crate::firmware::likelihood_estimator::words::{
-    ANOTHER_SCORE, CHI_FRACTION, DEPTH_FRACTION, FAR, LEAST_SCORE, LEAST_WAITING, SURE_SCORE,
-    WEIGHT_FRACTION,
+    ANOTHER_SCORE, CERTAIN_SCORE, CHI_FRACTION, DEPTH_FRACTION, FAR, LEAST_SCORE, LEAST_WAITING,
+    SURE_SCORE, WEIGHT_FRACTION,
 };
 use crate::firmware::tof_top::slot::EstimateWords;
 use crate::firmware::tof_top::status::{Status, StatusSet};
@@ -92,11 +92,11 @@ pub fn verdict<I: Instrument>(
     let first = p.window(last.arrival).find(|&bin| p.has(bin));
     let used_up = first.is_some_and(|bin| shots.waiting(bin) < whole(LEAST_WAITING as i64));
     let margin = scales.sigma.floored(-3);
-    // Largest variance of log S: a 16th, and with a score that is not sure, a 25th.
+    // Largest variance of log S: a 16th unless the echo is certain, and with a score that is not sure, a 25th.
     let unsure =
         variance > I::Number::constant(40, 1024.0 / 25.0) && start.score < score(SURE_SCORE, 100.0);
     let no_echo = unsure
-        || variance > whole(64)
+        || variance > whole(64) && start.score < score(CERTAIN_SCORE, 10_000.0)
         || start.score < score(LEAST_SCORE, 25.0)
         || sigma > scales.sigma.floored(-4);
     let cut_off = last.arrival < margin || scales.end - last.arrival < margin;

@@ -19,7 +19,7 @@ fn says_no_echo(instruments: &[Instrument], number: u64) -> bool {
         &Hazard::dark(&Budget::new(&scenario, Pulse::default())),
         &instrument.bins,
     );
-    let scene = Scene { instrument, shots, codes, bound_m: 0.0 };
+    let scene = Scene { instrument, shots, codes, bound_m: 0.0, signal: 0.0 };
     scene.look(&scene.draw(&mut random)).status.contains(Status::NoEcho)
 }
 

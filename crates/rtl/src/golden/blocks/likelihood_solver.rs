@@ -1,6 +1,7 @@
 //! All programs, with what comes of loads, scans and fits, and with operands of every size.
 
 use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::likelihood_estimator::words::SCARCE;
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_solver::In;
 use tofsim::firmware::likelihood_solver::program::{
@@ -58,6 +59,12 @@ fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
     let (sum_12, sum_13, score_1) = (slope(), slope(), slope());
     let mut sum = || S::new(draw.signed_within(count + 19));
     let (sum_23, score_2, score_3) = (sum(), sum(), sum());
+    // Around the least information on log b with which b may fall.
+    let sum_33 = if draw.one_in(4) {
+        SCARCE - 2 + draw.below(4) as i64
+    } else {
+        draw.unsigned_of(count + 18) as i64
+    };
     In {
         rst: draw.one_in(1000),
         run: false,
@@ -74,7 +81,7 @@ fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
         sum_13,
         sum_22: S::new(draw.unsigned_of(count + 18) as i64),
         sum_23,
-        sum_33: S::new(draw.unsigned_of(count + 18) as i64),
+        sum_33: S::new(sum_33),
         score_1,
         score_2,
         score_3,

@@ -63,7 +63,8 @@ impl Pair {
     pub fn scene<'a>(&self, instrument: &'a Instrument) -> (Scene<'a>, [f64; 2]) {
         let codes = self.codes(instrument);
         let bounds_m = self.bounds_m(instrument, codes.of_code());
-        (Scene { instrument, shots: SHOTS, codes, bound_m: bounds_m[0] }, bounds_m)
+        let signal = self.0[1].exp();
+        (Scene { instrument, shots: SHOTS, codes, bound_m: bounds_m[0], signal }, bounds_m)
     }
 
     /// Cramér-Rao bounds of both distances, where all five coordinates are unknown [m].
