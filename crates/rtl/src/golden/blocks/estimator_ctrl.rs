@@ -11,7 +11,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "algo_start", to: "read_en", cycles: |_| 0 },
         Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network_cycles.into() },
     ],
-    configurations: &[NEURONS_16],
+    configurations: &[NEURONS_16, NEURONS_31],
     model: Some(Model::new::<In>(|at| {
         at.top.depth_estimator.estimator_ctrl.tick(&at.input(), &at.params.estimators.depth_estimator.ctrl());
     })),

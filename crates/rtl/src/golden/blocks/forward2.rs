@@ -20,7 +20,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "l1_out_0", to: "depth", cycles: |_| 3 },
         Latency { from: "depth_en", to: "depth", cycles: |_| 0 },
     ],
-    configurations: &[NEURONS_16],
+    configurations: &[NEURONS_16, NEURONS_31],
     model: Some(Model::new::<In>(|at| {
         at.top.depth_estimator.forward2.tick(&at.input(), &at.params.estimators.depth_estimator.forward2);
     })),
