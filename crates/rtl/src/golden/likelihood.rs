@@ -1,9 +1,9 @@
 //! Estimations of the likelihood estimator one after the other, for it and for each of its blocks.
 //!
 //! The histograms are drawn from scenes of the scenario's instrument, near and far, bright and dark, until one shows
-//! what its kind is for: each reason not to believe a depth, alone, or a score on either side of a limit. Between them stand extreme ones: empty, full, all
-//! hits in one bin, every other bin full, random. Now and then an estimation is started while one is busy, or a reset
-//! cuts it short, in each state in turn.
+//! what its kind is for: each reason not to believe a depth, alone, or a word on either side of a limit. Between them
+//! stand extreme ones: empty, full, all hits in one bin, every other bin full, random. Now and then an estimation is
+//! started while one is busy, or a reset cuts it short, in each state in turn.
 
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::likelihood_estimator::{In, LikelihoodEstimator, State};
@@ -28,9 +28,9 @@ const STATES: u64 = State::End as u64 + 1;
 const WHOLE: u64 = 2;
 /// So often a histogram is drawn that is of its kind.
 const TRIES: u64 = 100;
-/// Histograms drawn or changed to find one at a limit, and how near to it one is changed and not drawn anew.
-const NUDGES: u64 = 2000;
+/// Score or shots from a limit, so near to which a histogram is changed and no longer drawn anew; and changes tried.
 const NEAR: u64 = 50;
+const NUDGES: u64 = 2000;
 /// Kinds of extreme histograms.
 const EXTREMES: u64 = 8;
 
@@ -137,22 +137,29 @@ impl<'a> Estimations<'a> {
     /// Draws histograms until one is near a limit, and moves it there hit by hit: this side of it, or the other the
     /// next time.
     fn at_limit(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
-        let mut best = (u64::MAX, 0, Vec::new());
+        let far = self.begun % WHOLE == 1;
+        let from_limit = |one: &[u32]| Outcome::of(one, self.params).from_limit(kind, far);
+        let mut best = self.histogram(kind, draw);
+        let mut from = from_limit(&best);
+        for _ in 0..TRIES {
+            if from.is_some_and(|(distance, _)| distance <= NEAR) {
+                break;
+            }
+            best = self.histogram(kind, draw);
+            from = from_limit(&best);
+        }
+        let Some((mut distance, mut bin)) = from else { return best };
         for _ in 0..NUDGES {
-            let (distance, bin, histogram) = &best;
-            let next = if *distance > NEAR {
-                self.histogram(kind, draw)
-            } else {
-                nudged(histogram, *bin, draw)
-            };
-            let from = Outcome::of(&next, self.params).from_limit(kind, self.begun % WHOLE == 1);
-            match from {
-                Some((0, _)) => return next,
-                Some((distance, bin)) if distance <= best.0 => best = (distance, bin, next),
-                _ => {}
+            if distance == 0 {
+                break;
+            }
+            let next = self.nudged(&best, bin, draw);
+            let from = from_limit(&next).filter(|from| from.0 <= distance);
+            if let Some(from) = from {
+                ((distance, bin), best) = (from, next);
             }
         }
-        best.2
+        best
     }
 
     fn histogram(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
@@ -247,22 +254,25 @@ impl<'a> Estimations<'a> {
         (0..bins).map(|bin| count(kind, bin, draw.bits()) as u32).collect()
     }
 
+    /// Adds or takes away hits: one in a bin around that one, for a large change of its box's score, or a few in any,
+    /// for a small one; one to four times.
+    fn nudged(&self, histogram: &[u32], around: u64, draw: &mut Draw) -> Vec<u32> {
+        let size = &self.params.histogram;
+        let (mut counts, bins, most) =
+            (histogram.to_vec(), size.bins as u64, size.most_hits() as u32);
+        for _ in 0..=draw.below(4) {
+            let near = (around + draw.below(17)).saturating_sub(8).min(bins - 1);
+            let (bin, hits) =
+                if draw.one_in(2) { (near, 1) } else { (draw.below(bins), draw.below(8) as u32) };
+            let count = &mut counts[bin as usize];
+            *count =
+                if draw.one_in(2) { (*count + hits).min(most) } else { count.saturating_sub(hits) };
+        }
+        counts
+    }
+
     /// Returns the coverage.
     pub fn coverage(self) -> [Cover; 4] {
         [self.starts, self.resets, self.seen, self.modes]
     }
-}
-
-/// Adds or takes away hits: one in a bin around that one, for a large change of its box's score, or a few in any, for
-/// a small one; one to four times.
-fn nudged(histogram: &[u32], around: u64, draw: &mut Draw) -> Vec<u32> {
-    let (mut counts, bins) = (histogram.to_vec(), histogram.len() as u64);
-    for _ in 0..=draw.below(4) {
-        let near = (around + draw.below(17)).saturating_sub(8).min(bins - 1);
-        let (bin, hits) =
-            if draw.one_in(2) { (near, 1) } else { (draw.below(bins), draw.below(8) as u32) };
-        let count = &mut counts[bin as usize];
-        *count = if draw.one_in(2) { *count + hits } else { count.saturating_sub(hits) };
-    }
-    counts
 }
