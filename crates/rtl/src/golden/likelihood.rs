@@ -138,15 +138,15 @@ impl<'a> Estimations<'a> {
     /// next time.
     fn at_limit(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
         let far = self.begun % WHOLE == 1;
-        let from_limit = |one: &[u32]| Outcome::of(one, self.params).from_limit(kind, far);
+        let to_limit = |one: &[u32]| Outcome::of(one, self.params).to_limit(kind, far);
         let mut best = self.histogram(kind, draw);
-        let mut from = from_limit(&best);
+        let mut from = to_limit(&best);
         for _ in 0..TRIES {
             if from.is_some_and(|(distance, _)| distance <= NEAR) {
                 break;
             }
             best = self.histogram(kind, draw);
-            from = from_limit(&best);
+            from = to_limit(&best);
         }
         let Some((mut distance, mut bin)) = from else { return best };
         for _ in 0..NUDGES {
@@ -154,7 +154,7 @@ impl<'a> Estimations<'a> {
                 break;
             }
             let next = self.nudged(&best, bin, draw);
-            let from = from_limit(&next).filter(|from| from.0 <= distance);
+            let from = to_limit(&next).filter(|from| from.0 <= distance);
             if let Some(from) = from {
                 ((distance, bin), best) = (from, next);
             }

@@ -68,7 +68,7 @@ impl Outcome {
 
     /// Returns how far a word is from a limit, if nothing else decides about its reason in the status, and the bin at which hits change
     /// that. On the `far` side the status changes.
-    pub(super) fn from_limit(&self, kind: u64, far: bool) -> Option<(u64, u64)> {
+    pub(super) fn to_limit(&self, kind: u64, far: bool) -> Option<(u64, u64)> {
         let echo = [0, 1, 2].map(|which| self.flag(which));
         let reason = |status: Status| [0, u64::from(status.bit())].contains(&self.status);
         let no_echo = reason(Status::NoEcho);
