@@ -52,7 +52,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, In::list());
     // Pair of the line before.
     let mut last = U::new(0);
-    for cycle in 0..setting.cycles() {
+    // More situations take more lines.
+    let lines = Setting::CYCLES / 8 * all_pairs as usize;
+    for cycle in 0..setting.cycles.unwrap_or(lines) {
         let draw = &mut run.draw;
         let mut any = In {
             rst: draw.one_in(8),
