@@ -12,9 +12,12 @@ use crate::common;
 const CYCLES: u64 = 20_000;
 
 /// Configurations that take Icarus more than five seconds each: `./check --full` runs them.
-const SLOW: [&str; 12] = [
+const SLOW: [&str; 15] = [
+    "depth_estimator.neurons_31",
     "forward1.neurons_16",
+    "forward1.neurons_31",
     "likelihood_estimator.late",
+    "tansig.neurons_31",
     "tdc.reordered",
     "tdc_decoder.calibrated",
     "tdc_decoder.count_stages_2",

@@ -62,6 +62,13 @@ int tofsim_step(void *handle,
                 const uint32_t *inputs,
                 const uint32_t *outputs);
 
+// Returns how often the outputs of a block have been compared so far, by all its models that have not been deleted;
+// 0 for an unknown block. A bench prints it at its end: a checker that was never connected finds no fault.
+//
+// # Safety
+// The string is null or ends with a zero.
+long long tofsim_get_num_compared(const char *block);
+
 // Computes the model's outputs for the given inputs, before an edge. Returns 1, or 0 with an error.
 //
 // # Safety

@@ -8,7 +8,7 @@ use tofsim::sim::photons::Shown;
 
 use crate::arguments::{self, check_version};
 use crate::checker::Checker;
-use crate::objects::{ObjectKind, delete, errors, make, with};
+use crate::objects::{ObjectKind, compared, delete, errors, make, with};
 use crate::photons::Source;
 
 /// Returns the text of a C string.
@@ -145,6 +145,18 @@ pub unsafe extern "C" fn tofsim_step(
         found.iter().for_each(|sentence| object.record(sentence));
         Ok(found.is_empty().into())
     })
+}
+
+/// Returns how often the outputs of a block have been compared so far, by all its models that have not been deleted;
+/// 0 for an unknown block. A bench prints it at its end: a checker that was never connected finds no fault.
+///
+/// # Safety
+/// The string is null or ends with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tofsim_get_num_compared(block: *const c_char) -> c_longlong {
+    // SAFETY: as of this function.
+    let count = unsafe { text("block", block) }.map_or(0, compared);
+    c_longlong::try_from(count).unwrap_or(c_longlong::MAX)
 }
 
 /// Computes the model's outputs for the given inputs, before an edge. Returns 1, or 0 with an error.

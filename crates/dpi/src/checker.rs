@@ -8,13 +8,15 @@ pub struct Checker {
     pub block: Block,
     /// Mask of the next step's output bits that are neither 0 nor 1.
     pub unknown: Vec<u32>,
+    /// Comparisons so far.
+    pub compared: u64,
 }
 
 impl Checker {
     pub fn new(scenario: &str, block: &str) -> Result<Self, String> {
         let block =
             Block::new(arguments::setup(scenario)?, block).map_err(|error| error.to_string())?;
-        Ok(Checker { block, unknown: Vec::new() })
+        Ok(Checker { block, unknown: Vec::new(), compared: 0 })
     }
 
     /// Checks that the bench's port has the width of the model's.
@@ -43,6 +45,7 @@ impl Checker {
         let text = |error: tofsim::error::Error| error.to_string();
         self.block.outputs(now, inputs).map_err(text)?;
         let found = if self.block.is_settled() {
+            self.compared += 1;
             self.block.mismatches(outputs, &self.unknown)
         } else {
             Vec::new()

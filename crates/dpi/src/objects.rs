@@ -106,6 +106,16 @@ pub fn errors<T>(handle: usize, run: impl FnOnce(&mut Vec<CString>) -> T) -> T {
     run(&mut object.errors)
 }
 
+/// Returns how often the checkers of a block have compared its outputs so far, all together.
+pub fn compared(block: &str) -> u64 {
+    let objects = OBJECTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let of_block = |object: &Object| match &object.kind {
+        ObjectKind::Checker(checker) if checker.block.name() == block => checker.compared,
+        _ => 0,
+    };
+    objects.by_handle.values().map(of_block).sum()
+}
+
 /// Deletes the object behind a handle.
 pub fn delete(handle: usize) {
     let mut objects = OBJECTS.lock().unwrap_or_else(PoisonError::into_inner);

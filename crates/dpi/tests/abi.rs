@@ -68,6 +68,21 @@ fn what_cannot_be_made_is_null_and_says_why() {
 }
 
 #[test]
+fn comparisons_are_counted_from_the_first_reset_on() {
+    let compared = |block: &CStr| unsafe { tofsim_get_num_compared(block.as_ptr()) };
+    let handle = new(VERSION, "kc705", "coarse_counter");
+    for (edge, rst) in [0, 1, 0, 0].into_iter().enumerate() {
+        assert_eq!(compared(c"coarse_counter"), edge.saturating_sub(2) as i64);
+        let mut outputs = [0; 2];
+        let (time, inputs) = (8_000_000 * (edge as i64 + 1), rst << 1);
+        unsafe { tofsim_outputs(handle, time, &inputs, outputs.as_mut_ptr()) };
+        unsafe { tofsim_step(handle, 1, time, &inputs, outputs.as_ptr()) };
+    }
+    assert_eq!([compared(c"coarse_counter"), compared(c"nothing")], [2, 0]);
+    assert_eq!(unsafe { tofsim_get_num_compared(null()) }, 0);
+}
+
+#[test]
 fn a_block_steps_and_what_differs_is_named() {
     let handle = new(VERSION, "kc705", "spad_control");
     let port = |name: &CStr, bits| unsafe { tofsim_port(handle, name.as_ptr(), bits) };

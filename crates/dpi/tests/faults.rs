@@ -135,5 +135,5 @@ fn a_checker_stops_at_a_fault_where_the_bench_of_the_block_does() {
 
 #[test]
 fn a_checker_stops_where_a_fault_is() {
-    plant(120, 2);
+    plant(130, 2);
 }

@@ -41,6 +41,20 @@ fn with_fault(folder: &Path, name: &str, [old, new]: [&str; 2]) -> Vec<PathBuf> 
     files
 }
 
+/// Returns the design with a module under another name, to which no checker is bound.
+fn renamed(folder: &Path) -> Vec<PathBuf> {
+    let [own, top] = [
+        ["module spad_control", "module other"],
+        ["    spad_control spad_control (", "    other spad_control ("],
+    ];
+    let other = with_fault(folder, "spad_control.v", own);
+    let top = with_fault(folder, "tof_top.v", top);
+    let both =
+        |path: &PathBuf| !["spad_control.v", "tof_top.v"].iter().any(|name| path.ends_with(name));
+    let changed = [&other, &top].into_iter().flatten().filter(|path| path.starts_with(folder));
+    design().into_iter().filter(both).chain(changed.cloned()).collect()
+}
+
 const MISMATCH: &str = "frame_ctrl: cycle ";
 
 #[test]
@@ -67,12 +81,30 @@ fn the_makefile_builds_and_a_fault_stops_it() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
+fn a_checker_that_is_bound_to_nothing_fails_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), ("kc705", SHOTS), Some(&["frame_ctrl", "spad_control"]));
+    let run = make(folder.path(), "verilator", &renamed(folder.path()), "");
+    assert_eq!(printed(&run), frames(1), "{}", run.text);
+    assert!(
+        !run.is_fine && run.text.contains("tofsim: spad_control: never compared: no such module"),
+        "{}",
+        run.text
+    );
+    assert!(run.text.contains("tofsim: frame_ctrl: compared "), "{}", run.text);
+    assert!(run.text.contains("tofsim: 1 of 2 checkers compared nothing"), "{}", run.text);
+}
+
+#[test]
 fn icarus_has_the_same_over_vpi() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), ("kc705", SHOTS), None);
     let run = make(folder.path(), "icarus", &design(), "+tofsim_from_power_up");
     assert!(run.is_fine, "{}", run.text);
     assert_eq!(printed(&run), frames(1), "{}", run.text);
+    let compared = run.text.lines().filter(|line| line.contains(": compared ")).count();
+    assert_eq!(compared, 20, "{}", run.text);
     let run = make(folder.path(), "icarus", &faulty(folder.path()), "");
     assert!(!run.is_fine && run.text.contains(MISMATCH), "{}", run.text);
     // What is unknown is not 0.
@@ -81,6 +113,17 @@ fn icarus_has_the_same_over_vpi() {
     let run = make(folder.path(), "icarus", &unknown, "");
     let said = "spad_sel: expected 0000000001, got xxxxxxxxxx";
     assert!(!run.is_fine && run.text.contains(said), "{}", run.text);
+    // Without a reset nothing is compared.
+    let reset = "spad_control spad_control (\n        .clk_sys(clk_sys),\n        .rst(";
+    let [wired, open] = ["rst_sys)", "1'b0)"].map(|rst| [reset, rst].concat());
+    let never = with_fault(folder.path(), "tof_top.v", [&wired, &open]);
+    let run = make(folder.path(), "icarus", &never, "");
+    assert!(
+        !run.is_fine && run.text.contains("tofsim: spad_control: never compared"),
+        "{}",
+        run.text
+    );
+    assert!(run.text.contains("tofsim: 1 of 20 checkers compared nothing"), "{}", run.text);
     write(folder.path(), ("long", SHOTS), Some(&["frame_ctrl"]));
     let run = make(folder.path(), "icarus", &design(), "");
     let said = "frame_ctrl.clear_addr: the design has 8 bits, the scenario 10";

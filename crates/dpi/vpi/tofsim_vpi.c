@@ -121,6 +121,20 @@ static PLI_INT32 report(PLI_BYTE8 *data) {
   return 0;
 }
 
+/* Whether a block has been compared at all; prints how often. */
+static PLI_INT32 ran(PLI_BYTE8 *data) {
+  struct call call = begin();
+  char *block = text(call.args[0]);
+  long long compared = tofsim_get_num_compared(block);
+  (void)data;
+  if (compared > 0)
+    vpi_printf("tofsim: %s: compared %lld times\n", block, compared);
+  else
+    vpi_printf("tofsim: %s: never compared: its clock or its reset never came\n", block);
+  free(block);
+  return give(call, compared > 0);
+}
+
 static PLI_INT32 photons_edge(PLI_BYTE8 *data) {
   struct call call = begin();
   int shown[6];
@@ -163,6 +177,7 @@ static void all(void) {
   add(vpiSysTask, "$tofsim_from_power_up", from_power_up);
   add(vpiSysTask, "$tofsim_stop", stop);
   add(vpiSysTask, "$tofsim_report", report);
+  add(vpiSysFunc, "$tofsim_ran", ran);
   add(vpiSysTask, "$tofsim_photons_edge", photons_edge);
   add(vpiSysTask, "$tofsim_photons_next", photons_next);
   add(vpiSysFunc, "$tofsim_photons_level", photons_level);

@@ -112,10 +112,17 @@ impl Checkers {
         };
         let text: String = self.blocks.iter().map(checker).collect();
         format!(
-            "`timescale 1fs / 1fs\n\n// Checkers of tofsim {}, scenario {}.\n{text}",
+            "`timescale 1fs / 1fs\n\n// Checkers of tofsim {}, scenario {}.\n{text}{}",
             env!("CARGO_PKG_VERSION"),
-            self.setup.name
+            self.setup.name,
+            self.summary()
         )
+    }
+
+    fn summary(&self) -> String {
+        let ran = |block: &Block| format!("    tofsim_ran(\"{}\");", block.name());
+        let ran = join(self.blocks.iter().map(ran), "\n");
+        format!(include_str!("checkers/summary.sv"), ran = ran, count = self.blocks.len())
     }
 
     fn binds(&self) -> String {
@@ -132,7 +139,9 @@ impl Checkers {
         };
         let text: String = self.blocks.iter().map(bind).collect();
         format!(
-            "// Binds checkers to modules of these names; yours may have others, or fewer of them.\n{text}"
+            "// Binds checkers to modules of these names; yours may have others, or fewer of them. The macro TOFSIM_BENCH\n\
+             // names the bench, which prints at its end how often each was compared.\n{text}\n\
+             `ifdef TOFSIM_BENCH\nbind `TOFSIM_BENCH tofsim_summary tofsim_summary ();\n`endif\n"
         )
     }
 }

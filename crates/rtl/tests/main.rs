@@ -1,5 +1,6 @@
 //! Rust and Verilog, side by side.
 
+mod board;
 #[path = "../../../tests/common.rs"]
 mod common;
 mod mirror;

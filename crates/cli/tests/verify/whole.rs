@@ -76,7 +76,7 @@ fn what_a_design_cannot_be_is_not_run_and_no_fault() {
     let output = common::output(folder.path(), &args);
     let text = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(0), "{text}");
-    let reason = "estimator_ctrl.neurons_16: module estimator_ctrl has no parameter Neurons";
+    let reason = "estimator_ctrl.neurons_31: module estimator_ctrl has no parameter Neurons";
     assert!(text.contains(reason), "{text}");
     assert!(fs::read_to_string(folder.path().join("a.xml")).unwrap().contains("<skipped"));
 }

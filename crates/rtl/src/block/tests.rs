@@ -37,12 +37,18 @@ fn copy(words: &mut [u32], place: &PortBits, row: &BitSlice<u64, Lsb0>, column: 
     }
 }
 
-/// A line of a block's inputs from one of its stimulus; `rst_late` stands for `rst` in the second half of a cycle.
-fn inputs(block: &Block, vectors: &Vectors, row: usize, late: bool, count: u64) -> Vec<u32> {
+/// A line of a block's inputs from one of its stimulus; a port that has changed within the cycle is in another column.
+fn inputs(
+    block: &Block,
+    vectors: &Vectors,
+    row: usize,
+    late: Option<(&str, &str)>,
+    count: u64,
+) -> Vec<u32> {
     let [layout, _] = block.layouts();
     let mut words = vec![0; layout.words()];
     for place in layout.places() {
-        let name = if late && place.name == "rst" { "rst_late" } else { &place.name };
+        let name = late.filter(|(port, _)| place.name == *port).map_or(&*place.name, |late| late.1);
         let columns = vectors.stimulus.columns();
         let Some(column) = columns.iter().find(|column| column.name == *name) else {
             if name == "count" {
@@ -96,7 +102,7 @@ fn first_mismatch(
                 let level = !block.top.pins.tdc_stop;
                 block.stop(at, level);
             }
-            let late = timing == timing::OWN_WITH_RESET && sample > 1;
+            let late = timing.steps[..=sample].iter().find_map(|step| step.late);
             let inputs = inputs(&block, &vectors, row, late, count);
             let look = if edge.is_some() { now } else { now - timing::ASIDE };
             block.outputs(look, &inputs).unwrap();

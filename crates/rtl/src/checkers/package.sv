@@ -12,6 +12,8 @@ package tofsim_pkg;
   // An edge: 1 of the block's clock, 2 of clk_laser alone, 3 its fall, 0 a look without one. 0 if outputs differ.
   import "DPI-C" function int tofsim_step(input chandle model, input int what, input longint time_fs,
                                           input {inputs} inputs, input {outputs} outputs);
+  // How often the outputs of a block have been compared so far.
+  import "DPI-C" function longint tofsim_get_num_compared(input string block);
   // The model's outputs before an edge, for a bench that wants them.
   import "DPI-C" function int tofsim_outputs(input chandle model, input longint time_fs,
                                              input {inputs} inputs, output {outputs} outputs);

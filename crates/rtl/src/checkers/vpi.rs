@@ -73,9 +73,16 @@ impl Checkers {
             )
         };
         let all: String = self.blocks.iter().map(attach).collect();
+        let ran = |block: &Block| {
+            format!("    missing = missing + !$tofsim_ran(\"{}\");\n", block.name())
+        };
+        let ran: String = self.blocks.iter().map(ran).collect();
+        let count = self.blocks.len();
         format!(
             "\n// Where the checkers are connected: -DTOFSIM_TOP=path.of.{TOP} -s tofsim_attach.\n\
-                 `ifdef TOFSIM_TOP\nmodule tofsim_attach;\n  reg wrong = 1'b0;\n{all}endmodule\n`endif\n"
+                 `ifdef TOFSIM_TOP\nmodule tofsim_attach;\n  reg wrong = 1'b0;\n  integer missing = 0;\n{all}\n  \
+                 // At the end, how often each block was compared.\n  final begin\n{ran}    \
+                 if (missing != 0) $fatal(1, \"tofsim: %0d of {count} checkers compared nothing\", missing);\n  end\nendmodule\n`endif\n"
         )
     }
 }

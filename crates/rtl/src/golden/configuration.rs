@@ -1,6 +1,9 @@
 //! Configurations of a block beside the one that the scenario sets.
 
+use std::sync::Arc;
+
 use tofsim::error::Result;
+use tofsim::network::Fixed;
 use tofsim::scenario::{self, DEFAULT};
 use tofsim::sim::setup::Setup;
 
@@ -19,6 +22,8 @@ pub struct Configuration {
     pub parameters: &'static [&'static str],
     /// The module that it is about, if other people's designs need not have that.
     pub module: Option<&'static str>,
+    /// Hidden neurons, if they are more than those of the scenario's network.
+    pub neurons: Option<usize>,
 }
 
 /// Sixteen hidden neurons.
@@ -28,6 +33,10 @@ pub const NEURONS_16: Configuration = Configuration {
     parameters: &["Neurons"],
     ..DEFAULTS
 };
+
+/// More neurons than any built-in network has, and an odd number of them.
+pub const NEURONS_31: Configuration =
+    Configuration { name: "neurons_31", neurons: Some(31), ..NEURONS_16 };
 
 /// Two registers of the TDC's ones count.
 pub const COUNT_STAGES_2: Configuration = Configuration {
@@ -75,8 +84,14 @@ pub const LONG_PULSE: Configuration =
     Configuration { name: "long_pulse", set: &["firmware.pulse_half_cycles=5"], ..DEFAULTS };
 
 /// Nothing else than usual.
-pub(super) const DEFAULTS: Configuration =
-    Configuration { name: "", scenario: DEFAULT, set: &[], parameters: &[], module: None };
+pub(super) const DEFAULTS: Configuration = Configuration {
+    name: "",
+    scenario: DEFAULT,
+    set: &[],
+    parameters: &[],
+    module: None,
+    neurons: None,
+};
 
 impl Configuration {
     /// The setting with it.
@@ -85,7 +100,22 @@ impl Configuration {
     /// When its scenario cannot be loaded.
     pub fn setting(&self, base: &Setting) -> Result<Setting> {
         let set: Vec<_> = self.set.iter().map(|line| (*line).to_owned()).collect();
-        let setup = Setup::new(scenario::load(self.scenario, &set)?)?;
+        let mut setup = Setup::new(scenario::load(self.scenario, &set)?)?;
+        if let Some(neurons) = self.neurons {
+            widen(&mut setup.network.fixed, neurons);
+            let network = setup.network.params(&setup.params.histogram);
+            setup.params.estimators.depth_estimator = Arc::new(network);
+        }
         Ok(Setting { setup, ..base.clone() })
+    }
+}
+
+/// Adds neurons to a network, up to so many: those that it has, the last one first, so that no neuron has the weights
+/// of the one that a narrow index takes in its place.
+fn widen(weights: &mut Fixed, neurons: usize) {
+    for neuron in (0..weights.neurons()).rev().take(neurons - weights.neurons()) {
+        weights.w1.push(weights.w1[neuron].clone());
+        weights.b1.push(weights.b1[neuron]);
+        weights.w2.push(weights.w2[neuron]);
     }
 }

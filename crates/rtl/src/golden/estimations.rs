@@ -66,7 +66,7 @@ impl Estimations {
             line: 0,
             done: Cover::new("estimations of histogram", 0..special),
             starts: Cover::new("start in part, with algo_done (4), idle (5)", 0..6),
-            resets: Cover::new("reset in part", 0..PARTS as u64),
+            resets: Cover::new("reset in part, with algo_done (4)", 0..=PARTS as u64),
         }
     }
 
@@ -99,7 +99,8 @@ impl Estimations {
             1 => part.start,
             cycles => part.start + draw.below(cycles),
         });
-        let place = places[(self.begun / CUT) as usize % PARTS];
+        let cut = (self.begun / CUT) as usize % (PARTS + 1);
+        let place = places.get(cut).copied().unwrap_or(self.parts[PARTS - 1].end);
         self.cut = self.begun.is_multiple_of(CUT).then_some(place);
     }
 

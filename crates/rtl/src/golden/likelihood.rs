@@ -1,17 +1,21 @@
 //! Estimations of the likelihood estimator one after the other, for it and for each of its blocks.
 //!
 //! The histograms are drawn from scenes of the scenario's instrument, near and far, bright and dark, until one shows
-//! what its kind is for: each reason not to believe a depth, alone. Between them stand extreme ones: empty, full, all
-//! hits in one bin, every other bin full, random. Now and then an estimation is started while one is busy, or a reset
-//! cuts it short, in each state in turn.
+//! what its kind is for: each reason not to believe a depth, alone, or a word on either side of a limit. Between them
+//! stand extreme ones: empty, full, all hits in one bin, every other bin full, random. Now and then an estimation is
+//! started while one is busy, or a reset cuts it short, in each state in turn.
 
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::likelihood_estimator::{In, LikelihoodEstimator, State};
-use tofsim::firmware::tof_top::slot::SlotEstimator;
-use tofsim::firmware::tof_top::status::Status;
 use tofsim::kernel::U;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
 use tofsim::sim::setup::Setup;
+
+mod kinds;
+mod outcome;
+
+use kinds::*;
+use outcome::Outcome;
 
 use super::cover::Cover;
 use super::draw::Draw;
@@ -22,56 +26,13 @@ use super::spec::FIRST_RESET;
 const STATES: u64 = State::End as u64 + 1;
 /// Every so many estimations is a whole one.
 const WHOLE: u64 = 2;
-/// Kinds of histograms, each of which shows one way in which an estimation ends.
-const KINDS: u64 = 12;
-const EXTREME: u64 = 1;
-const AT_END: u64 = 2;
-const AT_BEGIN: u64 = 3;
-const TWO: u64 = 4;
-const FAINT: u64 = 5;
-const USED_UP: u64 = 6;
-const RISING: u64 = 7;
-const FALLING: u64 = 8;
-const ODD: u64 = 9;
-const EMPTY: u64 = 10;
-const UNARMED: u64 = 11;
 /// So often a histogram is drawn that is of its kind.
 const TRIES: u64 = 100;
+/// Score or shots from a limit, so near to which a histogram is changed and no longer drawn anew; and changes tried.
+const NEAR: u64 = 50;
+const NUDGES: u64 = 2000;
 /// Kinds of extreme histograms.
 const EXTREMES: u64 = 8;
-
-/// Result of a histogram.
-#[derive(Default)]
-struct Outcome {
-    /// Score of the first scan.
-    start: i64,
-    /// Score of the second.
-    rescan: i64,
-    /// Shots that wait at the first bin of the check.
-    waiting: Option<u64>,
-    flags: u64,
-    cut: bool,
-    status: u64,
-}
-
-impl Outcome {
-    /// Returns whether the histogram is of its kind: the status has, or lacks, that one reason.
-    fn is(&self, kind: u64) -> bool {
-        let flags = |which: u64| self.flags >> which & 1 != 0;
-        match kind {
-            FAINT => flags(1) && !flags(0) && !flags(2) && (297..425).contains(&self.start),
-            AT_END => flags(4),
-            AT_BEGIN => flags(3),
-            TWO => (332..=425).contains(&self.rescan),
-            USED_UP => self.waiting.is_some_and(|waiting| (1..32).contains(&waiting)),
-            RISING => flags(6) && !flags(5) && !self.cut,
-            ODD => self.status == u64::from(Status::NoFit.bit()),
-            UNARMED => self.status == 0,
-            FALLING => flags(5) && !flags(6) && !self.cut,
-            _ => true,
-        }
-    }
-}
 
 /// Estimations under way.
 pub struct Estimations<'a> {
@@ -156,50 +117,58 @@ impl<'a> Estimations<'a> {
     fn begin(&mut self, draw: &mut Draw) {
         self.begun += 1;
         let kind = self.begun / WHOLE % KINDS;
-        let mut tries = if self.cuts { TRIES } else { 1 };
-        self.histogram = loop {
-            let histogram = self.histogram(kind, draw);
-            tries -= 1;
-            if tries == 0 || self.outcome(&histogram).is(kind) {
-                break histogram;
-            }
-        };
+        self.histogram =
+            if self.cuts { self.of_kind(kind, draw) } else { self.histogram(kind, draw) };
         let place = 1 + self.begun / WHOLE % (STATES - 1);
         let cut = self.cuts && self.begun < WHOLE * STATES && !self.begun.is_multiple_of(WHOLE);
         self.cut = cut.then(|| (place, draw.below(12)));
     }
 
+    /// Draws histograms until one is of its kind.
+    fn of_kind(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
+        if kind >= LEAST {
+            return self.at_limit(kind, draw);
+        }
+        let mut drawn = || self.histogram(kind, draw);
+        let found = (1..TRIES).map(|_| drawn()).find(|one| Outcome::of(one, self.params).is(kind));
+        found.unwrap_or_else(drawn)
+    }
+
+    /// Draws histograms until one is near a limit, and moves it there hit by hit: this side of it, or the other the
+    /// next time.
+    fn at_limit(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
+        let far = self.begun % WHOLE == 1;
+        let to_limit = |one: &[u32]| Outcome::of(one, self.params).to_limit(kind, far);
+        let mut best = self.histogram(kind, draw);
+        let mut from = to_limit(&best);
+        for _ in 0..TRIES {
+            if from.is_some_and(|(distance, _)| distance <= NEAR) {
+                break;
+            }
+            best = self.histogram(kind, draw);
+            from = to_limit(&best);
+        }
+        let Some((mut distance, mut bin)) = from else { return best };
+        for _ in 0..NUDGES {
+            if distance == 0 {
+                break;
+            }
+            let next = self.nudged(&best, bin, draw);
+            let from = to_limit(&next).filter(|from| from.0 <= distance);
+            if let Some(from) = from {
+                ((distance, bin), best) = (from, next);
+            }
+        }
+        best
+    }
+
     fn histogram(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
         match kind {
             EXTREME => self.extreme(draw),
-            USED_UP => self.used_up(draw),
+            USED_UP | WAITS => self.used_up(draw),
             EMPTY => vec![0; self.params.histogram.bins],
             kind => self.drawn(kind, draw),
         }
-    }
-
-    /// Returns the model's result of a histogram.
-    fn outcome(&self, histogram: &[u32]) -> Outcome {
-        let (mut block, mut outcome) = (LikelihoodEstimator::default(), Outcome::default());
-        for line in 0..=self.params.done() {
-            let memory = &block.likelihood_memory.registers;
-            match block.state() {
-                State::Start => outcome.start = block.likelihood_scan.registers.best_score.get(),
-                State::Check if memory.word_bin && outcome.waiting.is_none() => {
-                    outcome.waiting = Some(memory.word_waiting.get());
-                }
-                _ => {}
-            }
-            let word = if memory.read_en { histogram[memory.read_addr.index()] } else { 0 };
-            let i =
-                In { mode: false, rst: false, algo_start: line == 0, count: U::new(word.into()) };
-            block.rise(&i, self.params);
-        }
-        outcome.rescan = block.likelihood_scan.registers.best_score.get();
-        outcome.flags = block.likelihood_solver.registers.flags.get();
-        outcome.status = block.registers.status.get();
-        outcome.cut = block.likelihood_solver.registers.cut.get() != 0;
-        outcome
     }
 
     /// A histogram of a scene: an ordinary one, a faint echo, one at either end of the window, or two, of which one is
@@ -218,7 +187,9 @@ impl<'a> Estimations<'a> {
         let ordinary = 0.03 + 0.9 * part(draw);
         let mut counts = match kind {
             FAINT => self.scene(place, faint(place, 0.0016, draw), 0.3, draw),
-            TWO | ODD => self.scene(place, faint(place, 0.02, draw), 0.3, draw),
+            LEAST => self.scene(place, faint(place, 0.0004, draw), 0.02, draw),
+            SURE => self.scene(place, faint(place, 0.0016, draw), 0.3, draw),
+            TWO | ODD | ANOTHER => self.scene(place, faint(place, 0.02, draw), 0.3, draw),
             AT_BEGIN => self.scene(place, faint(place, 0.2, draw), part(draw), draw),
             _ => self.scene(place, ordinary, part(draw), draw),
         };
@@ -228,7 +199,7 @@ impl<'a> Estimations<'a> {
             counts[odd] += counts[odd] / 4 + 100;
         }
         let other = match kind {
-            TWO => self.scene(1.1 - place, faint(1.1 - place, 0.005, draw), 0.3, draw),
+            TWO | ANOTHER => self.scene(1.1 - place, faint(1.1 - place, 0.005, draw), 0.3, draw),
             FALLING => self.scene(1.1 - place, faint(1.1 - place, 0.004, draw), 0.1, draw),
             _ => return counts,
         };
@@ -281,6 +252,23 @@ impl<'a> Estimations<'a> {
         };
         let kind = self.begun % EXTREMES;
         (0..bins).map(|bin| count(kind, bin, draw.bits()) as u32).collect()
+    }
+
+    /// Adds or takes away hits: one in a bin around that one, for a large change of its box's score, or a few in any,
+    /// for a small one; one to four times.
+    fn nudged(&self, histogram: &[u32], around: u64, draw: &mut Draw) -> Vec<u32> {
+        let size = &self.params.histogram;
+        let (mut counts, bins, most) =
+            (histogram.to_vec(), size.bins as u64, size.most_hits() as u32);
+        for _ in 0..=draw.below(4) {
+            let near = (around + draw.below(17)).saturating_sub(8).min(bins - 1);
+            let (bin, hits) =
+                if draw.one_in(2) { (near, 1) } else { (draw.below(bins), draw.below(8) as u32) };
+            let count = &mut counts[bin as usize];
+            *count =
+                if draw.one_in(2) { (*count + hits).min(most) } else { count.saturating_sub(hits) };
+        }
+        counts
     }
 
     /// Returns the coverage.

@@ -80,13 +80,16 @@ pub const CLK_LASER: Timing = cycle(
     &[step(1, true, &[("clk_laser", false)]), step(1, true, &[("clk_laser", true)])],
 );
 
-/// Both clocks, looked at in each half of `clk_laser`.
+/// Both clocks, looked at in each half of `clk_laser`, whose reset may change after its edge in the middle.
 pub const BOTH: Timing = cycle(
     "clk_sys",
     &[
         step(1, true, &[("clk_laser", false)]),
         step(1, true, &[("clk_sys", false), ("clk_laser", true)]),
-        step(1, true, &[("clk_laser", false)]),
+        BenchStep {
+            late: Some(("rst_laser", "rst_laser_late")),
+            ..step(1, true, &[("clk_laser", false)])
+        },
         step(1, true, &[("clk_sys", true), ("clk_laser", true)]),
     ],
 );

@@ -16,6 +16,7 @@ FOUND := $(abspath $(LIB))
 .PHONY: verilator icarus questa vcs xsim
 verilator:
 	verilator --binary --timing --assert -Wno-fatal -Wno-WIDTH -Wno-TIMESCALEMOD --Mdir $(BUILD) --top-module $(TOP) \
+	  -DTOFSIM_BENCH=$(TOP) \
 	  $(SV) $(DESIGN) $(BIND) $(FOUND)/libtofsim_dpi.so -LDFLAGS "-Wl,-rpath,$(FOUND)" -o $(TOP)
 	$(BUILD)/$(TOP) $(ARGS)
 
@@ -31,19 +32,19 @@ icarus:
 # NOT TRIED.
 questa:
 	vlib $(BUILD)
-	vlog -sv -work $(BUILD) -timescale 1ps/1fs $(SV) $(DESIGN) $(BIND)
+	vlog -sv -work $(BUILD) -timescale 1ps/1fs +define+TOFSIM_BENCH=$(TOP) $(SV) $(DESIGN) $(BIND)
 	vsim -c -work $(BUILD) -t 1fs -sv_lib $(FOUND)/libtofsim_dpi $(TOP) $(ARGS) -do "run -all; quit"
 
 # NOT TRIED.
 vcs:
 	mkdir -p $(BUILD)
-	vcs -full64 -sverilog -timescale=1ps/1fs -top $(TOP) -o $(BUILD)/$(TOP) $(SV) $(DESIGN) $(BIND) \
+	vcs -full64 -sverilog -timescale=1ps/1fs -top $(TOP) +define+TOFSIM_BENCH=$(TOP) -o $(BUILD)/$(TOP) $(SV) $(DESIGN) $(BIND) \
 	  $(FOUND)/libtofsim_dpi.so -LDFLAGS "-Wl,-rpath,$(FOUND)"
 	$(BUILD)/$(TOP) $(ARGS)
 
 # NOT TRIED. xelab takes the library without its ending; 2023.2 to 2024.2 are said to crash without --debug typical.
 xsim:
 	mkdir -p $(BUILD)
-	cd $(BUILD) && xvlog -sv $(abspath $(SV) $(DESIGN) $(BIND))
+	cd $(BUILD) && xvlog -sv -d TOFSIM_BENCH=$(TOP) $(abspath $(SV) $(DESIGN) $(BIND))
 	cd $(BUILD) && xelab --debug typical -timescale 1ps/1fs -sv_root $(FOUND) -sv_lib libtofsim_dpi $(TOP) -s $(TOP)
 	cd $(BUILD) && xsim $(TOP) $(foreach arg,$(ARGS),-testplusarg $(patsubst +%,%,$(arg))) -runall

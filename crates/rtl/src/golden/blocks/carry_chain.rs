@@ -1,7 +1,7 @@
 //! Pulses of every width and distance, changes exactly on a clock edge and exactly on a tap's
 //! boundary, and several pulses in the chain at once.
 
-use tofsim::firmware::carry_chain::{CarryChain, Delays, In};
+use tofsim::firmware::carry_chain::{CarryChain, Delays, In, MAX_TRANSITIONS};
 
 use crate::golden::prelude::*;
 
@@ -20,7 +20,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let count = delays.taps();
     let sampled = (0..=count).filter(|&n| n == 0 || n == count || arrivals[n - 1] < arrivals[n]);
     let mut ones = Cover::new("ones in the taps", sampled.map(|n| n as u64));
-    let mut travelling = Cover::new("changes from tap to tap", 0..4);
+    let mut travelling = Cover::new("changes in the chain", 0..=MAX_TRANSITIONS as u64);
     let mut run = Recorder::new(spec, setting, Vec::new());
     let mut stops = Stops::new(setting.setup.cycle());
     for line in 0..setting.cycles_of_chain() {
@@ -33,7 +33,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let taps = stops.sample(now, delays);
         run.top.tdc.carry_chain = CarryChain { taps };
         ones.see(taps.ones(count) as u64);
-        let changes = (1..count).filter(|&tap| taps.tap(tap) != taps.tap(tap - 1)).count();
+        let past = stops.times().iter().rev().skip_while(|at| **at > now);
+        let changes = past.take_while(|at| now - **at < delays.longest()).count();
         travelling.see(changes as u64);
     }
     let own = files(["DelaysFile"], [parameters::tap_delays(delays)]);
@@ -45,13 +46,13 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
 fn plan(stops: &mut Stops, line: usize, delays: &Delays, ones: &Cover, draw: &mut Draw) {
     let edge = stops.edge(line);
     // At that instant, or as soon after the last change as the chain can hold.
-    let gap = Time::from_fs(delays.longest().fs() / 5);
+    let gap = Time::from_fs(delays.longest().fs().div_ceil(MAX_TRANSITIONS as u64));
     let toggle = |stops: &mut Stops, at: Time| {
         stops.toggle(at.max(stops.last() + gap).max(edge + Time::from_fs(1)));
     };
     let coming = stops.edge(line + 2);
     let quiet = !stops.ends_high() && stops.last() + delays.longest() <= coming;
-    match (draw.below(4), ones.missing().find(|ones| *ones > 0)) {
+    match (draw.below(5), ones.missing().find(|ones| *ones > 0)) {
         (0, _) => {
             let pause = stops::of_eighths(draw.below(50), stops.cycle);
             toggle(stops, stops.before(coming, delays, draw) + pause);
@@ -60,6 +61,11 @@ fn plan(stops: &mut Stops, line: usize, delays: &Delays, ones: &Cover, draw: &mu
             for _ in 0..4 {
                 let pause = Time::from_fs(draw.below(stops.cycle.fs() / 2));
                 toggle(stops, stops.last() + pause);
+            }
+        }
+        (2, _) => {
+            for _ in 0..=MAX_TRANSITIONS {
+                toggle(stops, stops.last() + Time::from_fs(draw.below(100)));
             }
         }
         (_, Some(ones)) if quiet => toggle(stops, coming - delays.arrivals()[ones as usize - 1]),

@@ -11,7 +11,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "algo_start", to: "read_en", cycles: |_| 0 },
         Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network_cycles.into() },
     ],
-    configurations: &[NEURONS_16],
+    configurations: &[NEURONS_16, NEURONS_31],
     model: Some(Model::new::<In>(|at| {
         at.top.depth_estimator.estimator_ctrl.tick(&at.input(), &at.params.estimators.depth_estimator.ctrl());
     })),
@@ -26,11 +26,11 @@ const LINES: usize = 26_000;
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let p = setting.setup.params.estimators.depth_estimator.ctrl();
     let done = p.done();
-    // Phases past this one are all cut short: the changes of layer are there.
+    // The first phases and those past this one are all cut short: the changes of layer are there.
     let layers = p.bins as u64 - 2;
     let apart = 3 * (p.bins as u64 / 256).max(1);
     let is_cut =
-        |phase: &u64| phase % apart == setting.seed % apart || *phase == 0 || *phase > layers;
+        |phase: &u64| phase % apart == setting.seed % apart || *phase < 4 || *phase > layers;
     // Phases to reset in, the next one last; where this estimation is cut, if it is.
     let mut cuts: Vec<_> = (0..=done).filter(is_cut).collect();
     let mut cut = None;

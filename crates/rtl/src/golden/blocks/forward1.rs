@@ -16,7 +16,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "count", to: "l1_in_0", cycles: |_| 2 },
         Latency { from: "rom_addr", to: "l1_in_0", cycles: |_| 3 },
     ],
-    configurations: &[NEURONS_16],
+    configurations: &[NEURONS_16, NEURONS_31],
     model: Some(Model::new::<In>(|at| {
         at.top.depth_estimator.forward1.tick(&at.input(), &at.params.estimators.depth_estimator.forward1);
     })),

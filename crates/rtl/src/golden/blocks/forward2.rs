@@ -20,7 +20,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "l1_out_0", to: "depth", cycles: |_| 3 },
         Latency { from: "depth_en", to: "depth", cycles: |_| 0 },
     ],
-    configurations: &[NEURONS_16],
+    configurations: &[NEURONS_16, NEURONS_31],
     model: Some(Model::new::<In>(|at| {
         at.top.depth_estimator.forward2.tick(&at.input(), &at.params.estimators.depth_estimator.forward2);
     })),
@@ -52,7 +52,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, In::list());
     // Pair of the line before.
     let mut last = U::new(0);
-    for cycle in 0..setting.cycles() {
+    // More situations take more lines.
+    let lines = Setting::CYCLES / 8 * all_pairs as usize;
+    for cycle in 0..setting.cycles.unwrap_or(lines) {
         let draw = &mut run.draw;
         let mut any = In {
             rst: draw.one_in(8),

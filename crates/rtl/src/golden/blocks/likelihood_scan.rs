@@ -83,8 +83,10 @@ impl Drawn {
             now.block_ended = U::new([ended, ended, 2 * ended, draw.unsigned_of(count + bin)][draw.below(4) as usize]);
             // The first sets the bound for the others: a 64th of it.
             let first = self.line == APART;
-            let others = [exposure, 2 * exposure, exposure / 2, draw.unsigned_of(count + bin + 10)];
-            now.block_exposure = U::new(if first { 64 * exposure } else { others[draw.below(4) as usize] });
+            let any = draw.unsigned_of(count + bin + 10);
+            // One has a logarithm that is a step above that bound.
+            let others = [exposure, exposure + exposure / 80, 2 * exposure, exposure / 2, any];
+            now.block_exposure = U::new(if first { 64 * exposure } else { others[draw.below(5) as usize] });
         }
         if now.scan && !now.phase {
             now.slide = !draw.one_in(16);

@@ -10,7 +10,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 1 }],
-    configurations: &[NEURONS_16],
+    configurations: &[NEURONS_16, NEURONS_31],
     model: Some(Model::new::<In>(|at| {
         at.top.depth_estimator.tansig.tick(&at.input(), &at.params.estimators.depth_estimator.tansig);
     })),

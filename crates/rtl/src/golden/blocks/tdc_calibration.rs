@@ -80,7 +80,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         stayed += 1;
         let left_in = [State::Zero, State::Count, State::Integrate][(turn / 2 % 3) as usize];
         let leaves = turn % 2 == 0 && state == left_in && stayed == stays;
-        let looks_up = state == State::Idle && stayed < idle;
+        // The one after a reset begins at once: it is due, however many frames there have been.
+        let looks_up = state == State::Idle && stayed < idle && turn % 2 == 1;
         let n_valid = since >= APART && (looks_up || draw.one_in(3));
         let n = match draw.below(64) {
             _ if state == State::Idle => swept % (taps + 1),

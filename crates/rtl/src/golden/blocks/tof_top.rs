@@ -1,7 +1,7 @@
 //! The whole firmware: a scenario as it is, or short frames under control signals that change at
 //! random, also in the middle of a frame, and abandon some.
 
-use tofsim::firmware::tof_top::{CodeSource, Pins};
+use tofsim::firmware::tof_top::{CodeSource, FirmwareEstimator, Params, Pins};
 use tofsim::scenario::{Control, QuenchMode};
 
 use crate::golden::configuration;
@@ -114,9 +114,13 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut coarse = Cover::new("coarse", 0..if hits { last } else { 0 });
     let mut resets = Cover::new("dsp_rst in state", in_states.iter().copied());
     let mut modes = Cover::new("mode of a hit", 0..if hits { 2 } else { 0 });
+    let judges = judges_mode(params);
+    let mut starts = Cover::new("mode steady, changing as an estimation begins", 0..if judges { 2 } else { 0 });
     let mut before = None;
     let vectors = top::record(spec, &setting, &mut |top| {
         let state = top.frame_ctrl.state();
+        let changing = (top.pins.mode as u64) != (top.control_sync.mode_sync as u64);
+        starts.see_if(top.frame_ctrl.algo_start, changing.into());
         let rate = top.vcsel_driver.registers.place(laser).map_or(0, |place| place.0);
         if let Some((last, last_rate)) = before {
             states.see_if(last != state, last as u64 * 4 + state as u64);
@@ -128,7 +132,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         modes.see_if(top.tdc.tdc_latch.hit, top.control_sync.mode_sync as u64);
         before = Some((state, rate));
     })?;
-    Ok(Vectors { coverage: vec![states, rates, coarse, resets, modes], ..vectors })
+    Ok(Vectors { coverage: vec![states, rates, coarse, resets, modes, starts], ..vectors })
 }
 
 /// Frames between calibrations, some at other rates, and a calibration abandoned: under random control there would be
@@ -171,6 +175,11 @@ fn calibrated(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         before = Some(now);
     })?;
     Ok(Vectors { coverage: vec![states, calibrations, codes], ..vectors })
+}
+
+/// Returns whether the estimator's status tells the mode of the shots.
+fn judges_mode(params: &Params) -> bool {
+    params.estimator == FirmwareEstimator::LikelihoodEstimator
 }
 
 /// Cycles between calibrations: two of some 9,000 and the frames after them.
@@ -234,6 +243,8 @@ struct FrameTimes {
     estimate: u64,
     /// The whole, and a little more.
     whole: u64,
+    /// The whole with an estimator whose status tells the mode, if there is one.
+    judged: Option<u64>,
 }
 
 impl FrameTimes {
@@ -242,14 +253,15 @@ impl FrameTimes {
         let (bins, drain) = (params.histogram.bins as u64, params.frame_ctrl.drain_cycles);
         let periods = &params.vcsel_driver.periods;
         let estimate = 8 * (bins + shots * periods[periods.len() - 1] + drain);
+        let whole = |done: u64| estimate + 8 * (done + 38);
+        let judged = judges_mode(params).then(|| whole(params.estimators.likelihood_estimator.done()));
         let done = params.estimators.depth_estimator.ctrl().done();
-        FrameTimes { acquire: 8 * (bins + 9), shots_begin: 8 * (bins - 1), estimate, whole: estimate + 8 * (done + 38) }
+        FrameTimes { acquire: 8 * (bins + 9), shots_begin: 8 * (bins - 1), estimate, whole: whole(done), judged }
     }
 }
 
-/// A frame begun anew at a rate of that code and period, and in it a short reset, another mode or a hold, in some cycle of the shots or
-/// about the one that starts the estimator; each change and how long it lasts [eighths of a
-/// cycle].
+/// A frame begun anew at a rate of that code and period, and in it a short reset, another mode or a hold, in some cycle
+/// of the shots or about the one that starts the estimator; each change and how long it lasts [eighths of a cycle].
 fn planted(
     shots: u64,
     (rate, period): (u64, u64),
@@ -266,12 +278,13 @@ fn planted(
     };
     let go = Control { dsp_rst: Some(false), ..Control::default() };
     let shots = times.shots_begin + draw.below(8 * period * shots);
-    let kind = draw.below(9);
+    let kind = draw.below(if times.judged.is_some() { 11 } else { 9 });
     let (wait, span, change) = match kind {
         0..4 => (shots, 3 + draw.below(14), Control { rst: Some(true), ..Control::default() }),
         4..6 => (shots, 8, Control { dsp_rst: Some(true), ..Control::default() }),
         6 => (shots, 8 + draw.below(90), Control { mode: Some(QuenchMode::FreeRunning), ..Control::default() }),
-        _ => (times.estimate + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..Control::default() }),
+        7..9 => (times.estimate + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..Control::default() }),
+        _ => (times.estimate + 8 * draw.below(3), 80, Control { mode: Some(QuenchMode::FreeRunning), ..Control::default() }),
     };
     let end = Control {
         rst: Some(false),
@@ -280,7 +293,11 @@ fn planted(
         dsp_en: Some(true),
         ..Control::default()
     };
-    // After another dsp_rst the frame is seen to its end.
-    let rest = if (4..6).contains(&kind) { times.whole } else { 400 + draw.below(300) };
+    // After another dsp_rst the frame is seen to its end, and so is an estimation whose mode changes as it begins.
+    let rest = match (kind, times.judged) {
+        (4..6, _) => times.whole,
+        (9.., Some(judged)) => judged,
+        _ => 400 + draw.below(300),
+    };
     [(24, begin), (wait, go), (span, change), (rest, end)]
 }

@@ -1,5 +1,5 @@
 //! Every change of rate at every phase, acquisition and laser switched on and off, both resets, each in
-//! the last cycles before a laser edge too.
+//! the last cycles before a laser edge too, and that of the laser from the middle of a cycle on.
 
 use tofsim::firmware::vcsel_driver::{In, Params, Rate};
 
@@ -21,6 +21,25 @@ pub(super) const SPEC: Spec = Spec {
     })),
     ..Spec::new("vcsel_driver", "vcsel_driver", record)
 };
+
+signals! {
+    /// The input ports; the reset of the laser may be another from the middle of the cycle on.
+    struct Stimulus {
+        /// Reset of `clk_sys`.
+        rst: bool,
+        /// Reset of `clk_laser`, until the middle of the cycle.
+        rst_laser: bool,
+        /// Reset of `clk_laser`, from then on.
+        rst_laser_late: bool,
+        /// Lets the counter run.
+        acquire: bool,
+        /// Lets the laser fire.
+        laser_en: bool,
+        /// Repetition rate.
+        #[size(RateBits)]
+        laser_freq: Rate,
+    }
+}
 
 /// Longer periods are left to the whole, if there are others [cycles].
 const LONG: u64 = 1000;
@@ -45,7 +64,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         "cycles to the laser edge x 8 + rst, rst_laser, acquire low as bits, one of them",
         (0..4).flat_map(|left| [1, 2, 4].map(|what| left * 8 + what)),
     );
-    let mut run = Recorder::new(spec, setting, In::list());
+    let mut resets = Cover::new("rst_laser in the first half of a cycle x 2 + in the second", 0..4);
+    let mut run = Recorder::new(spec, setting, Stimulus::list());
     let laser_freq = Rate::new(usable[usable.len() - 1]);
     let mut i = In { rst: true, rst_laser: true, acquire: true, laser_en: true, laser_freq };
     let lines = Setting::CYCLES.max((800 * longest).min(10 * USUAL * LONG) as usize);
@@ -63,13 +83,16 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         if cycle == FIRST_RESET {
             (i.rst, i.rst_laser) = (true, true);
         }
+        let late = i.rst_laser ^ run.draw.one_in(100);
+        resets.see(bits([i.rst_laser, late]));
         if let Some((rate, count, wraps)) = place {
             changes.see_if(wraps && i.acquire, rate * codes + i.laser_freq.get());
             phases.see_if(before != i.laser_freq, (rate << 16) + count);
             let left = p.periods[rate as usize] - 1 - count;
             endings.see(left * 8 + bits([i.rst, i.rst_laser, !i.acquire]));
         }
-        run.line(&i);
+        let In { rst, rst_laser, acquire, laser_en, laser_freq } = i;
+        run.line(&Stimulus { rst, rst_laser, rst_laser_late: late, acquire, laser_en, laser_freq });
         run.top.vcsel_driver.fall_laser();
         run.sample();
         if cycle > 0 {
@@ -78,9 +101,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.sample();
         run.top.vcsel_driver.fall_laser();
         run.sample();
-        run.top.vcsel_driver.rise(&i, p);
+        run.top.vcsel_driver.rise(&In { rst_laser: late, ..i }, p);
     }
-    Ok(run.vectors([changes, phases, endings]))
+    Ok(run.vectors([changes, phases, endings, resets]))
 }
 
 /// Codes whose periods are short enough to go through again and again.

@@ -8,7 +8,7 @@ use crate::golden::estimations::{Histogram, draws};
 use crate::golden::prelude::*;
 
 /// Number of histograms.
-const COUNT: usize = 64;
+const COUNT: usize = 128;
 /// Number of measured histograms that each estimator under test must have seen, at least.
 const MEASURED: usize = 5;
 

@@ -1,0 +1,21 @@
+//! Kinds of histograms, each of which shows one way in which an estimation ends.
+
+/// How many there are.
+pub(super) const KINDS: u64 = 16;
+pub(super) const EXTREME: u64 = 1;
+pub(super) const AT_END: u64 = 2;
+pub(super) const AT_BEGIN: u64 = 3;
+pub(super) const TWO: u64 = 4;
+pub(super) const FAINT: u64 = 5;
+pub(super) const USED_UP: u64 = 6;
+pub(super) const RISING: u64 = 7;
+pub(super) const FALLING: u64 = 8;
+pub(super) const ODD: u64 = 9;
+pub(super) const EMPTY: u64 = 10;
+pub(super) const UNARMED: u64 = 11;
+/// On either side of a limit: the least score of any echo, the least of an unsure one, the highest of another, the least
+/// shots that wait.
+pub(super) const LEAST: u64 = 12;
+pub(super) const SURE: u64 = 13;
+pub(super) const ANOTHER: u64 = 14;
+pub(super) const WAITS: u64 = 15;

@@ -1,0 +1,247 @@
+//! The tops of the boards, compiled for synthesis with models of the vendors' primitives, do what `tof_top` does as it
+//! is simulated; and the constraint files give each of their ports a pin.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::common;
+
+/// Taps of the chain: few and long ones.
+const TAPS: u64 = 64;
+/// Delay of each [fs].
+const TAP_FS: u64 = 140_500;
+
+/// A board: the macro of its sources, and the file with its primitives.
+#[derive(Clone, Copy, PartialEq)]
+enum Board {
+    Kc705,
+    Ecp5,
+}
+
+impl Board {
+    const ALL: [Board; 2] = [Board::Kc705, Board::Ecp5];
+
+    fn options(self) -> [&'static str; 2] {
+        match self {
+            Board::Kc705 => ["-DKC705", "series_7.v"],
+            Board::Ecp5 => ["-DECP5", "ecp5.v"],
+        }
+    }
+}
+
+/// A fault: boards that have it, file, text and what stands there instead.
+type Fault = (&'static [Board], &'static str, &'static str, &'static str);
+
+const KC705: &[Board] = &[Board::Kc705];
+const ECP5: &[Board] = &[Board::Ecp5];
+
+const DSP: &str = ".dsp_en(dsp_en),\n        .dsp_rst(dsp_rst)";
+const SWAPPED: &str = ".dsp_en(dsp_rst),\n        .dsp_rst(dsp_en)";
+
+const FAULTS: &[Fault] = &[
+    (KC705, "kc705_top", DSP, SWAPPED),
+    (KC705, "kc705_top", ".laser_on_lvds_p(laser_on_lvds_p)", ".laser_on_lvds_p(laser_on_lvds_n)"),
+    (KC705, "kc705_top", ".rst(cpu_reset)", ".rst(!cpu_reset)"),
+    (KC705, "kc705_top", ".IB(sysclk_n)", ".IB(sysclk_p)"),
+    (ECP5, "ecp5_top", DSP, SWAPPED),
+    (ECP5, "ecp5_top", ".rst(!reset_n)", ".rst(reset_n)"),
+    (ECP5, "ecp5_top", "locked_n = !locked", "locked_n = locked"),
+    (ECP5, "ecp5_top", "clk_in_en = 1'b1", "clk_in_en = 1'b0"),
+    (ECP5, "ecp5_top", ".Divide(2)", ".Divide(1)"),
+    (ECP5, "ecp5_top", ".OutputDivide(4)", ".OutputDivide(8)"),
+    (KC705, "lvds_output", ".O(o)", ".O(ob)"),
+    (KC705, "lvds_output", ".I(i)", ".I(!i)"),
+    (
+        ECP5,
+        "lvds_output",
+        "assign o = i;\n    assign ob = 1'b0",
+        "assign o = !i;\n    assign ob = 1'b0",
+    ),
+    (KC705, "ddr_output", ".D1(d[0])", ".D1(d_second)"),
+    (KC705, "ddr_output", ".D2(d_second)", ".D2(d[0])"),
+    (ECP5, "ddr_output", ".D0(d[0])", ".D0(d_second)"),
+    (ECP5, "ddr_output", ".D1(d_second)", ".D1(d[0])"),
+    (KC705, "pll", ".CLKOUT0_DIVIDE(OutputDivide)", ".CLKOUT0_DIVIDE(OutputDivide / 2)"),
+    (KC705, "pll", ".CLKOUT1_DIVIDE(OutputDivide / 2)", ".CLKOUT1_DIVIDE(OutputDivide)"),
+    (KC705, "pll", ".DIVCLK_DIVIDE(Divide)", ".DIVCLK_DIVIDE(2)"),
+    (KC705, "pll", "1.0e9 / InputHz", "1.0e6 / InputHz"),
+    (KC705, "pll", ".CLKFBIN(feedback_in)", ".CLKFBIN(1'b0)"),
+    (ECP5, "pll", ".CLKFB_DIV(2 * Multiply / Common)", ".CLKFB_DIV(Multiply / Common)"),
+    (ECP5, "pll", ".CLKOP_DIV(OutputDivide / 2)", ".CLKOP_DIV(OutputDivide)"),
+    (ECP5, "pll", ".CLKOS_CPHASE(OutputDivide - 1)", ".CLKOS_CPHASE(OutputDivide - 2)"),
+    (ECP5, "pll", ".CLKFB(clk_laser)", ".CLKFB(1'b0)"),
+    (KC705, "carry_chain", ".CYINIT(k == 0 ? tdc_stop : 1'b0)", ".CYINIT(1'b0)"),
+    (KC705, "carry_chain", ".S(4'b1111)", ".S(4'b0111)"),
+    (
+        KC705,
+        "carry_chain",
+        ".DI(4'b0000),\n                .S(4'b1111)",
+        ".DI(4'b0000),\n                .S(4'b1110)",
+    ),
+    (KC705, "carry_chain", "4*k - 1)]", "4*k - 2)]"),
+    (KC705, "carry_chain", "taps <= carry[Taps-1:0]", "taps <= {carry[Taps-2:0], tdc_stop}"),
+    (ECP5, "carry_chain", ".INIT1(16'h0005)", ".INIT1(16'h000A)"),
+    (ECP5, "carry_chain", ".A1(tdc_stop)", ".A1(1'b0)"),
+    (ECP5, "carry_chain", ".CIN(carry[k])", ".CIN(carry[0])"),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
+}
+
+/// Runs a board's top, or the simulated one, in a folder with its ROMs; the design may have a fault.
+fn trace(board: Option<Board>, fault: Option<&Fault>) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let (here, rtl) = (root().join("crates/rtl/tests/board"), root().join("rtl_ref"));
+    let copy = folder.path().join("rtl_ref");
+    fs::create_dir(&copy).unwrap();
+    let mut sources = Vec::new();
+    for name in common::files(&rtl) {
+        fs::copy(rtl.join(&name), copy.join(&name)).unwrap();
+        sources.extend(name.ends_with(".v").then(|| copy.join(&name)));
+    }
+    if let Some((_, file, old, new)) = fault {
+        let path = copy.join(format!("{file}.v"));
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.contains(old), "{file}: no {old}");
+        fs::write(&path, text.replacen(old, new, 1)).unwrap();
+    }
+    let delays = (1..=TAPS).map(|tap| format!("{:010x}\n", tap * TAP_FS));
+    fs::write(folder.path().join("delays.mem"), delays.collect::<String>()).unwrap();
+    let ages = fs::read_to_string(rtl.join("tdc_cal.mem")).unwrap();
+    let ages: Vec<_> = ages.lines().step_by(12).take(TAPS as usize + 1).collect();
+    fs::write(folder.path().join("cal.mem"), ages.join("\n")).unwrap();
+
+    let mut compiler = Command::new("iverilog");
+    compiler.current_dir(folder.path()).args(["-g2005", "-s", "bench", "-o", "bench.vvp"]);
+    compiler.arg(here.join("bench.v")).args(sources);
+    if let Some(board) = board {
+        let [name, primitives] = board.options();
+        compiler.args([name, "-DSYNTHESIS"]).arg(format!("-DTAP_PS={}", TAP_FS as f64 / 1000.0));
+        compiler.args([here.join("vendor_pll.v"), here.join(primitives)]);
+    }
+    let output = |command: &mut Command| {
+        let done = command.output().expect("iverilog: apt-get install iverilog");
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        String::from_utf8(done.stdout).unwrap()
+    };
+    output(&mut compiler);
+    output(Command::new("vvp").current_dir(folder.path()).args(["-n", "bench.vvp"]))
+}
+
+/// The first line in which two traces differ.
+fn difference(found: &str, wanted: &str) -> Option<String> {
+    let (mut found, mut wanted) = (found.lines(), wanted.lines());
+    loop {
+        match (found.next(), wanted.next()) {
+            (None, None) => return None,
+            (found, wanted) if found != wanted => {
+                return Some(format!("expected {wanted:?}, got {found:?}"));
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn the_boards_do_in_synthesis_what_is_simulated() {
+    let wanted = trace(None, None);
+    let depths: BTreeSet<_> =
+        wanted.lines().filter_map(|line| between(line, " depth ", " ")).collect();
+    assert!(wanted.lines().count() > 1000 && depths.len() > 2, "{wanted}");
+    for board in Board::ALL {
+        assert_eq!(difference(&trace(Some(board), None), &wanted), None);
+    }
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn a_fault_of_a_board_is_found() {
+    let wanted = trace(None, None);
+    for fault in FAULTS {
+        for &board in fault.0 {
+            let found = difference(&trace(Some(board), Some(fault)), &wanted);
+            assert!(found.is_some(), "{}: {} -> {}", fault.1, fault.2, fault.3);
+        }
+    }
+}
+
+/// The bits of a top's ports.
+fn ports(top: &str) -> BTreeSet<String> {
+    let text = fs::read_to_string(root().join(format!("rtl_ref/{top}.v"))).unwrap();
+    let mut bits = BTreeSet::new();
+    for line in text.lines().map(str::trim) {
+        let kinds = ["input wire ", "output wire "];
+        let Some(rest) = kinds.iter().find_map(|kind| line.strip_prefix(kind)) else {
+            continue;
+        };
+        let declared = rest.trim_start_matches("signed ");
+        let declared = declared.split([',', '/']).next().unwrap_or_default().trim();
+        match declared.strip_prefix('[').and_then(|range| range.split_once(":0] ")) {
+            Some((high, name)) => {
+                let high: usize = high.parse().unwrap();
+                bits.extend((0..=high).map(|bit| format!("{name}[{bit}]")));
+            }
+            None => bits.extend([declared.to_owned()]),
+        }
+    }
+    bits
+}
+
+/// Checks that each bit of a top's ports has one pin and one standard, and that no pin has two.
+fn check_pins<'a>(
+    top: &str,
+    pins: impl Iterator<Item = (&'a str, &'a str)>,
+    standards: impl Iterator<Item = &'a str>,
+) {
+    let (mut of_port, mut of_pin) = (BTreeMap::new(), BTreeMap::new());
+    for (port, pin) in pins {
+        assert_eq!(of_port.insert(port, pin), None, "{top}: {port} has two pins");
+        assert_eq!(of_pin.insert(pin, port), None, "{top}: {pin} has two ports");
+    }
+    let ports = ports(top);
+    let found: BTreeSet<_> = of_port.keys().map(|port| (*port).to_owned()).collect();
+    assert_eq!(found, ports, "{top}: ports with a pin");
+    let with_standard: BTreeSet<_> = standards.map(str::to_owned).collect();
+    assert_eq!(with_standard, ports, "{top}: ports with a standard");
+}
+
+/// What stands between two texts in a line.
+fn between<'a>(line: &'a str, before: &str, after: &str) -> Option<&'a str> {
+    Some(line.split_once(before)?.1.split_once(after)?.0)
+}
+
+#[test]
+fn each_port_of_the_kc705_has_a_pin() {
+    let text = fs::read_to_string(root().join("rtl_ref/kc705.xdc")).unwrap();
+    let lines = || text.lines().filter(|line| line.starts_with("set_property -dict"));
+    let port = |line: &str| -> Option<String> {
+        let rest = line.split_once("[get_ports ")?.1;
+        let braced = rest.strip_prefix('{').and_then(|rest| rest.split_once('}'));
+        Some(
+            braced
+                .map_or_else(|| rest.split(']').next().unwrap_or_default(), |(name, _)| name)
+                .to_owned(),
+        )
+    };
+    let named: Vec<_> = lines().map(|line| (port(line).unwrap(), line)).collect();
+    let pins = named
+        .iter()
+        .filter_map(|(port, line)| Some((&**port, between(line, "PACKAGE_PIN ", " ")?)));
+    let standards =
+        named.iter().filter(|(_, line)| line.contains("IOSTANDARD ")).map(|(port, _)| &**port);
+    check_pins("kc705_top", pins, standards);
+}
+
+#[test]
+fn each_port_of_the_ecp5_has_a_pin() {
+    let text = fs::read_to_string(root().join("rtl_ref/ecp5.lpf")).unwrap();
+    let lines = || text.lines().filter(|line| !line.starts_with('#'));
+    let pins = lines().filter_map(|line| {
+        Some((between(line, "LOCATE COMP \"", "\"")?, between(line, "SITE \"", "\"")?))
+    });
+    let standards = lines().filter_map(|line| between(line, "IOBUF PORT \"", "\" IO_TYPE="));
+    check_pins("ecp5_top", pins, standards);
+}
