@@ -73,7 +73,7 @@ fn a_network_out_of_its_depth_parts_from_it() {
     assert!(said.contains(" m of 3 of 3 frames (furthest in frame "), "{said}");
     assert_eq!(of_three("2").stderr, one.stderr);
     let table = String::from_utf8(one.stdout).unwrap();
-    assert!(table.contains("of 3 depths 3 part from it; of 0 frames it believes none"), "{table}");
+    assert!(table.contains("3 of 3 depths disagree with it; it rejected 0 frames"), "{table}");
     let table = stdout(empty().path(), &[&["run", "--waves", "none"], &far[..]].concat());
     assert!(
         table.contains("second opinion  0.79") || table.contains("second opinion  0.80"),

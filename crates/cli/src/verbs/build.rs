@@ -14,7 +14,7 @@ use crate::choice::{threads, words};
 
 use super::draws::use_threads;
 use super::interrupt::look_no_more;
-use super::terminal::{RunCommand, Talk, print_json};
+use super::terminal::{Console, RunCommand, print_json};
 
 mod design;
 mod files;
@@ -64,10 +64,10 @@ pub struct Args {
 }
 
 /// Runs the verb, with others' commands through `run_command`; the status says whether all was done and passed.
-pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console, run_command: RunCommand) -> Result<ExitCode> {
     let instrument = files::InstrumentFiles::read(&args.instrument)?;
-    let site = Site::new(&instrument, args.quick, talk, run_command)?;
-    talk.heed(&site.notes)?;
+    let site = Site::new(&instrument, args.quick, console, run_command)?;
+    console.print_notes(&site.notes)?;
     instrument.check_folder(&args.output)?;
     let _held = FolderLock::take(&args.output)?;
     use_threads(args.threads)?;
@@ -76,7 +76,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     std::env::set_current_dir(&args.output).map_err(Error::io(&args.output, "open"))?;
     instrument.write(Path::new("."))?;
     let journal = Journal::read()?;
-    let mut build = Build { site, journal, args, talk };
+    let mut build = Build { site, journal, args, console };
     let asked = if args.steps.is_empty() { Step::all().to_vec() } else { args.steps.clone() };
     for step in Step::all().into_iter().filter(|step| asked.contains(step)) {
         build.take(step)?;
@@ -89,7 +89,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
         report["passed"] = json!(passed);
         print_json(&report)?;
     } else {
-        talk.report(&summary(&args.output, &journal, &asked))?;
+        console.report(&summary(&args.output, &journal, &asked))?;
     }
     Ok(if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
@@ -114,7 +114,7 @@ struct Build<'a> {
     site: Site<'a>,
     journal: Journal,
     args: &'a Args,
-    talk: &'a Talk,
+    console: &'a Console,
 }
 
 impl Build<'_> {
@@ -133,15 +133,15 @@ impl Build<'_> {
         let lacking = step.tools().iter().find(|tool| !tool.is_installed());
         if let Some(tool) = lacking {
             let record = StepRecord::without(tool);
-            self.talk.note(format_args!("{step}: {}", record.summary));
+            self.console.note(format_args!("{step}: {}", record.summary));
             return self.journal.put(step, record);
         }
         let input = self.site.input(step, &self.journal);
         if !self.args.force && self.journal.is_done(step, &input) {
-            self.talk.note(format_args!("{step}: as before"));
+            self.console.note(format_args!("{step}: as before"));
             return Ok(());
         }
-        self.talk.note(format_args!("{step}: {}", step.about()));
+        self.console.note(format_args!("{step}: {}", step.about()));
         let began = Instant::now();
         let site = &self.site;
         let outcome = match step {
@@ -159,7 +159,7 @@ impl Build<'_> {
         look_no_more();
         let Outcome { outputs, result, passed, summary } = outcome?;
         let record = StepRecord::done(input, &outputs, result, passed, summary)?;
-        self.talk.note(format_args!(
+        self.console.note(format_args!(
             "{step}: {} ({:.1} s)",
             record.summary,
             began.elapsed().as_secs_f64()

@@ -27,7 +27,7 @@ use crate::report::writer::Report;
 
 use super::draws::load;
 use super::host::{Host, host};
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// Compare two waveforms or captures: A is the reference, B the capture under test
 ///
@@ -164,7 +164,7 @@ struct How {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let radix = args.which.radix;
     let open = |path: &PathBuf| Source::file(path, radix);
     let Simulated { scenario, set, seed, frames } = &args.simulated;
@@ -173,11 +173,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         (Some(scenario), [b]) => {
             let setup = Setup::new(load(scenario, set, *seed)?)?;
             notes = setup.notes()?;
-            talk.heed(&notes)?;
+            console.print_notes(&notes)?;
             let b = open(b)?;
             let frames = frames.or((!b.is_capture()).then_some(1));
             super::frames::check("--frames", frames.unwrap_or(1), &setup)?;
-            record = Some(Record::new(&setup, &talk.command));
+            record = Some(Record::new(&setup, &console.command));
             (Source::simulation(setup, frames), b)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
@@ -198,14 +198,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let result = compare(&a, &b, &options)?;
     if let Some(path) = &args.junit {
         comparison::write_junit(path, &result)?;
-        talk.wrote(path);
+        console.wrote(path);
     }
-    options.waves.iter().for_each(|path| talk.wrote_wave(path));
+    options.waves.iter().for_each(|path| console.wrote_wave(path));
     let remark =
         |text: &String| Note::new(NoteCode::Comparison, "compare", NoteValue::None, "", text);
     notes.extend(result.notes.iter().map(remark));
-    let findings = ComparisonFindings { result: &result, notes: &notes, verbose: talk.verbose };
-    Report { findings, record, notes: &notes }.deliver(None, args.json, talk)?;
+    let findings = ComparisonFindings { result: &result, notes: &notes, verbose: console.verbose };
+    Report { findings, record, notes: &notes }.deliver(None, args.json, console)?;
     Ok(ExitCode::from(u8::from(!result.is_same())))
 }
 

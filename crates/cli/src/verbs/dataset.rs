@@ -20,7 +20,7 @@ use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
 use super::scenes::Scenes;
-use super::terminal::{Talk, stop_signal};
+use super::terminal::{Console, stop_signal};
 
 /// Draw histograms of many scenes, for training and tests
 #[derive(Debug, clap::Args)]
@@ -59,29 +59,29 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let load = |set: &[String]| args.draws.load(&args.scenario, set);
     let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Training, load)?;
     let notes = scenes.notes()?;
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let (source, loaded) = (&scenes.source, &scenes.loaded[0]);
     let seed = loaded.scenario.seed;
     let setup = Setup::of_counts(loaded.clone())?;
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
     let rows = args.draws.rows(None, &grid, seed)?;
-    let description = DatasetDescription::new(&setup, &talk.command, source, &rows, seed);
+    let description = DatasetDescription::new(&setup, &console.command, source, &rows, seed);
     let _held = FolderLock::take(&args.output)?;
     let files = DatasetFiles::create(&args.output, &args.format, &description, &grid)?;
     let stop = stop_signal();
     let blocks = source.blocks(&rows, seed);
     let written = args
         .draws
-        .on_threads(rows.count(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
-    written.iter().for_each(|path| talk.wrote(path));
+        .on_threads(rows.count(), console, |done| write(files, blocks, stop.as_deref(), done))?;
+    written.iter().for_each(|path| console.wrote(path));
 
     let files = written.iter().map(|path| path.display().to_string()).collect();
     let findings = DatasetFindings { description, files, notes };
-    Report::without_record(findings).deliver(None, args.json, talk)
+    Report::without_record(findings).deliver(None, args.json, console)
 }
 
 /// A dataset that was written.

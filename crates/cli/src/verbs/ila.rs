@@ -15,7 +15,7 @@ use tofsim_captures::ila::{AnalyserSetup, builtin};
 use crate::report::writer::print_list;
 use crate::verbs::terminal::print;
 
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// The logic analyser: capture a simulation as Vivado's captures the board, and read its files
 #[derive(Debug, clap::Args)]
@@ -49,11 +49,11 @@ enum Verb {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     match &args.verb {
-        Verb::Capture(args) => capture::run(args, talk),
-        Verb::Info(args) => info::run(args, talk),
-        Verb::Replay(args) => replay::run(args, talk),
+        Verb::Capture(args) => capture::run(args, console),
+        Verb::Info(args) => info::run(args, console),
+        Verb::Replay(args) => replay::run(args, console),
         Verb::List { json } => list(*json),
         Verb::Show { set_up } => show(set_up),
         Verb::Schema { map } => schema(*map),

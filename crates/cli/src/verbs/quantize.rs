@@ -26,7 +26,7 @@ use crate::text::table::table;
 use super::draws::Draws;
 use super::formats::Formats;
 use super::scenes::Scenes;
-use super::terminal::{Talk, print_json, stop_signal};
+use super::terminal::{Console, print_json, stop_signal};
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
 const EXPLORED: u64 = 10_200;
@@ -89,14 +89,14 @@ struct Task {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     match (&args.task.from, &args.task.explore) {
-        (Some(from), _) => quantize(args, from, talk),
-        (None, explore) => args.explore(explore.as_deref(), talk),
+        (Some(from), _) => quantize(args, from, console),
+        (None, explore) => args.explore(explore.as_deref(), console),
     }
 }
 
-fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
+fn quantize(args: &Args, path: &Path, console: &Console) -> Result<()> {
     let from = path.display().to_string();
     let size = scenario::load(&args.scenario, &args.draws.set)?.scenario.histogram();
     let float = import::read(path, size.bins)?;
@@ -106,7 +106,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
     datapath.check("--format")?;
     let rounded = float.round(&from, &datapath, overflow)?;
     if rounded.saturated > 0 {
-        talk.note(format_args!("note: {} weights were saturated", rounded.saturated));
+        console.note(format_args!("note: {} weights were saturated", rounded.saturated));
     }
     let magnitude =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a, b| f64::max(a, b.abs()));
@@ -132,7 +132,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         float: Some(float),
     };
     let files = args.write(&network)?;
-    files.iter().for_each(|path| talk.wrote(path));
+    files.iter().for_each(|path| console.wrote(path));
     let files: Vec<_> = files.iter().map(|path| path.display().to_string()).collect();
     if args.json {
         return print_json(&json!({
@@ -150,11 +150,11 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         [weights.to_owned(), format!("{magnitude:.6}"), format!("below {limit}")]
     });
     let table = table(["weights", "largest", "word holds"], rows, ..0);
-    talk.report(&format!("{table}\nsaturated: {}\n", rounded.saturated))
+    console.report(&format!("{table}\nsaturated: {}\n", rounded.saturated))
 }
 
 impl Args {
-    fn explore(&self, network: Option<&str>, talk: &Talk) -> Result<()> {
+    fn explore(&self, network: Option<&str>, console: &Console) -> Result<()> {
         let load = |set: &[String]| self.draws.load_with(&self.scenario, network, set);
         let Scenes { grid, setups, source, .. } =
             Scenes::new(&[], &self.draws.set, GridPurpose::Test, load)?;
@@ -162,7 +162,7 @@ impl Args {
         setup.check_network()?;
         let (seed, profile) = (setup.scenario.seed, &setup.scenario.tdc.profile);
         let notes = domain::notes(network, &setup.scenario, &grid.ranges())?;
-        talk.heed(&notes)?;
+        console.print_notes(&notes)?;
         let distances_m = if grid.is_thesis() {
             thesis::DISTANCES_M.to_vec()
         } else {
@@ -170,7 +170,7 @@ impl Args {
         };
         let rows = self.draws.rows(Some(EXPLORED), &grid, seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
-        let points = self.draws.on_threads(rows.count(), talk, |done| {
+        let points = self.draws.on_threads(rows.count(), console, |done| {
             let datapaths = sweep(&network.datapath);
             explore(network, &datapaths, data, &distances_m, stop.as_deref(), done)
         })?;
@@ -182,7 +182,7 @@ impl Args {
             points: &points,
             seed,
         };
-        Report::new(findings, setup, &notes, talk).deliver(None, self.json, talk)
+        Report::new(findings, setup, &notes, console).deliver(None, self.json, console)
     }
 
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {

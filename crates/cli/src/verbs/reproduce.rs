@@ -6,6 +6,7 @@ use tofsim::error::{Input, Result, nearest};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
+use tofsim_studies::plan::builtin::is_name;
 
 use crate::choice::{seed, threads};
 use crate::page::trace::wavejson;
@@ -18,7 +19,7 @@ use crate::reproduce::{finding, html, text};
 
 use super::draws::use_threads;
 use super::interrupt::look_no_more;
-use super::terminal::{Talk, print_json, stop_signal};
+use super::terminal::{Console, print_json, stop_signal};
 
 /// Make the tables and figures of the thesis again, each with a verdict: same, differs, cannot be reproduced
 ///
@@ -56,7 +57,7 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let items = chosen(&args.items)?;
     if args.list {
         let rows: Vec<_> = items.into_iter().map(|item| [item.id, item.title]).collect();
@@ -65,17 +66,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     use_threads(args.threads)?;
     let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let study = Study::new(args.seed, args.quick, stop_signal());
-    let progress = talk.progress(items.len() as u64, "items");
+    let progress = console.uneven_progress(items.len() as u64, "items");
     let mut made = Vec::new();
     for item in items {
-        talk.detail(&item.id);
+        console.detail(&item.id);
         made.push(Finding::new(&item, &study)?);
         progress.inc(1);
     }
     progress.finish_and_clear();
     look_no_more();
     let setup = study.ideal()?;
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     let mut object = finding::json(&made, args.quick);
     record.put_into(&mut object, &setup.notes()?);
     if let Some(folder) = &args.output {
@@ -84,12 +85,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         write_bytes(&stage.path().join("reproduce.html"), html::page(&made, &record, args.quick))?;
         write_bytes(&stage.path().join("reproduce.json"), object)?;
         write_waves(&made, stage.path())?;
-        stage.commit()?.iter().for_each(|path| talk.wrote(path));
+        stage.commit()?.iter().for_each(|path| console.wrote(path));
     }
-    match (args.json, args.items.is_empty() && !talk.verbose) {
+    match (args.json, args.items.is_empty() && !console.verbose) {
         (true, _) => print_json(&object),
-        (false, true) => talk.report(&text::overview(&made)),
-        (false, false) => talk.report(&text::in_full(&made)),
+        (false, true) => console.report(&text::overview(&made)),
+        (false, false) => console.report(&text::in_full(&made)),
     }
 }
 
@@ -104,16 +105,17 @@ fn write_waves(findings: &[Finding], folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The items of such names, in the order of the thesis; all without names.
+/// Returns the items with some names, or all without names, in the order of the thesis.
 fn chosen(names: &[String]) -> Result<Vec<Item>> {
     let all = table::items()?;
     for name in names {
-        if all.iter().all(|item| item.id != *name) {
+        if !all.iter().any(|item| is_name(name, &item.id)) {
             let near = nearest(name, all.iter().map(|item| item.id.as_str()));
             let hint = near.map_or(String::new(), |near| format!(" ({near}?)"));
             let expected = format!("there is no item of that name{hint}; --list has all");
             return Err(Input::new("ITEM", expected).value(name).into());
         }
     }
-    Ok(all.into_iter().filter(|item| names.is_empty() || names.contains(&item.id)).collect())
+    let is_chosen = |item: &Item| names.iter().any(|name| is_name(name, &item.id));
+    Ok(all.into_iter().filter(|item| names.is_empty() || is_chosen(item)).collect())
 }

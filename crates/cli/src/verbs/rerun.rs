@@ -13,7 +13,7 @@ use tofsim::error::{Error, Input, Result};
 
 use crate::record::Record;
 
-use super::terminal::{Talk, print, print_json};
+use super::terminal::{Console, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
@@ -69,7 +69,7 @@ pub struct Args {
 }
 
 /// Runs the verb; the status says whether the bytes are the same.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let given = read(&args.file)?;
     let record = record(&args.file, &given)?;
     let scratch =
@@ -82,7 +82,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         Some(folder) => folder.as_path(),
         None => scratch.path(),
     };
-    talk.detail(format_args!("tofsim {}", record.command.join(" ")));
+    console.detail(format_args!("tofsim {}", record.command.join(" ")));
     let again = again(&args.file, &given, &record, folder)?;
     let differences = differences(&without_folder(given), &without_folder(again), &record);
     let same = differences.is_empty();

@@ -28,7 +28,7 @@ use crate::report::table;
 
 use super::draws::{load, use_threads};
 use super::frames;
-use super::terminal::{Talk, print_with, stop_signal};
+use super::terminal::{Console, print_with, stop_signal};
 
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]
@@ -92,7 +92,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let waves = args.waves_format()?;
     let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
@@ -100,7 +100,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut notes = setup.notes()?;
     notes.extend(notes_of_firmware(&setup));
     notes.extend(args.estimator.iter().flat_map(|kind| kind.notes_of_scene(&setup)));
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;
     let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
@@ -109,17 +109,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let home = plan.as_ref().and_then(|plan| plan.path.parent()).or(args.output.as_deref());
     let _held = home.map(FolderLock::take).transpose()?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     let mut files = RunFiles::new(folder, events, &record, &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(&record, &setup)).transpose()?;
     use_threads(args.threads)?;
 
     let stop = stop_signal();
-    let progress = talk.progress(frames, "frames");
+    let progress = console.progress(frames, "frames");
     let panel = Panel::new(&args.estimator, &setup)?;
     let limit_m = 1e-3 * args.outlier_limit_mm;
     let wants_second = !args.no_second_opinion;
-    let second = wants_second.then(|| second_opinion(&setup, &mut notes, talk)).flatten();
+    let second = wants_second.then(|| second_opinion(&setup, &mut notes, console)).flatten();
     let json = args.json || folder.is_some();
     let mut log = FrameLog::new(&setup, json, (panel, second), limit_m);
     let mut take_frame = |frame: &Frame| {
@@ -155,7 +155,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if setup.no_depth().is_none() {
         late.extend(log.notes());
     }
-    talk.heed(&late)?;
+    console.print_notes(&late)?;
     notes.extend(late);
 
     let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
@@ -166,10 +166,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
     let Written { files, older } = files.finish(&setup, &mut log, &summary, written)?;
     for path in files {
-        talk.wrote(&path);
+        console.wrote(&path);
     }
     for path in older {
-        talk.note(format_args!(
+        console.note(format_args!(
             "{} is of an older run: summary.json does not list it",
             path.display()
         ));
@@ -181,7 +181,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }
-    talk.report(&text)
+    console.report(&text)
 }
 
 impl Args {

@@ -13,7 +13,7 @@ use crate::choice::seed;
 use super::host::host;
 use super::options::ScenarioArgs;
 use super::rerun;
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// Program that serves the page; it lies beside this one.
 const PROGRAM: &str = "tofsim-serve";
@@ -60,14 +60,14 @@ enum Way {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     if rerun::PROGRAM.get().is_some() || host().is_some() {
         let expected = "is not in the Python package, which has no server: install the command with \
             `cargo install --path crates/cli` and `cargo install --path crates/serve`";
         return Err(Input::new("serve", expected).into());
     }
     let setup = Setup::new(args.scenario.load(args.seed)?)?;
-    talk.heed(&setup.notes()?)?;
+    console.print_notes(&setup.notes()?)?;
     let program = program()?;
     if !program.is_file() {
         tell(format_args!(
@@ -76,13 +76,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         ));
         return Ok(ExitCode::FAILURE);
     }
-    become_program(Command::new(&program).args(args.words(talk)))
+    become_program(Command::new(&program).args(args.words(console)))
         .map_err(Error::io(&program, "run"))
 }
 
 impl Args {
     /// Returns the options of the program.
-    fn words(&self, talk: &Talk) -> Vec<String> {
+    fn words(&self, console: &Console) -> Vec<String> {
         let fidelity = match self.fidelity {
             Way::Cycle => "cycle",
             Way::Shot => "shot",
@@ -97,7 +97,7 @@ impl Args {
         // Notes have been said.
         words.push("--without-notes".to_owned());
         let flags =
-            [("--stopped", self.stopped), ("--json", self.json), ("--quiet", talk.is_quiet())];
+            [("--stopped", self.stopped), ("--json", self.json), ("--quiet", console.is_quiet())];
         words
             .extend(flags.iter().filter(|(_, is_set)| *is_set).map(|(flag, _)| (*flag).to_owned()));
         words.extend(["--".to_owned(), self.scenario.scenario.clone()]);

@@ -11,7 +11,7 @@ use crate::report::spad::Characterisation;
 use crate::report::writer::Report;
 
 use super::options::{ResultArgs, ScenarioArgs};
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// Characterise the modelled diode: count rate, dead time, afterpulses and dark counts
 ///
@@ -34,7 +34,7 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let setup = Setup::of_counts(args.scenario.load(None)?)?;
     let diode = FreeRunning::new(&setup);
     let dark_hz = setup.dark.one_hz();
@@ -46,5 +46,5 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         afterpulses: afterpulses(&diode, dark_hz, args.counts),
         dark: dark::dark_rate_hz(&diode, dark_hz, args.counts / 10),
     };
-    args.result.deliver(&Report::new(found, &setup, &[], talk), talk)
+    args.result.deliver(&Report::new(found, &setup, &[], console), console)
 }

@@ -20,7 +20,7 @@ use crate::record::Record;
 use crate::report::{sweep as report, sweep_plot};
 
 use super::draws::use_threads;
-use super::terminal::{Talk, print_json, stop_signal};
+use super::terminal::{Console, print_json, stop_signal};
 
 mod catalogue;
 
@@ -82,24 +82,24 @@ struct SweepArgs {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     match &args.action {
-        Some(Action::Merge(args)) => catalogue::merge(args, talk),
-        Some(Action::List(args)) => catalogue::list(args, talk),
+        Some(Action::Merge(args)) => catalogue::merge(args, console),
+        Some(Action::List(args)) => catalogue::list(args, console),
         Some(Action::Show(args)) => catalogue::show(args),
-        Some(Action::Columns(args)) => catalogue::columns(args, talk),
-        None => args.sweep.run(talk),
+        Some(Action::Columns(args)) => catalogue::columns(args, console),
+        None => args.sweep.run(console),
     }
 }
 
 impl SweepArgs {
-    fn run(&self, talk: &Talk) -> Result<()> {
+    fn run(&self, console: &Console) -> Result<()> {
         let Some(name) = &self.plan else {
             return Err(Input::new("plan", "expected a built-in plan or the path of one").into());
         };
         let plan = Plan::load(name, &self.set, self.seed)?;
         let setup = Setup::of_counts(plan.base()?)?;
-        let record = Record::new(&setup, &talk.command);
+        let record = Record::new(&setup, &console.command);
         let about = about(&plan, &record);
         let sweep = Sweep {
             plan: &plan,
@@ -108,40 +108,40 @@ impl SweepArgs {
             comment: record.comment_line(),
         };
         use_threads(self.threads)?;
-        let mut finished = self.finished(&sweep, talk)?;
+        let mut finished = self.finished(&sweep, console)?;
         let notes = notes(&finished, sweep.shard.size(plan.points.count()));
         if let (Some(folder), Shard::WHOLE) = (&self.output, sweep.shard) {
             match draw(&plan, &record, &finished.rows, folder)? {
                 Some(Ok(path)) => finished.files.push(path),
                 // The table is there all the same.
-                Some(Err(fault)) => talk.note(fault),
+                Some(Err(fault)) => console.note(fault),
                 None => {}
             }
         }
-        finished.files.iter().for_each(|path| talk.wrote(path));
-        talk.heed(&notes)?;
+        finished.files.iter().for_each(|path| console.wrote(path));
+        console.print_notes(&notes)?;
         if self.json {
             return print_json(&self.object(about, &plan, &finished, &notes));
         }
         let shown = plan.points.count();
-        talk.report(&report::text(&plan, &finished.rows, shown))
+        console.report(&report::text(&plan, &finished.rows, shown))
     }
 
-    fn finished(&self, sweep: &Sweep, talk: &Talk) -> Result<Finished> {
+    fn finished(&self, sweep: &Sweep, console: &Console) -> Result<Finished> {
         let stop = stop_signal();
         let count = sweep.shard.size(sweep.plan.points.count());
         let Some(folder) = &self.output else {
-            let progress = talk.progress(count, "points");
+            let progress = console.progress(count, "points");
             let finished = sweep.in_memory(stop.as_deref(), &|more| progress.inc(more));
             progress.finish_and_clear();
             return finished;
         };
         let _held = FolderLock::share(folder)?;
         if !self.restart && sweep.is_done(folder) {
-            talk.note(format_args!("{} is there and whole", sweep.table(folder).display()));
+            console.note(format_args!("{} is there and whole", sweep.table(folder).display()));
             return read(sweep, folder);
         }
-        let progress = talk.progress(count, "points");
+        let progress = console.progress(count, "points");
         let is_first = std::sync::atomic::AtomicBool::new(true);
         let done = |more| {
             progress.inc(more);
@@ -153,14 +153,14 @@ impl SweepArgs {
         let finished = sweep.run(folder, self.restart, stop.as_deref(), &done);
         progress.finish_and_clear();
         if let Err(tofsim::Error::Interrupted) = &finished {
-            talk.note(format_args!(
+            console.note(format_args!(
                 "finished points are kept in {}; the same command goes on",
                 folder.display()
             ));
         }
         let finished = finished?;
         if finished.resumed > 0 {
-            talk.note(format_args!("{} of {count} points were there already", finished.resumed));
+            console.note(format_args!("{} of {count} points were there already", finished.resumed));
         }
         Ok(finished)
     }

@@ -22,7 +22,7 @@ use crate::report::timing::DesignTiming;
 use crate::report::writer::Report;
 
 use super::design::{Design, present};
-use super::terminal::{Talk, stop_signal};
+use super::terminal::{Console, stop_signal};
 
 /// Measure and estimate how fast Verilog can be clocked
 ///
@@ -60,16 +60,16 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     strays::end();
     let work = ScratchFolder::new()?;
-    let (folder, rtl) = design(args, work.path(), talk)?;
-    let blocks = wanted(args, &rtl, talk)?;
+    let (folder, rtl) = design(args, work.path(), console)?;
+    let blocks = wanted(args, &rtl, console)?;
     let stop = stop_signal();
     let limits =
         Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };
     let design = timing::TimedDesign { rtl: &rtl, folder: &folder, work: work.path(), limits };
-    let place = placer(args, talk)?;
+    let place = placer(args, console)?;
     let known = args.record.as_deref().map(Record::read).transpose()?.flatten().unwrap_or_default();
     let mut tools = BTreeMap::from([("yosys".to_owned(), version(YOSYS, "-V", work.path())?)]);
     if let Some(tool) = place {
@@ -78,14 +78,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let known = if known.tools == tools { known } else { Record::default() };
     let one = |block: &&'static TimedBlock| {
         let ecp5 = match place {
-            Some(tool) => Some(measured(&design, block, tool, args.seeds, &known, talk)?),
+            Some(tool) => Some(measured(&design, block, tool, args.seeds, &known, console)?),
             None => None,
         };
         let kintex7 = args
             .wants(timing::Part::Kintex7)
             .then(|| timing::estimate(&design, block))
             .transpose()?;
-        talk.note(format_args!("{}: timed", block.name));
+        console.note(format_args!("{}: timed", block.name));
         Ok((block.name.to_owned(), BlockTiming { ecp5, kintex7 }))
     };
     let timed: Result<BTreeMap<_, _>> = blocks.par_iter().map(one).collect();
@@ -94,10 +94,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         let mut all = Record { tools: record.tools.clone(), blocks: known.blocks };
         all.blocks.extend(record.blocks.clone());
         all.write(path)?;
-        talk.wrote(path);
+        console.wrote(path);
     }
     let timing = DesignTiming { rtl: &rtl.source, record: &record };
-    Report::without_record(timing).deliver(None, args.json, talk)?;
+    Report::without_record(timing).deliver(None, args.json, console)?;
     let measured = || record.blocks.values().filter_map(|block| block.ecp5.as_ref());
     Ok(ExitCode::from(u8::from(!measured().all(Measurement::closes))))
 }
@@ -109,27 +109,27 @@ impl Args {
 }
 
 /// Reads the design; its own Verilog goes into `work`. Returns the folder of its sources too.
-fn design(args: &Args, work: &Path, talk: &Talk) -> Result<(PathBuf, Rtl)> {
+fn design(args: &Args, work: &Path, console: &Console) -> Result<(PathBuf, Rtl)> {
     let (folder, rtl) = if args.design.is_ours() {
         let setup = Setup::new(scenario::load(DEFAULT, &[])?)?;
         (work.to_owned(), timing::own(work, &setup)?)
     } else {
         let here = std::env::current_dir().map_err(Error::io(".".as_ref(), "read"))?;
-        (here, args.design.read(talk)?)
+        (here, args.design.read(console)?)
     };
     Design::check_for_yosys(&rtl, "timing")?;
     Ok((folder, rtl))
 }
 
 /// Finds the tool that places and routes, if it is wanted; a note says that it is missing.
-fn placer(args: &Args, talk: &Talk) -> Result<Option<Tool>> {
+fn placer(args: &Args, console: &Console) -> Result<Option<Tool>> {
     let place = nextpnr::installed().filter(|_| args.wants(timing::Part::Ecp5));
     if place.is_none() && args.part == Some(timing::Part::Ecp5) {
         let expected = format!("not found on PATH; install it: {}", nextpnr::HOW_TO_INSTALL);
         return Err(Input::new("nextpnr-ecp5", expected).into());
     }
     if place.is_none() && args.part.is_none() {
-        talk.note(format_args!(
+        console.note(format_args!(
             "nextpnr-ecp5: not found on PATH, so nothing is measured for an ECP5; install it: {}",
             nextpnr::HOW_TO_INSTALL
         ));
@@ -144,26 +144,26 @@ fn measured(
     tool: Tool,
     seeds: u32,
     known: &Record,
-    talk: &Talk,
+    console: &Console,
 ) -> Result<Measurement> {
     let before = known.blocks.get(block.name).and_then(|block| block.ecp5.as_ref());
     let mut placed = 0;
     let measurement = timing::measure(design, block, tool, seeds, before, |seed| {
         placed = seed;
-        talk.detail(format_args!("{}: seed {seed} placed and routed", block.name));
+        console.detail(format_args!("{}: seed {seed} placed and routed", block.name));
     })?;
     if placed == 0 {
-        talk.note(format_args!("{}: the same netlist as in the record", block.name));
+        console.note(format_args!("{}: the same netlist as in the record", block.name));
     }
     Ok(measurement)
 }
 
 /// The blocks that are asked for, or all that the design has.
-fn wanted(args: &Args, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static TimedBlock>> {
+fn wanted(args: &Args, rtl: &Rtl, console: &Console) -> Result<Vec<&'static TimedBlock>> {
     if !args.block.is_empty() {
         return args.block.iter().map(|name| TimedBlock::find(name)).collect();
     }
     let has = |block: &TimedBlock| block.modules.iter().all(|module| rtl.has(module));
     let usual = BLOCKS.iter().filter(|block| block.usual);
-    present(usual, has, |block| block.name, (rtl, "", "timed"), talk)
+    present(usual, has, |block| block.name, (rtl, "", "timed"), console)
 }

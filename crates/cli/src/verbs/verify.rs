@@ -22,7 +22,7 @@ use crate::report::writer::Report;
 use crate::text::table::coloured;
 
 use super::design::{Design, present};
-use super::terminal::{Talk, stop_signal};
+use super::terminal::{Console, stop_signal};
 use super::vectors::{From, find};
 
 /// Run Verilog or VHDL against the golden vectors
@@ -92,15 +92,15 @@ impl Args {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let failed = if args.cycle_counts {
-        let (rtl, counts) = &cycle_counts(args, talk)?;
-        Report::without_record(CycleCounts { rtl, counts }).deliver(None, args.json, talk)?;
+        let (rtl, counts) = &cycle_counts(args, console)?;
+        Report::without_record(CycleCounts { rtl, counts }).deliver(None, args.json, console)?;
         !counts.iter().all(Count::holds)
     } else {
-        let (rtl, blocks) = &blocks(args, talk)?;
+        let (rtl, blocks) = &blocks(args, console)?;
         let verified = Verified { rtl, simulator: args.simulator.name(), blocks };
-        Report::without_record(verified).deliver(None, args.json, talk)?;
+        Report::without_record(verified).deliver(None, args.json, console)?;
         blocks.iter().any(BlockReport::failed)
     };
     Ok(ExitCode::from(u8::from(failed)))
@@ -110,13 +110,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 ///
 /// # Errors
 /// When one cannot be checked.
-pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
+pub fn blocks(args: &Args, console: &Console) -> Result<(String, Vec<BlockReport>)> {
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
     let work = ScratchFolder::new()?;
-    let rtl = args.rtl(&work, talk)?;
+    let rtl = args.rtl(&work, console)?;
     let stop = stop_signal();
     let limits = args.limits(stop.as_deref());
-    let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
+    let tasks = tasks(args, map.as_ref(), &rtl, console)?;
     let check = BlockCheck {
         dut: Dut { rtl: &rtl, map: map.as_ref(), simulator: args.simulator, limits },
         registers: args.registers || args.design.is_ours(),
@@ -132,7 +132,7 @@ pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
         let report = check.run(task, &work.path().join(&task.name));
         if let Ok(report) = &report {
             let word = coloured(report.word(), !report.failed(), &std::io::stderr());
-            talk.note(format_args!("{}: {word}", task.name));
+            console.note(format_args!("{}: {word}", task.name));
             over.fetch_or(args.fail_fast && report.failed(), Ordering::Relaxed);
         }
         report
@@ -142,10 +142,10 @@ pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
     let simulator = args.simulator.name();
     if let Some(path) = &args.junit {
         write_junit(path, simulator, &reports)?;
-        talk.wrote(path);
+        console.wrote(path);
     }
     for wave in reports.iter().filter_map(|report| report.wave.as_ref()) {
-        talk.wrote_wave(wave);
+        console.wrote_wave(wave);
     }
     Ok((rtl.source, reports))
 }
@@ -154,9 +154,9 @@ pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
 ///
 /// # Errors
 /// When they cannot be counted.
-pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
+pub fn cycle_counts(args: &Args, console: &Console) -> Result<(String, Vec<Count>)> {
     let work = ScratchFolder::new()?;
-    let rtl = args.rtl(&work, talk)?;
+    let rtl = args.rtl(&work, console)?;
     let stop = stop_signal();
     let limits = args.limits(stop.as_deref());
     Design::check_for_yosys(&rtl, "--cycle-counts")?;
@@ -164,16 +164,16 @@ pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
     let counts = count::cycle_counts(&rtl, &design, &limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };
         let word = coloured(word, count.holds(), &std::io::stderr());
-        talk.note(format_args!("{}: {word}", count.what));
+        console.note(format_args!("{}: {word}", count.what));
     })?;
     Ok((rtl.source, counts))
 }
 
 impl Args {
     /// The design; our own is put into `work`.
-    fn rtl(&self, work: &ScratchFolder, talk: &Talk) -> Result<Rtl> {
+    fn rtl(&self, work: &ScratchFolder, console: &Console) -> Result<Rtl> {
         strays::end();
-        if self.design.is_ours() { Rtl::own(work.path()) } else { self.design.read(talk) }
+        if self.design.is_ours() { Rtl::own(work.path()) } else { self.design.read(console) }
     }
 
     fn limits<'a>(&self, stop: Option<&'a AtomicBool>) -> Limits<'a> {
@@ -182,17 +182,17 @@ impl Args {
 }
 
 /// The blocks that are asked for and all that they can be, then the whole.
-fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<Task>> {
+fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, console: &Console) -> Result<Vec<Task>> {
     let setting = args.from.setting()?;
     let all = |spec| (spec, None);
     let chosen: Vec<_> = match (args.block.as_slice(), args.top) {
         ([], true) => Vec::new(),
-        ([], false) => every(map, rtl, talk)?.into_iter().map(all).collect(),
+        ([], false) => every(map, rtl, console)?.into_iter().map(all).collect(),
         (names, _) => names.iter().map(|name| named(name)).collect::<Result<_>>()?,
     };
     let mut tasks = Vec::new();
     for (spec, configuration) in chosen {
-        if let Some(name) = configuration.filter(|&name| setting.as_told && name != DEFAULT) {
+        if let Some(name) = configuration.filter(|&name| setting.as_configured && name != DEFAULT) {
             let expected = "expected no configuration: a scenario or a key says what the block is";
             return Err(Input::new("--block", expected)
                 .value(format!("{}.{name}", spec.name))
@@ -201,7 +201,7 @@ fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Ve
         tasks.extend(Task::every(spec, configuration, &setting, map)?);
     }
     if args.top {
-        let setting = Setting { as_told: true, ..setting };
+        let setting = Setting { as_configured: true, ..setting };
         let task = Task::new(find("tof_top", "--top")?, &setting, map);
         tasks.push(Task { name: format!("tof_top.{}", setting.setup.name), ..task });
     }
@@ -224,11 +224,11 @@ fn named(name: &str) -> Result<(&'static Spec, Option<&str>)> {
 }
 
 /// All blocks that the design has, or the map names.
-fn every(map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>> {
+fn every(map: Option<&RtlMap>, rtl: &Rtl, console: &Console) -> Result<Vec<&'static Spec>> {
     let has = |spec: &Spec| {
         let named = map.and_then(|map| map.block.get(spec.name));
         named.is_some_and(|block| block.module.is_some()) || rtl.has(spec.name)
     };
     let or = ", or a map with their names";
-    present(BLOCKS.iter(), has, |spec| spec.name, (rtl, or, "checked"), talk)
+    present(BLOCKS.iter(), has, |spec| spec.name, (rtl, or, "checked"), console)
 }

@@ -22,7 +22,7 @@ use crate::text::table::facts;
 use crate::verbs::draws::load;
 use crate::verbs::frames::check as check_frames;
 use crate::verbs::interrupt::look_no_more;
-use crate::verbs::terminal::{Talk, stop_signal};
+use crate::verbs::terminal::{Console, stop_signal};
 
 /// Sample a simulation as a logic analyser on the board would, and write Vivado's files
 ///
@@ -115,12 +115,12 @@ impl Instead {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let mut set_up = AnalyserSetup::load(&args.probes)?;
     args.instead.lay_over(&mut set_up);
     let setup = simulated(args, &set_up)?;
     let mut notes = setup.notes()?;
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
     plan.stop_when_full = args.stop_when_full;
     let frames = args.frames.unwrap_or(set_up.file.frames);
@@ -135,10 +135,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     look_no_more();
     let capture = analyser.finish();
     if !full {
-        talk.note(format_args!("note: the run ended with {}", missing(&plan, &capture)));
+        console.note(format_args!("note: the run ended with {}", missing(&plan, &capture)));
     }
     if !args.stop_when_full {
-        talk.heed(&outcome.notes)?;
+        console.print_notes(&outcome.notes)?;
         notes.extend(outcome.notes);
     }
     let formats = if args.format.is_empty() { CaptureFormat::ALL } else { &args.format };
@@ -146,13 +146,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let files = export(&capture, stage.path(), &set_up.name, formats, !args.legacy_csv)?;
     // The map by which `tofsim compare` lays the capture over a waveform.
     let map = stage.path().join(format!("{}.map.toml", set_up.name));
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     write_bytes(&map, record.comment_line() + &SignalMap::of(&set_up).to_toml())?;
     // In the order of the formats.
     let names = files.iter().chain([&map]).filter_map(|file| file.file_name());
     let files: Vec<_> = names.map(|name| args.output.join(name)).collect();
     stage.commit()?;
-    files.iter().for_each(|file| talk.wrote(file));
+    files.iter().for_each(|file| console.wrote(file));
     let files = files.iter().map(|file| file.display().to_string()).collect();
     let findings = CaptureFindings {
         set_up: &set_up,
@@ -164,7 +164,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         end: outcome.end,
         files,
     };
-    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
+    Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)
 }
 
 fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {

@@ -11,7 +11,7 @@ use tofsim_captures::source::{Signal, SignalKind, Source, SourceFormat};
 
 use crate::choice::{self, words};
 use crate::text::table::{facts, grouped, table};
-use crate::verbs::terminal::{Talk, print};
+use crate::verbs::terminal::{Console, print};
 
 /// Say what a logic analyser's file holds
 ///
@@ -31,7 +31,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let source = Source::file(&args.file, args.radix)?;
     if !source.is_capture() {
         let expected = format!(
@@ -44,7 +44,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if args.json {
         print(&format!("{:#}\n", as_json(&source, &survey)))
     } else {
-        talk.report(&as_text(&source, &survey))
+        console.report(&as_text(&source, &survey))
     }
 }
 

@@ -22,7 +22,7 @@ use crate::record::Record;
 use crate::report::writer::{Findings, Report};
 use crate::text::table::facts;
 use crate::verbs::compare::named_map;
-use crate::verbs::terminal::Talk;
+use crate::verbs::terminal::Console;
 
 /// Make a scenario of what a capture shows of the inputs, to simulate the board's own run
 ///
@@ -65,7 +65,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let place = ReplayFiles::new(&args.output)?;
     let base = load(&args.scenario, &args.set)?;
     let setup = Setup::new(base.clone())?;
@@ -80,7 +80,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let list = place.list(replay.kind);
     let _held = FolderLock::take(&place.folder)?;
     let stage = StagedFolder::new(&place.folder)?;
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     let staged = stage.path().join(&place.scenario);
     write_bytes(&stage.path().join(&list), record.comment_line() + &replay.list)?;
     let mut scenario = replayed(base, &replay, &list)?;
@@ -95,10 +95,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let files = [&place.scenario, &list].map(|name| place.folder.join(name));
     stage.commit()?;
-    files.iter().for_each(|file| talk.wrote(file));
+    files.iter().for_each(|file| console.wrote(file));
     let next = next(args, &options.map, &located);
     let findings = ReplayFindings { replay: &replay, located: &located, files: &files, next };
-    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
+    Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)
 }
 
 fn note(text: &String) -> Note {

@@ -16,7 +16,7 @@ use crate::report::writer::Report;
 
 use crate::verbs::draws::use_threads;
 use crate::verbs::options::{ResultArgs, ScenarioArgs};
-use crate::verbs::terminal::{Talk, stop_signal};
+use crate::verbs::terminal::{Console, stop_signal};
 
 /// Show the depth's error over time as the die heats up, with a TDC calibrated once and again and again
 ///
@@ -79,7 +79,7 @@ fn seconds(text: &str) -> std::result::Result<f64, String> {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     use_threads(args.threads)?;
     let loaded = args.scenario.load(args.seed)?;
     let tdc = &loaded.scenario.tdc;
@@ -97,15 +97,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         let temperatures = [("tdc.temperature_c", profile.temperatures_c())];
         notes.extend(domain::notes(&setup.network, &loaded.scenario, &temperatures)?);
     }
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let look = |folder: &PathBuf| create_directory_for(folder, "drift.json");
     args.result.output.as_ref().map_or(Ok(()), look)?;
     let plan = Plan { kind, every_s: args.every, repeats: args.repeats };
-    let progress = talk.progress(2 * args.repeats * profile.moments().len() as u64, "histograms");
+    let progress =
+        console.progress(2 * args.repeats * profile.moments().len() as u64, "histograms");
     let stop = stop_signal();
     let found = Drift::new(&loaded, &profile, plan, stop.as_deref(), |more| progress.inc(more));
     progress.finish_and_clear();
     let found = found?;
-    let report = Report::new(DriftFindings { found: &found, setup: &setup }, &setup, &notes, talk);
-    args.result.deliver(&report, talk)
+    let report =
+        Report::new(DriftFindings { found: &found, setup: &setup }, &setup, &notes, console);
+    args.result.deliver(&report, console)
 }
