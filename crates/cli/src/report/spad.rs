@@ -18,7 +18,7 @@ mod pictures;
 
 /// All that was measured.
 pub struct Characterisation<'a> {
-    /// Counts of each measurement.
+    /// Number of counts per measurement.
     pub counts: u64,
     /// The keys of the diode.
     pub spad: &'a Spad,

@@ -22,13 +22,13 @@ use super::terminal::{Console, stop_signal};
 
 /// Print the link budget: photons and avalanches that a shot can expect, and eye safety
 ///
-/// With --errors it is the error budget of the depth: what shot noise, pile-up, ambient light, pulse, jitter, the
-/// TDC's taps and their calibration, and the estimator's words do to bias and spread.
+/// With --errors, print the depth error budget: the contributions of shot noise, pile-up, ambient light, pulse,
+/// jitter, TDC taps and their calibration, and word lengths to bias and spread.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim budget near\n  \
     tofsim budget --errors -s tdc.profile=kintex7\n  \
-    tofsim budget --errors --estimator likelihood --grid target.distance_m=0.1..0.6:0.1 -o out")]
+    tofsim budget --errors --grid target.distance_m=0.1..0.6:0.1 -o out")]
 pub struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
@@ -54,14 +54,14 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
 /// The options that go with `--errors`.
 #[derive(Debug, clap::Args)]
 pub struct ErrorArgs {
-    /// Print the error budget of the depth instead: bias and spread with every effect off, with each alone, with all
-    /// but each, and with all together
+    /// Print the depth error budget instead: bias and spread with every effect off, with each alone, with all but
+    /// each, and with all
     #[arg(long)]
     pub errors: bool,
     /// With --errors: estimator to analyse [default: the one in the firmware's estimator slot]
     #[arg(long, requires = "errors", value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
-    /// With --errors: frames to draw of each variant
+    /// With --errors: number of frames for each variant
     #[arg(
         long,
         requires = "errors",

@@ -31,28 +31,28 @@ use step::{Outcome, Step};
 
 /// Build an instrument: network, Verilog, proofs, accuracy, cost and a report, from one scenario file
 ///
-/// Each step is what its own verb does. A step whose inputs, version and outputs are those of an earlier build is
-/// not done again, so that an interrupted build goes on. DIR/report.html is a page to send to a colleague.
+/// Each step does the same as its own command. A step is skipped if its inputs, version and outputs are those of an
+/// earlier build, so that an interrupted build is resumed. DIR/report.html is a self-contained page.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
-    tofsim build mine.toml -o mine              all of it\n  \
-    tofsim build mine.toml -o mine --quick      in a minute or two, with a poor network\n  \
+    tofsim build mine.toml -o mine           all steps\n  \
+    tofsim build mine.toml -o mine --quick   in a minute or two, poor accuracy\n  \
     tofsim build mine.toml -o mine --steps network,accuracy,report\n\n\
-    Exit status: 0 all done and passed, 1 a step was not done or found a fault, 2 usage or input error.")]
+    Exit status: 0 all done and passed, 1 a step failed or found a fault, 2 usage or input error.")]
 pub struct Args {
     /// Scenario file, or the name of a built-in scenario
     #[arg(value_name = "INSTRUMENT")]
     instrument: String,
-    /// Folder for all that is made; the commands in the report are run in it
+    /// Output folder, in which the commands of the report are run
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Only these steps, separated by commas
+    /// Run only these steps, separated by commas
     #[arg(long, value_parser = words(&Step::CHOICES), value_delimiter = ',')]
     steps: Vec<Step>,
-    /// A poor network trained in seconds, short vectors and few histograms
+    /// Train for seconds (poor accuracy), with short vectors and few histograms
     #[arg(long)]
     quick: bool,
-    /// Do all steps anew
+    /// Repeat all steps
     #[arg(long)]
     force: bool,
     /// Threads; the results are the same for any number [default: one a core]

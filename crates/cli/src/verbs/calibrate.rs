@@ -20,7 +20,7 @@ use crate::report::writer::Report;
 use super::options::ResultArgs;
 use super::terminal::Console;
 
-/// Find what an instrument is from its own histograms
+/// Fit parameters of an instrument to its histograms
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(subcommand)]
@@ -32,12 +32,12 @@ enum Verb {
     Pulse(Box<PulseArgs>),
 }
 
-/// Find width and shape of the pulse, with standard errors
+/// Fit width and shape of the pulse, with standard errors
 ///
-/// Arrival, signal and background of each histogram need not be known: they are fitted together with the pulse
-/// that all have in common. A few histograms of echoes in the middle of the window, neither faint nor so strong
-/// that they use up their shots, tell the width to a part in a hundred or better. -o writes pulse.csv for
-/// laser.pulse_file, pulse.svg and calibration.json.
+/// Arrival, signal and background of each histogram need not be known: they are fitted together with the pulse that
+/// all have in common. A few histograms of echoes in the middle of the window, neither faint nor so strong that they
+/// use up their shots, determine the width to 1 % or better. -o writes pulse.csv for laser.pulse_file, pulse.svg and
+/// calibration.json.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim calibrate pulse mine.npy --scenario mine.toml -o pulse\n  \

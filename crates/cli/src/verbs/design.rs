@@ -22,7 +22,7 @@ pub struct Design {
     /// File list whose paths are relative to itself; may be repeated
     #[arg(short = 'F', long = "relative-file-list", value_name = "FILE", group = "sources")]
     relative_list: Vec<PathBuf>,
-    /// Folder in which an `include is looked for, after that of the file; may be repeated
+    /// Folder to search for `include files, after that of the including file; may be repeated
     #[arg(short = 'I', long = "include", value_name = "DIR", requires = "sources")]
     include: Vec<PathBuf>,
     /// Define a macro; may be repeated

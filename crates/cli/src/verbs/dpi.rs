@@ -16,7 +16,7 @@ use tofsim_rtl::checkers::{Checkers, blocks_of};
 use super::options::ScenarioArgs;
 use super::terminal::Console;
 
-/// Write checkers and photons for a bench of yours in SystemVerilog
+/// Write checkers and photons for your own SystemVerilog bench
 ///
 /// DIR gets tofsim_pkg.sv (the imports), tofsim_photons.sv (tdc_stop as the scenario's light and detector make it),
 /// tofsim_checkers.sv (a module for each block, which compares its outputs with the model's at every edge),
@@ -31,17 +31,17 @@ use super::terminal::Console;
 #[command(after_help = "Examples:\n  \
     tofsim dpi -o dpi                    all blocks of the KC705's design\n  \
     tofsim dpi mine.toml -b tdc -o dpi   one block of your own instrument\n  \
-    tofsim dpi --without pll -o dpi      where the bench's PLL has jitter\n  \
-    cargo build --release -p tofsim-dpi  makes the library, in a clone\n  \
+    tofsim dpi --without pll -o dpi      if the bench's PLL has jitter\n  \
+    cargo build --release -p tofsim-dpi  build the library, in a clone\n  \
     make -f dpi/Makefile verilator LIB=target/release TOP=tb DESIGN=\"FILES\"\n  \
     make -f dpi/Makefile icarus LIB=target/release TOP=tb DESIGN=\"FILES\"")]
 pub struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
-    /// A block that is to have a checker; may be repeated [default: all that the scenario has]
+    /// Write a checker for this block; may be repeated [default: all blocks of the scenario]
     #[arg(short, long = "block", value_name = "BLOCK")]
     blocks: Vec<String>,
-    /// A block that is to have none, as pll where yours has jitter; may be repeated
+    /// Write no checker for this block, e.g. pll if yours has jitter; may be repeated
     #[arg(long, value_name = "BLOCK", conflicts_with = "blocks")]
     without: Vec<String>,
     /// Directory to write to

@@ -29,7 +29,7 @@ pub struct Draws {
     /// [default: the scenario's]
     #[arg(long, value_name = "P")]
     profile: Option<String>,
-    /// Draw so many random scenes, equally many at each distance, instead of all
+    /// Draw N random scenes, the same number at each distance, instead of all
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..=MOST_ROWS))]
     rows: Option<u64>,
     /// Seed of every random stream, instead of the scenario's

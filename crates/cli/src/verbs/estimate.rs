@@ -34,24 +34,24 @@ pub struct Args {
     /// Parquet with columns b0 to b255
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Width of a bin, of histograms of another sensor, which may have any number of bins [ps]
+    /// Bin width of histograms from another sensor, with any number of bins [ps]
     #[arg(long, value_name = "PS", value_parser = width, conflicts_with_all = ["network", "explain"])]
     bin_ps: Option<f64>,
     /// Built-in network, such as uniform-16, or network file [default: the scenario's]
     #[arg(long, value_name = "NAME|FILE")]
     network: Option<String>,
-    /// Estimators that see the same histograms too, separated by commas
+    /// Additional estimators for the same histograms, separated by commas
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
-    /// Built-in scenario, or the path of a scenario file: what estimators know of shots, pulse and chain
+    /// Built-in scenario, or the path of a scenario file: shots, pulse and chain for the estimators
     #[arg(long, default_value = scenario::DEFAULT)]
     scenario: String,
     /// Set a scenario key, e.g. `tdc.profile=chain.toml`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Show every value of the datapath beside its twin in double precision, where they part, and
-    /// what each rounding adds to the depth; with --estimator likelihood_estimator the stages of that one instead,
-    /// and of both with network,likelihood_estimator
+    /// Compare every value of the datapath with double precision, and list the cost of each rounding; with
+    /// --estimator likelihood_estimator, compare the stages of that estimator instead, and with
+    /// network,likelihood_estimator both
     #[arg(long)]
     explain: bool,
     /// Print one JSON object

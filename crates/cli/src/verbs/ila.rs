@@ -29,20 +29,20 @@ enum Verb {
     Capture(Box<capture::Args>),
     Info(info::Args),
     Replay(replay::Args),
-    /// List the built-in set-ups of captures
+    /// List the built-in probe configurations
     List {
         /// Print JSON
         #[arg(long)]
         json: bool,
     },
-    /// Print a set-up, to begin one's own with
+    /// Print a probe configuration, as a template for your own
     Show {
-        /// Built-in set-up, or the path of a set-up file
+        /// Built-in probe configuration, or the path of a file
         set_up: String,
     },
-    /// Print the JSON Schema of set-up files: every key with its meaning and unit
+    /// Print the JSON Schema of probe configurations: every key with its meaning and unit
     Schema {
-        /// That of the map files of `compare`
+        /// Print the schema of the map files of `compare` instead
         #[arg(long)]
         map: bool,
     },

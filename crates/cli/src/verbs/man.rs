@@ -13,7 +13,7 @@ use super::terminal::{Console, print};
 /// Print the manual page, or write one for each subcommand
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Write tofsim.1, tofsim-run.1 and so on there instead
+    /// Write tofsim.1, tofsim-run.1 and so on into this folder instead
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 }

@@ -8,14 +8,14 @@ use tofsim::scenario::{self, show};
 
 use super::terminal::Console;
 
-/// Write a scenario to begin with: the twenty keys that most people change, each with its meaning
+/// Write a starter scenario: the twenty keys that are changed most often, with comments
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  tofsim new mine.toml\n  tofsim run mine.toml")]
+#[command(after_help = "Examples:\n  tofsim new mine.toml\n  tofsim run mine.toml")]
 pub struct Args {
     /// Scenario file to write
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Replace a file that is there
+    /// Replace an existing file
     #[arg(long)]
     force: bool,
 }

@@ -31,17 +31,19 @@ use super::terminal::{Console, print_json, stop_signal};
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
 const EXPLORED: u64 = 10_200;
 
-/// Fold and round a network that was trained elsewhere, or explore word lengths
+/// Fold and round a network trained elsewhere, or explore word lengths
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Arrays by name: IW (N x bins), LW (N), b1 (N), b2 (1), for N hidden neurons, 1 to 32, and the settings of\n\
-    mapminmax on both sides if there are any: x_xoffset, x_gain (bins each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
-    1, that removeconstantrows kept. In MATLAB:\n\n  \
+    after_help = "Arrays by name, for N hidden neurons, 1 to 32: IW (N x bins), LW (N), b1 (N), b2 (1), and the settings \
+    of mapminmax on both sides, if any: x_xoffset, x_gain (bins each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep holds \
+    the bins, from 1, that removeconstantrows kept. In MATLAB:\n\n  \
     s = net.inputs{1}.processSettings{2}; t = net.outputs{2}.processSettings{2};\n  \
     IW = net.IW{1,1}; LW = net.LW{2,1}; b1 = net.b{1}; b2 = net.b{2};\n  \
-    x_xoffset = s.xoffset; x_gain = s.gain; x_ymin = s.ymin; y_xoffset = t.xoffset; y_gain = t.gain; y_ymin = t.ymin;\n  \
+    x_xoffset = s.xoffset; x_gain = s.gain; x_ymin = s.ymin;\n  \
+    y_xoffset = t.xoffset; y_gain = t.gain; y_ymin = t.ymin;\n  \
     save('net.mat', 'IW', 'LW', 'b1', 'b2', 'x_*', 'y_*', '-v7')\n\n\
-    JSON: {\"IW\": [[...], ...], \"LW\": [...], \"b\": [[...], [...]], \"x\": {\"xoffset\": [...], \"gain\": [...], \"ymin\": -1}, \"y\": {...}}\n\n\
+    JSON: {\"IW\": [[...], ...], \"LW\": [...], \"b\": [[...], [...]],\n       \
+    \"x\": {\"xoffset\": [...], \"gain\": [...], \"ymin\": -1}, \"y\": {...}}\n\n\
     Examples:\n  \
     tofsim quantize --from net.mat -o net.toml --roms roms\n  \
     tofsim run -s estimator.network=net.toml"
@@ -52,7 +54,7 @@ pub struct Args {
     /// Network file to write
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write the ROMs for $readmemh there: w1.mem, b1.mem, w2.mem, b2.mem, tansig.mem
+    /// Write the ROMs for $readmemh into this folder: w1.mem, b1.mem, w2.mem, b2.mem, tansig.mem
     #[arg(long, value_name = "DIR")]
     roms: Option<PathBuf>,
     /// Chain whose bins it was trained on, for the file
@@ -63,7 +65,7 @@ pub struct Args {
     description: String,
     #[command(flatten)]
     formats: Formats,
-    /// Take the nearest word for a weight that does not fit, instead of an error
+    /// Saturate weights that do not fit, instead of an error
     #[arg(long)]
     saturate: bool,
     /// Built-in scenario, or the path of a scenario file, to explore with
@@ -82,8 +84,8 @@ struct Task {
     /// Fold and round a network: MATLAB file, JSON file, or folder of NumPy arrays (IW.npy, ...)
     #[arg(long, value_name = "FILE|DIR", conflicts_with_all = ["scenario", "Draws"])]
     from: Option<PathBuf>,
-    /// Sweep word lengths and the table of activations: accuracy against block RAMs and DSP slices;
-    /// of 10,200 histograms unless --rows says how many
+    /// Sweep word lengths and the table of activations: accuracy against block RAMs and DSP slices; on 10,200
+    /// histograms unless --rows is given
     #[arg(long, value_name = "NETWORK", conflicts_with_all = ["output", "roms", "chain", "description", "saturate", "Formats"])]
     explore: Option<String>,
 }

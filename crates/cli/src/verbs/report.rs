@@ -38,10 +38,11 @@ mod words;
 
 use words::Words;
 
-/// Write a page about a scenario: light, waveform, histogram, TDC, errors by cause, accuracy, cycles, verification
+/// Write an HTML report of a scenario: link budget, waveform, histogram, TDC, error budget, accuracy, cycles,
+/// verification
 ///
-/// The page is one file without scripts, for a screen, a phone or paper. What a scenario does not allow is left out,
-/// with the reason.
+/// The report is one file without scripts, for a screen, a phone or paper. Parts that the scenario does not allow are
+/// omitted, with the reason.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim report far -o far\n  \
@@ -54,10 +55,10 @@ pub struct Args {
     /// Folder for report.html, report.json and waveform.json
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// A tenth of the histograms
+    /// Use a tenth of the histograms
     #[arg(long)]
     quick: bool,
-    /// Hold the Verilog to the model, and prove its cycle counts; takes minutes, Icarus Verilog and Yosys
+    /// Verify the Verilog against the model, and prove its cycle counts; takes minutes, and needs Icarus Verilog and Yosys
     #[arg(long)]
     verify: bool,
     /// Seed of every random stream, instead of the scenario's

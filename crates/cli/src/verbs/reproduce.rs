@@ -21,14 +21,14 @@ use super::draws::use_threads;
 use super::interrupt::look_no_more;
 use super::terminal::{Console, print_json, stop_signal};
 
-/// Make the tables and figures of the thesis again, each with a verdict: same, differs, cannot be reproduced
+/// Reproduce the tables and figures of the thesis, each with a verdict: same, differs, cannot be reproduced
 ///
-/// Each number stands beside the thesis's, with its standard error; where something differs, the reason is said. With
-/// names of items only these are made, and their rows are printed.
+/// Each number is compared with that of the thesis, with its standard error, and each difference has a reason. With
+/// ITEMs, only those are reproduced, and their rows are printed.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim reproduce -o thesis\n  \
-    tofsim reproduce --quick -o thesis     in seconds, with a tenth of the draws\n  \
+    tofsim reproduce --quick -o thesis   a tenth of the histograms\n  \
     tofsim reproduce table-4.3 table-6.3\n  \
     tofsim reproduce --list\n\n\
     Exit status: 0 whatever the verdicts, 2 usage or input error.")]
@@ -36,13 +36,13 @@ pub struct Args {
     /// Tables, figures and others by name, such as table-4.3 or fig-6.21 [default: all]
     #[arg(value_name = "ITEM")]
     items: Vec<String>,
-    /// Write reproduce.html, a page with all in it, reproduce.json, and timing diagrams as WaveJSON there
+    /// Write reproduce.html, reproduce.json, and timing diagrams as WaveJSON into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// A tenth of the histograms
+    /// Use a tenth of the histograms
     #[arg(long)]
     quick: bool,
-    /// Print the names of the items, and make none
+    /// Print the names of the items and exit
     #[arg(long)]
     list: bool,
     /// Seed of every random stream

@@ -49,18 +49,18 @@ pub static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 /// Regenerate an output from its embedded record, and compare the two byte by byte
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Any output will do: waveforms, JSON, CSV, Parquet and SVG carry the command that made \
-    them.\nPaths in that command are taken from here. Exit status 1 says that the bytes differ.\n\n\
+    after_help = "Waveforms, JSON, CSV, Parquet and SVG files record the command that wrote them. Paths in \
+    that command are relative to the current folder. Exit status 1 means that the bytes differ.\n\n\
     Examples:\n  \
     tofsim run -s target.distance_m=0.3 -o out\n  \
-    tofsim rerun out/histogram.svg                 is it still what this version makes?\n  \
-    tofsim rerun out/summary.json -o again         keep what is made"
+    tofsim rerun out/histogram.svg           does this version write the same?\n  \
+    tofsim rerun out/summary.json -o again   keep the new files"
 )]
 pub struct Args {
-    /// The output
+    /// Output file of a command
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Keep what is made in this folder, which must be another than the file's
+    /// Keep the new files in this folder, which must not be that of FILE
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print one JSON object instead of a line

@@ -33,10 +33,10 @@ use super::terminal::{Console, print_with, stop_signal};
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
-    tofsim run                              one frame of the built-in kc705, waveform in waves/\n  \
+    tofsim run                           one frame of kc705, waveform in waves/\n  \
     tofsim run far --frames 20 --waves none\n  \
     tofsim run far --frames 1000 --fidelity shot\n  \
-    tofsim run --estimator subtraction      a dark and a lit frame of 15,000 shots each\n  \
+    tofsim run --estimator subtraction   a dark and a lit frame of 15,000 shots\n  \
     tofsim run -s target.distance_m=0.3 --seed 7 -o out\n  \
     tofsim run --window 10us..12us --signals 'tdc.*' --waves fst")]
 pub struct Args {
@@ -49,10 +49,10 @@ pub struct Args {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
-    /// How many frames to simulate; of dark and lit frames, how many pairs
+    /// Number of frames; with dark frames, number of pairs
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
-    /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
+    /// Simulation fidelity: cycle and shot give identical frames, histogram frames of the same distribution
     #[arg(long, value_parser = words(&Fidelity::ALL), default_value = "cycle")]
     fidelity: Fidelity,
     /// Threads for the frames of a run without waveform and events; the results are the same for
@@ -62,28 +62,28 @@ pub struct Args {
     /// Format of the waveform [default: vcd; none for fidelities without signals]
     #[arg(long, value_parser = words(choice::WAVEFORM))]
     waves: Option<WaveformChoice>,
-    /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
-    /// repeated [default: the scenario's, or shot:0..16 and estimation]
+    /// Part of the run to record in the waveform: shot:0..8, 10us..12us or estimation; may be repeated [default: the
+    /// scenario's, or shot:0..16 and estimation]
     #[arg(long, value_name = "W", value_parser = str::parse::<Window>)]
     window: Vec<Window>,
-    /// Signals that go into the waveform, by name or path with * and ?; may be repeated
-    /// [default: all but the histogram's RAM]
+    /// Signals to record in the waveform, by name or path with * and ?; may be repeated [default: all but the
+    /// histogram's RAM]
     #[arg(long, value_name = "GLOB")]
     signals: Vec<String>,
-    /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
-    /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
+    /// Additional estimators for each frame's histogram, separated by commas; with subtraction, frames are pairs of a
+    /// dark and a lit one (firmware.dark_frames) for all estimators
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
-    /// Leave out what the likelihood estimator says of each frame's histogram beside the firmware's own
+    /// Do not run the likelihood estimator on each frame for comparison
     #[arg(long)]
     no_second_opinion: bool,
-    /// Count a depth as an outlier that is further than this from the truth
+    /// Error above which a depth is an outlier [mm]
     #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = choice::millimetres)]
     outlier_limit_mm: f64,
-    /// Write a row for each shot, as .csv or .parquet
+    /// Write a row per shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
-    /// Write summary.json, histogram.csv, histogram.svg and the waveform there
+    /// Write summary.json, histogram.csv, histogram.svg and the waveform into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print one JSON object instead of a table

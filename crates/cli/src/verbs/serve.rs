@@ -18,11 +18,11 @@ use super::terminal::Console;
 /// Program that serves the page; it lies beside this one.
 const PROGRAM: &str = "tofsim-serve";
 
-/// Open the acquisition computer as a page in a browser on this computer
+/// Serve the acquisition computer as a web page on this computer
 ///
-/// The page has the computer's signals, acting on a running model; the histogram by cause, the depths and their
-/// bound; the scene; a logic analyser; and the waveform of a shot. Its address, which holds a secret, is printed;
-/// Ctrl-C ends it.
+/// The page shows control signals, which act on the running model; the histogram by cause; the depths and their
+/// bound; the scene; a logic analyser; and the waveform of a shot. The command prints its URL, which contains a
+/// secret, and runs until Ctrl-C.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim serve\n  \
@@ -36,13 +36,13 @@ pub struct Args {
     /// Simulation fidelity; the frames are the same
     #[arg(long, value_enum, default_value_t = Way::Cycle)]
     fidelity: Way,
-    /// Port on 127.0.0.1; 0 takes any that is free
+    /// Port on 127.0.0.1; 0 selects a free one
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
-    /// Frames a second at most
+    /// Largest number of frames per second
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rate: u32,
-    /// Wait for a press of Start before the first frame
+    /// Wait for Start to be pressed before the first frame
     #[arg(long)]
     stopped: bool,
     /// Print one JSON object instead of the address
@@ -55,7 +55,7 @@ pub struct Args {
 enum Way {
     /// Every cycle, with the cause of every avalanche
     Cycle,
-    /// Leaps over shots that are alike; causes are what is to be expected
+    /// Skips idle cycles; causes are expected values
     Shot,
 }
 

@@ -28,15 +28,15 @@ mod catalogue;
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(
-    after_help = "A plan is a TOML file: axes (lists, ranges, distributions) over any keys of \
-    the scenario,\nwhat is simulated at each point, which columns the table has, what is searched for.\n\
-    docs/studies.md explains it. A sweep that was stopped or killed goes on where it was.\n\nExamples:\n  \
-    tofsim sweep fig-4-2                    a plan of the program's, printed\n  \
-    tofsim sweep p.toml -o out              sweep.parquet and .csv, and .svg with [plot]\n  \
-    tofsim sweep p.toml --shard 3/7 -o out  one of seven parts, for an array of jobs\n  \
+    after_help = "A plan is a TOML file with axes (lists, ranges, distributions) over any keys of the \
+    scenario, the simulation at each point, the columns of the table, and the search, if any; see \
+    docs/studies.md. A sweep that was stopped or killed is resumed.\n\nExamples:\n  \
+    tofsim sweep fig-4-2                    a built-in plan, table printed\n  \
+    tofsim sweep p.toml -o out              Parquet and CSV; SVG with [plot]\n  \
+    tofsim sweep p.toml --shard 3/7 -o out  one of seven parts, for job arrays\n  \
     tofsim sweep merge out -o whole         one table of all seven\n  \
-    tofsim sweep list                       plans that come with the program\n  \
-    tofsim sweep columns                    what a point can give"
+    tofsim sweep list                       built-in plans\n  \
+    tofsim sweep columns                    available columns"
 )]
 pub struct Args {
     #[command(subcommand)]
@@ -64,16 +64,16 @@ struct SweepArgs {
     /// Seed of every random number, instead of the plan's
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
-    /// Work out one of N parts, every Nth point from the Ith on
+    /// Evaluate one of N parts, every Nth point from the Ith on
     #[arg(long, value_name = "I/N", requires = "output")]
     shard: Option<Shard>,
-    /// Forget what is in the folder, and begin anew
+    /// Discard the results in the folder and start again
     #[arg(long, requires = "output")]
     restart: bool,
     /// Threads; the results are the same for any number [default: one a core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads())]
     threads: Option<u16>,
-    /// Write the table there, as Parquet and CSV, and a picture if the plan has one
+    /// Write the table into this folder, as Parquet and CSV, and the plot of the plan
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print one JSON object instead of a table

@@ -33,9 +33,9 @@ use super::terminal::Console;
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Examples:\n  \
-    tofsim tdc -s tdc.profile=kintex7 -o tdc              as a Kintex-7's carry chain is\n  \
+    tofsim tdc -s tdc.profile=kintex7 -o tdc         realistic carry chain\n  \
     tofsim tdc -s tdc.profile=kintex7 -s tdc.calibration=uniform\n  \
-    tofsim tdc --decoders -s tdc.profile=kintex7 -o dec   ones, leading bit, reordered taps\n  \
+    tofsim tdc --decoders -s tdc.profile=kintex7     compare the decoders\n  \
     tofsim tdc calibrate tdc/counts.csv -s tdc.profile=kintex7 -o cal.csv\n  \
     tofsim run -s tdc.profile=kintex7 -s tdc.calibration=cal.csv")]
 pub struct Args {
@@ -55,14 +55,13 @@ enum Verb {
 struct OwnArgs {
     #[command(flatten)]
     scenario: ScenarioArgs,
-    /// Hits of the code-density test, and times at random
+    /// Number of hits of the code-density test, and of random times
     #[arg(long, default_value_t = 1_000_000, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     hits: u64,
     #[command(flatten)]
     result: ResultArgs,
-    /// Compare what each decoder makes of the same hits: files are decoders.csv, patterns.csv, decoders.json and
-    /// decoders.svg
+    /// Compare the decoders on the same hits; -o writes decoders.csv, patterns.csv, decoders.json and decoders.svg
     #[arg(long)]
     decoders: bool,
 }
@@ -107,10 +106,10 @@ impl OwnArgs {
     }
 }
 
-/// Make the decoder's ROM from the counts of a code-density test, with standard errors
+/// Compute the decoder's ROM from the counts of a code-density test, with standard errors
 ///
-/// The hits must be uncorrelated with the clock, such as those of ambient light. The delay to tap 0, which no count
-/// shows, is taken from the scenario's chain.
+/// The hits must be uncorrelated with the clock, such as those of ambient light. The delay to tap 0, which counts
+/// cannot measure, is that of the scenario's chain.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim tdc calibrate counts.csv --scenario mine.toml -o cal.csv\n  \

@@ -24,16 +24,15 @@ use crate::report::writer::Report;
 use super::design::{Design, present};
 use super::terminal::{Console, stop_signal};
 
-/// Measure and estimate how fast Verilog can be clocked
+/// Measure or estimate the clock frequency of Verilog
 ///
-/// Synthesises each block between registers (Yosys). For an ECP5 of speed grade 8, nextpnr places and
-/// routes it and measures every clock; for a Kintex-7 there is an estimate from the netlist: levels, and
-/// the longest path if each routed net takes 0.3, 0.6 or 0.9 ns. Both name the critical path. Without --rtl
-/// it takes tofsim's own Verilog, which is in the program. The tools are looked for on PATH.
+/// Synthesises each block between registers (Yosys). For an ECP5 of speed grade 8, nextpnr places and routes it and
+/// measures every clock; for a Kintex-7 there is an estimate from the netlist: levels, and the longest path if each
+/// routed net takes 0.3, 0.6 or 0.9 ns. Both name the critical path. Without --rtl it takes tofsim's own Verilog,
+/// which is in the program. The tools must be on PATH.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Exit status: 0 every measured clock is fast enough (125 and 250 MHz), 1 one is \
-    not, 2 it could not be measured."
+    after_help = "Exit status: 0 every measured clock meets 125 or 250 MHz, 1 one does not, 2 not measured."
 )]
 pub struct Args {
     #[command(flatten)]
@@ -44,14 +43,14 @@ pub struct Args {
     /// Part [default: both]
     #[arg(long, value_parser = words(choice::PART))]
     part: Option<timing::Part>,
-    /// How many placements to try, with the seeds from 1 on
+    /// Number of placements, with seeds from 1 on
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
     seeds: u32,
-    /// Most that one run of a tool may take
+    /// Time limit of each run of a tool
     #[arg(long, value_name = "SECONDS", default_value_t = 1200,
         value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,
-    /// Take what this file has of the same netlists from it, and write all that was timed into it
+    /// Reuse the results in this file for netlists that have not changed, and write all results to it
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Print one JSON object

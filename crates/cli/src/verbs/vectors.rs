@@ -29,11 +29,11 @@ use super::terminal::Console;
 ///
 ///   cd DIR/BLOCK && iverilog -g2005 -o tb tb_BLOCK.v YOUR_FILES.v && vvp tb
 ///
-/// With --rtl and --map the bench is for your module: it has its names, and BLOCK_adapter.v between the
-/// two says what the map says. Icarus tells its ports.
+/// With --rtl and --map the bench is for your module and uses its names; BLOCK_adapter.v implements the map. Icarus
+/// reads the ports.
 ///
-/// With --language vhdl it is tb_BLOCK.vhd, in VHDL-2008 for std_logic and std_logic_vector ports. It was
-/// run in GHDL; it has nothing in it that is GHDL's own, but NVC, Questa and xsim were not tried:
+/// With --language vhdl it is tb_BLOCK.vhd, in VHDL-2008 for std_logic and std_logic_vector ports. It was run in
+/// GHDL; it uses no extensions of GHDL, but was not tried in NVC, Questa or xsim:
 ///
 ///   cd DIR/BLOCK && ghdl -i --std=08 tb_BLOCK.vhd YOUR_FILES.vhd
 ///
@@ -47,7 +47,7 @@ pub struct Args {
     output: PathBuf,
     #[command(flatten)]
     design: Design,
-    /// Read from this file how your design (--rtl) differs by intention: the bench gets BLOCK_adapter.v between (TOML)
+    /// Map file (TOML) with the intended differences of your design (--rtl), which BLOCK_adapter.v implements
     #[arg(long, value_name = "FILE", requires = "sources", conflicts_with = "language")]
     map: Option<PathBuf>,
     /// Language of the bench

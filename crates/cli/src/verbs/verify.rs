@@ -27,12 +27,13 @@ use super::vectors::{From, find};
 
 /// Run Verilog or VHDL against the golden vectors
 ///
-/// Makes the vectors of each block, compiles its bench with your design, runs it, and says where it
-/// first differs, with a table of the cycles around and a waveform of both sides. Without --rtl it
-/// checks tofsim's own Verilog, which is in the program. VHDL goes through GHDL's synthesis to Verilog.
-/// Simulators and GHDL are looked for on PATH.
+/// Makes the vectors of each block, compiles its bench with your design, runs it, and reports the first difference,
+/// with a table of the cycles around it and a waveform of both sides. Without --rtl it checks tofsim's own Verilog,
+/// which is in the program. VHDL goes through GHDL's synthesis to Verilog. Simulators and GHDL must be on PATH.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Exit status: 0 all pass, 1 something differs, 2 it could not be checked.")]
+#[command(
+    after_help = "Exit status: 0 all pass, 1 a block differs, 2 a block could not be checked."
+)]
 pub struct Args {
     #[command(flatten)]
     design: Design,
@@ -46,22 +47,22 @@ pub struct Args {
     /// Count cycles in the model and in the RTL, and prove them (Icarus and Yosys), instead of vectors
     #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "from_power_up", "fail_fast", "junit", "simulator"])]
     cycle_counts: bool,
-    /// Simulator to run
+    /// Simulator
     #[arg(long, value_parser = words(choice::SIMULATOR), default_value = "icarus")]
     simulator: Simulator,
-    /// Read from this file how your design differs by intention: names, polarities, latencies, adapters (TOML)
+    /// Map file (TOML) with the intended differences of your design: names, polarities, latencies, adapters
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
-    /// Compare registers inside the blocks too, which have to have our names [default for our own]
+    /// Also compare registers inside the blocks, which must have the names of tofsim's [default for our own]
     #[arg(long, conflicts_with = "map")]
     registers: bool,
     /// Compare from power-up on, not only from the first reset on [default for our own]
     #[arg(long)]
     from_power_up: bool,
-    /// End at the first mismatch, without the blocks not yet begun, and without a waveform
+    /// Stop at the first mismatch, without a waveform
     #[arg(long)]
     fail_fast: bool,
-    /// Most that a compilation or a simulation may take
+    /// Time limit of each compilation and simulation
     #[arg(long, value_name = "SECONDS", default_value_t = 300,
         value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,
@@ -71,7 +72,7 @@ pub struct Args {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// Write JUnit XML too
+    /// Also write JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
     #[command(flatten)]

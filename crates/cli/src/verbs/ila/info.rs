@@ -13,16 +13,15 @@ use crate::choice::{self, words};
 use crate::text::table::{facts, grouped, table};
 use crate::verbs::terminal::{Console, print};
 
-/// Say what a logic analyser's file holds
+/// Show the contents of a logic analyser's file
 ///
-/// Reads CSV (with or without a row of radices), VCD and .ila archives of Vivado's ILA, and what
-/// chipscopy writes; the contents decide which, not the name. What had to be read otherwise than it
-/// is written there, or taken from another part of an archive, is noted.
+/// Reads CSV (with or without a row of radices), VCD and .ila archives of Vivado's ILA, and what chipscopy writes;
+/// the contents decide which, not the name. Corrections, and values from other parts of an archive, are noted.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The file
     file: PathBuf,
-    /// Radix of the values in a CSV that does not say
+    /// Radix of the values in a CSV without radices
     #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
     /// Print one JSON object

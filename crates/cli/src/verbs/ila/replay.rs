@@ -24,18 +24,18 @@ use crate::text::table::facts;
 use crate::verbs::compare::named_map;
 use crate::verbs::terminal::Console;
 
-/// Make a scenario of what a capture shows of the inputs, to simulate the board's own run
+/// Convert the inputs in a capture to a scenario that replays the board's run
 ///
 /// Codes of the TDC become photons that arrive within their bins, tdc_stop alone photons to half a
 /// sample, codes of the ROM a list of codes, the histogram's readout a preloaded histogram, and
 /// control signals a timeline. Signals are found by the firmware's names or by a map.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  \
+#[command(after_help = "Examples:\n  \
     tofsim ila replay board.ila --map my_ila.toml -o replay/scenario.toml")]
 pub struct Args {
-    /// An ILA's CSV, VCD or .ila archive
+    /// CSV, VCD or .ila archive of an ILA
     capture: PathBuf,
-    /// Scenario to write; the list goes beside it
+    /// Scenario to write, with its list of photons or codes in the same folder
     #[arg(short, long, value_name = "FILE.toml")]
     output: PathBuf,
     /// Match signals by a map file, or by a probe configuration of `ila capture` (name or path)
@@ -44,16 +44,16 @@ pub struct Args {
     /// The analyser's clock, clk_sys or clk_laser [default: the map's, or else clk_sys]
     #[arg(long, value_name = "CLOCK")]
     clock: Option<SampleClock>,
-    /// Not all samples were stored (a capture condition that the map does not have)
+    /// Samples are not contiguous: a capture condition, which the map does not state, selected them
     #[arg(long)]
     qualified: bool,
-    /// Replace the light by this part of the capture [default: the first of these that is probed]
+    /// Replace the photon source by this part of the capture [default: the first of these that is probed]
     #[arg(long = "as", value_name = "KIND", value_parser = words(choice::REPLAY))]
     kind: Option<ReplayKind>,
-    /// Radix of the values in a CSV that does not say
+    /// Radix of the values in a CSV without radices
     #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
-    /// Scenario for what the capture does not show
+    /// Scenario for everything that the capture does not show
     #[arg(long, value_name = "NAME|FILE", default_value = DEFAULT)]
     scenario: String,
     /// Set a scenario key, e.g. `target.distance_m=0.3`; may be repeated

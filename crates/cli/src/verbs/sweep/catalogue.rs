@@ -21,7 +21,7 @@ use crate::report::writer::objects;
 use crate::text::table::{plain, table};
 use crate::verbs::terminal::{Console, print, print_json};
 
-/// List the plans that come with the program
+/// List the built-in plans
 #[derive(Debug, clap::Args)]
 pub struct ListArgs {
     /// Print one JSON object instead of a table
@@ -29,17 +29,17 @@ pub struct ListArgs {
     json: bool,
 }
 
-/// Print a plan that comes with the program
+/// Print a built-in plan
 #[derive(Debug, clap::Args)]
 pub struct ShowArgs {
     /// Its name
     plan: String,
 }
 
-/// List the columns that a table can have
+/// List the available columns
 #[derive(Debug, clap::Args)]
 pub struct ColumnsArgs {
-    /// Estimators whose columns are listed
+    /// Estimators whose columns to list
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',', default_value = "network")]
     estimator: Vec<EstimatorKind>,
     /// Print one JSON object instead of a table
@@ -83,13 +83,13 @@ pub fn columns(args: &ColumnsArgs, console: &Console) -> Result<()> {
     console.report(&(table(["column", "unit", "meaning"], columns.iter().map(row), 9..) + "\n"))
 }
 
-/// Make one table of the shards of a sweep, when all are there
+/// Merge the shards of a sweep into one table
 #[derive(Debug, clap::Args)]
 pub struct MergeArgs {
-    /// The tables of the shards, or folders that have them
+    /// Tables of the shards, or folders that contain them
     #[arg(required = true, value_name = "FILE|DIR")]
     shards: Vec<PathBuf>,
-    /// Write sweep.parquet and sweep.csv there
+    /// Write sweep.parquet and sweep.csv into this folder
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Print one JSON object instead of nothing

@@ -18,37 +18,37 @@ use crate::verbs::draws::use_threads;
 use crate::verbs::options::{ResultArgs, ScenarioArgs};
 use crate::verbs::terminal::{Console, stop_signal};
 
-/// Show the depth's error over time as the die heats up, with a TDC calibrated once and again and again
+/// Show the depth error over time as the die heats up, with a TDC calibrated once and one calibrated repeatedly
 ///
 /// Delays of the chain grow with temperature (tdc.delay_per_c) and fall with the supply (tdc.delay_per_mv); a
-/// calibration knows them as they were. -o writes drift.csv, drift.json and drift.svg.
+/// calibration holds the delays at its time. -o writes drift.csv, drift.json and drift.svg.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
-    tofsim tdc drift -s tdc.profile=kintex7               from 25 to 65 degC in ten minutes\n  \
+    tofsim tdc drift -s tdc.profile=kintex7         25 to 65 degC in ten minutes\n  \
     tofsim tdc drift --every 10 --estimator likelihood_estimator -o drift\n  \
-    tofsim tdc drift mine.toml --temperatures log.csv     as a logger saw it")]
+    tofsim tdc drift mine.toml --temperatures log.csv   logged temperatures")]
 pub struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
     /// Temperatures over time: CSV with header time_s,temperature_c,supply_mv, instead of a ramp
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to", "over", "points"])]
     temperatures: Option<PathBuf>,
-    /// Temperature at which the ramp begins [degC]
+    /// Temperature at the start of the ramp [degC]
     #[arg(long, value_name = "C", default_value_t = 25.0, value_parser = celsius)]
     from: f64,
-    /// Temperature at which it ends [degC]
+    /// Temperature at the end of the ramp [degC]
     #[arg(long, value_name = "C", default_value_t = 65.0, value_parser = celsius)]
     to: f64,
     /// Duration of the ramp [s]
     #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = seconds)]
     over: f64,
-    /// Moments of the ramp, evenly apart
+    /// Number of evenly spaced moments of the ramp
     #[arg(long, value_name = "N", default_value_t = 21, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     points: u32,
     /// Interval between calibrations [s]
     #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = seconds)]
     every: f64,
-    /// Histograms at each moment, for each of the two
+    /// Histograms per moment and calibration
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     repeats: u64,
     /// Estimator of the depths [default: the one in the scenario's estimator slot]
