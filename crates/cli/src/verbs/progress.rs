@@ -41,7 +41,7 @@ impl Progress {
         Progress::of(Meter::new(count, things), is_quiet)
     }
 
-    /// Creates a display over items that take seconds or minutes each, without an estimate of the time that is left.
+    /// Creates a display over items that differ in length, without an estimate of the remaining time.
     pub fn uneven(count: u64, things: &'static str, is_quiet: bool) -> Progress {
         Progress::of(Meter { is_even: false, ..Meter::new(count, things) }, is_quiet)
     }
@@ -81,7 +81,7 @@ impl Progress {
         }
     }
 
-    /// Restarts the estimate of the time that is left.
+    /// Restarts the estimate of the remaining time.
     pub fn reset_eta(&self) {
         self.meter.begin();
     }
@@ -126,7 +126,7 @@ struct Meter {
     done: AtomicU64,
     /// When it began, and how much was done then.
     begun: Mutex<(Instant, u64)>,
-    /// Whether all items take about as long, so that those done tell the time that is left.
+    /// Whether all items take about the same time, so that the remaining time can be estimated.
     is_even: bool,
 }
 

@@ -145,7 +145,7 @@ impl Console {
         Progress::new(count, things, self.quiet)
     }
 
-    /// Creates a progress bar over items that differ in length, without an estimate of the time that is left.
+    /// Creates a progress bar over items that differ in length, without an estimate of the remaining time.
     pub fn uneven_progress(&self, count: u64, things: &'static str) -> Progress {
         Progress::uneven(count, things, self.quiet)
     }

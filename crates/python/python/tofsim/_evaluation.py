@@ -46,7 +46,7 @@ class Evaluation:
         return self.pictures[shown[0]] if shown else None
 
     def _repr_html_(self) -> str:
-        head = "<tr><th>estimator</th><th>2 sd [mm]</th><th>mean error [mm]</th><th>failures</th></tr>"
+        head = "<tr><th>estimator</th><th>2σ [mm]</th><th>mean error [mm]</th><th>failures</th></tr>"
         rows = [_row(name, one["all"]) for name, one in self.estimators.items()]
         return f"<table>{head}{''.join(rows)}</table>{self._repr_svg_() or ''}"
 

@@ -168,7 +168,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_bound_that_there_is_not_has_a_reason() {
+    fn a_missing_bound_has_a_reason() {
         let reason = |invalid_because| bound(&Bound { invalid_because, ..Bound::default() });
         let expected = "Cramer-Rao bound: none, because the pulse energy differs from shot to shot";
         assert_eq!(reason(Some("the pulse energy differs from shot to shot")), expected);
