@@ -23,7 +23,7 @@ pub struct Args {
 /// Runs the verb.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     if args.file.exists() && !args.force {
-        let expected = "is there already; expected the name of a new file, or --force";
+        let expected = "exists already; expected the name of a new file, or --force";
         return Err(Input::new(args.file.display(), expected).into());
     }
     let scenario = scenario::load(scenario::DEFAULT, &[])?.scenario;

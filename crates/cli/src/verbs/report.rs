@@ -227,7 +227,7 @@ impl Parts<'_> {
     fn tdc(&self) -> Result<(Value, Vec<String>)> {
         let setup = self.setup;
         if setup.scenario.tdc.conditions.is_some() {
-            let expected = "a chain is characterised in conditions that stand still";
+            let expected = "a chain is characterised under constant conditions";
             return Err(Input::new("tdc.conditions", expected).into());
         }
         let converter = (&setup.params.tdc, setup.disturbance());

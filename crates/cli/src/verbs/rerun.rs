@@ -126,7 +126,7 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
     let mut beside = names.into_iter().chain([map.as_str()]);
     let found = beside.find_map(|name| Record::find(&read(&folder.join(name)).ok()?));
     found.ok_or_else(|| {
-        let expected = "has no record of how it was made, nor has a summary beside it";
+        let expected = "has no record of its command, and there is no summary in its folder";
         Input::new(path.display(), expected).into()
     })
 }

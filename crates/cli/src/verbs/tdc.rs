@@ -79,7 +79,7 @@ impl OwnArgs {
     fn run(&self, console: &Console) -> Result<ExitCode> {
         let setup = Setup::of_counts(self.scenario.load(None)?)?;
         if let Some(file) = &setup.scenario.tdc.conditions {
-            let expected = "expected none: a chain is characterised in conditions that stand still";
+            let expected = "expected none: a chain is characterised under constant conditions";
             return Err(Input::new("scenario", expected)
                 .field("tdc.conditions")
                 .value(file)

@@ -30,7 +30,7 @@ pub fn run(args: &Args, data: &Path, console: &Console) -> Result<()> {
     let notes = args.notes_on(&setup, &labelled)?;
     console.print_notes(&notes)?;
     if args.estimator.iter().any(|kind| kind.needs() == Needs::Dark) {
-        let expected = "expected estimators of one histogram, it needs a dark one beside each";
+        let expected = "expected estimators of a single histogram: it also needs a dark one";
         return Err(Input::new("--estimator", expected).value("subtraction").into());
     }
     let held = args.output.as_deref().map(FolderLock::take).transpose()?;
