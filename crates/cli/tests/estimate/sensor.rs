@@ -32,7 +32,7 @@ fn a_depth_that_the_second_opinion_does_not_share_has_a_note() {
     let many = case("c13_more_hits_than_shots.csv");
     for (file, text) in [
         ("zeros.csv", "rejects histogram 0: no echo"),
-        ("far.csv", "it says 0.1521 m of histogram 0 and likelihood_estimator 0.7995 m"),
+        ("far.csv", "in histogram 0: 0.1521 m against 0.7995 m"),
         (&many, "more than its shots"),
     ] {
         let found = json(folder, &["estimate", "--json", file]);
