@@ -69,7 +69,10 @@ fn a_network_out_of_its_depth_disagrees_with_it() {
     };
     let one = of_three("1");
     let said = String::from_utf8(one.stderr.clone()).unwrap();
-    assert!(said.contains("note: estimator.kind = network: it disagrees with likelihood_estimator in "), "{said}");
+    assert!(
+        said.contains("note: estimator.kind = network: it disagrees with likelihood_estimator in "),
+        "{said}"
+    );
     assert!(said.contains(" in 3 of 3 frames (most in frame "), "{said}");
     assert_eq!(of_three("2").stderr, one.stderr);
     let table = String::from_utf8(one.stdout).unwrap();
