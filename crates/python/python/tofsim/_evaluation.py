@@ -76,7 +76,7 @@ def evaluate(
     progress: Progress | None = None,
     **options: Any,
 ) -> Evaluation:
-    """Measures how exactly a network and other estimators find the distance, as `tofsim evaluate`.
+    """Measures the accuracy of a network and other estimators, as `tofsim evaluate`.
 
     `grid` is `{key: values}` of any numeric keys, or as the command line has it; further options are the command
     line's: `check=0` leaves out the frames that are simulated cycle by cycle.
