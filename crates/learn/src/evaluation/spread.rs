@@ -84,7 +84,7 @@ impl Spread {
             spread.two_sd_se_mm = if variance == 0.0 {
                 Some(0.0)
             } else {
-                (excess > 0.0).then(|| (excess / n / variance).sqrt())
+                (excess > 0.0).then(|| (excess / n).sqrt() / variance.sqrt())
             };
         }
         spread
