@@ -13,7 +13,7 @@
 //! | go faster where nobody looks at signals | [`Run::stepping`], [`Stepping`], [`Run::many`], [`HistogramRun`] |
 //! | know how much light comes back | [`Budget`], `setup.budget` |
 //! | estimate a depth without a run | [`Setup::estimate`], [`Network`] |
-//! | know whether a frame's depth is to be believed | [`SecondOpinion`] |
+//! | know whether a frame's depth is valid | [`SecondOpinion`] |
 //!
 //! # A frame
 //!

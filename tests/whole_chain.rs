@@ -79,7 +79,7 @@ fn closed_form(distance_m: f64, reflectance: f64) -> Depths {
 #[test]
 fn fifty_seeds_agree_with_the_float_network_on_the_closed_form() {
     println!(
-        "| d [m] | rho | chain: mean error [mm] | 2 sd [mm] | closed form, float: mean error [mm] | 2 sd [mm] |"
+        "| d [m] | rho | chain: mean error [mm] | 2σ [mm] | closed form, float: mean error [mm] | 2 sd [mm] |"
     );
     println!("|---|---|---|---|---|---|");
     for reflectance in REFLECTANCES {

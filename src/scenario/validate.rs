@@ -87,7 +87,7 @@ fn calibration(scenario: &Scenario, checked: &Checked) -> Result<()> {
         ("tdc.supply_mv", tdc.supply_mv, usual.supply_mv),
     ] {
         if tdc.conditions.is_some() && value != usual {
-            let expected = format!("expected {usual}: tdc.conditions says what it is");
+            let expected = format!("expected {usual}: tdc.conditions sets it");
             return Err(checked.fault(key, expected).value(value).into());
         }
     }

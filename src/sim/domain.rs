@@ -60,7 +60,7 @@ pub fn of(scenario: &Scenario, grid: &[GridRange]) -> Result<Domain> {
 pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Result<Vec<Note>> {
     let values = Values::new(scenario, grid)?;
     let Some(domain) = &network.domain else {
-        let text = "the network's file does not say what it was trained for";
+        let text = "the network's file does not state its training domain";
         let name = network.name.as_str();
         let expected = "a file with [domain]";
         let key = "estimator.network";

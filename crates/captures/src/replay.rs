@@ -90,7 +90,7 @@ impl Replay {
         let changes = &observed.pins.changes;
         if !observed.is_continuous() {
             if let Some((sample, ..)) = changes.first() {
-                let expected = "a control signal changes there, but the samples do not tell when";
+                let expected = "a control signal changes there, but the samples do not show when";
                 return Err(Input::new("capture", expected).value(sample).into());
             }
             return Ok(Located::default());

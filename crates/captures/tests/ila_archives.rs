@@ -214,7 +214,7 @@ fn a_word_that_stands_for_two_values_has_none() {
     let state = opened.columns.iter().find(|column| column.name == "state").unwrap();
     let states: Vec<_> = state.states.iter().map(|state| &state.name[..]).collect();
     assert_eq!(states, ["idle"]);
-    let note = "state[1:0]: `run` stands for 0x1 and 0x2, so that it has no value";
+    let note = "state[1:0]: `run` represents both 0x1 and 0x2, and is read as unknown";
     assert!(opened.notes.iter().any(|own| own == note), "{:?}", opened.notes);
     let words = twice.replace("\"idle\"", "\"run\"");
     let (opened, _) = read_bytes(&views_but(&[("waveform.csv", words.as_bytes())]), None).unwrap();

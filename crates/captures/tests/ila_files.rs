@@ -94,7 +94,7 @@ fn radices_that_the_file_does_not_tell_are_inferred() {
 fn a_column_of_several_readings_is_an_error_until_one_is_chosen() {
     let error = read(&fixture("ambiguous.csv"), None).err().unwrap().to_string();
     let expected =
-        "count[15:0] = 1000: may be HEX or UNSIGNED or SIGNED or BINARY; tell with --radix";
+        "count[15:0] = 1000: may be HEX or UNSIGNED or SIGNED or BINARY; select one with --radix";
     assert!(error.contains(&format!("ambiguous.csv:2:9: {expected}")), "{error}");
     let counts = |radix| {
         let (opened, rows) = read(&fixture("ambiguous.csv"), Some(radix)).unwrap();

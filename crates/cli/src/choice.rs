@@ -68,9 +68,9 @@ pub const CAPTURE_FORMAT: &[Choice<CaptureFormat>] = &[
 
 /// Parts of a capture that a replay takes.
 pub const REPLAY: &[Choice<ReplayKind>] = &[
-    ("photons", ReplayKind::Photons, "When a photon arrived in each shot"),
-    ("codes", ReplayKind::Codes, "The code of each shot, by the ROM in the TDC's place"),
-    ("histogram", ReplayKind::Histogram, "The histogram that the estimator read"),
+    ("photons", ReplayKind::Photons, "Arrival time of the photon in each shot"),
+    ("codes", ReplayKind::Codes, "Code of each shot, from a ROM in place of the TDC"),
+    ("histogram", ReplayKind::Histogram, "Histogram that the estimator read"),
 ];
 
 /// Shapes of the pulse.
@@ -119,12 +119,12 @@ pub enum Fidelity {
 
 impl Fidelity {
     pub const ALL: [Choice<Fidelity>; 3] = [
-        ("cycle", Fidelity::Cycle, "Every register at every edge that changes one"),
-        ("shot", Fidelity::Shot, "A draw, a code and a count for each shot; no signals to look at"),
+        ("cycle", Fidelity::Cycle, "Simulate every register"),
+        ("shot", Fidelity::Shot, "Draw each shot; no waveforms"),
         (
             "histogram",
             Fidelity::Histogram,
-            "A draw for each frame, of its whole histogram; for MODE 0, without control changes",
+            "Draw each frame's histogram; MODE 0 only, without control changes",
         ),
     ];
 

@@ -20,7 +20,9 @@ use std::process::ExitCode;
 
 use verbs::{Cli, interrupt};
 
-use tofsim::error::{Error, tell};
+use tofsim::error::Error;
+
+use text::wrap::message;
 
 /// Differences found, or a check failed.
 const DIFFERENT: u8 = 1;
@@ -41,7 +43,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
             interrupt::INTERRUPTED
         }
         Err(error) => {
-            tell(format_args!("tofsim: {error}"));
+            message(format_args!("tofsim: {error}"));
             FAULT
         }
     }

@@ -44,7 +44,7 @@ use std::time::Instant;
 
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use host::Host;
-use terminal::Talk;
+use terminal::Console;
 
 use tofsim::error::{Input, Result};
 
@@ -60,7 +60,7 @@ pub struct Cli {
     #[command(subcommand)]
     verb: Verb,
     #[command(flatten)]
-    talk: Talk,
+    console: Console,
 }
 
 /// Result of a command that ran within another program.
@@ -108,7 +108,7 @@ impl Cli {
         let mut command = Cli::command();
         let given = command.try_get_matches_from_mut(words).and_then(|matches| {
             let mut cli = Cli::from_arg_matches(&matches)?;
-            cli.talk.command = command_line(&command, &matches);
+            cli.console.command = command_line(&command, &matches);
             Ok(cli)
         });
         given.unwrap_or_else(|fault| usage::readable(fault, &command).exit())
@@ -120,12 +120,12 @@ impl Cli {
     }
 
     /// Does what a command of another one's asks for, as [`Cli::run`].
-    fn run_within(words: &[&str], talk: &Talk) -> Result<ExitCode> {
+    fn run_within(words: &[&str], console: &Console) -> Result<ExitCode> {
         let mut command = Cli::command().no_binary_name(true);
         let fault = |error| Input::new("command", error);
         let matches = command.try_get_matches_from_mut(words).map_err(fault)?;
         let mut cli = Cli::from_arg_matches(&matches).map_err(fault)?;
-        cli.talk = talk.within(command_line(&command, &matches));
+        cli.console = console.within(command_line(&command, &matches));
         cli.run()
     }
 
@@ -142,7 +142,7 @@ impl Cli {
         };
         let matches = matches.map_err(fault)?;
         let mut cli = Cli::from_arg_matches(&matches).map_err(fault)?;
-        cli.talk = cli.talk.silent(command_line(&command, &matches));
+        cli.console = cli.console.silent(command_line(&command, &matches));
         let (status, text) = host.around(|| cli.run());
         Ok(Answer { is_fine: status? == ExitCode::SUCCESS, text })
     }
@@ -151,40 +151,40 @@ impl Cli {
     pub fn run(&self) -> Result<ExitCode> {
         let begun = Instant::now();
         let status = self.run_verb()?;
-        let verb = self.talk.command.first().map_or("tofsim", String::as_str);
-        self.talk.detail(format_args!("{verb}: {:.2} s", begun.elapsed().as_secs_f64()));
+        let verb = self.console.command.first().map_or("tofsim", String::as_str);
+        self.console.detail(format_args!("{verb}: {:.2} s", begun.elapsed().as_secs_f64()));
         Ok(status)
     }
 
     fn run_verb(&self) -> Result<ExitCode> {
-        let talk = &self.talk;
+        let console = &self.console;
         match &self.verb {
-            Verb::New(args) => new::run(args, talk),
-            Verb::Run(args) => run::run(args, talk),
-            Verb::Rerun(args) => return rerun::run(args, talk),
-            Verb::Budget(args) => budget::run(args, talk),
-            Verb::Estimate(args) => estimate::run(args, talk),
-            Verb::Evaluate(args) => return evaluate::run(args, talk),
-            Verb::Quantize(args) => quantize::run(args, talk),
-            Verb::Calibrate(args) => calibrate::run(args, talk),
-            Verb::Tdc(args) => return tdc::run(args, talk),
-            Verb::Spad(args) => spad::run(args, talk),
-            Verb::Vectors(args) => vectors::run(args, talk),
-            Verb::Verify(args) => return verify::run(args, talk),
-            Verb::Dpi(args) => dpi::run(args, talk),
-            Verb::Timing(args) => return timing::run(args, talk),
-            Verb::Sweep(args) => sweep::run(args, talk),
-            Verb::Build(args) => return build::run(args, talk, Cli::run_within),
-            Verb::Reproduce(args) => reproduce::run(args, talk),
-            Verb::Report(args) => return report::run(args, talk, Cli::run_within),
-            Verb::Serve(args) => return serve::run(args, talk),
-            Verb::Ila(args) => ila::run(args, talk),
-            Verb::Compare(args) => return compare::run(args, talk),
-            Verb::Dataset(args) => dataset::run(args, talk),
-            Verb::Train(args) => train::run(args, talk),
-            Verb::Scenario(args) => scenario::run(args, talk),
+            Verb::New(args) => new::run(args, console),
+            Verb::Run(args) => run::run(args, console),
+            Verb::Rerun(args) => return rerun::run(args, console),
+            Verb::Budget(args) => budget::run(args, console),
+            Verb::Estimate(args) => estimate::run(args, console),
+            Verb::Evaluate(args) => return evaluate::run(args, console),
+            Verb::Quantize(args) => quantize::run(args, console),
+            Verb::Calibrate(args) => calibrate::run(args, console),
+            Verb::Tdc(args) => return tdc::run(args, console),
+            Verb::Spad(args) => spad::run(args, console),
+            Verb::Vectors(args) => vectors::run(args, console),
+            Verb::Verify(args) => return verify::run(args, console),
+            Verb::Dpi(args) => dpi::run(args, console),
+            Verb::Timing(args) => return timing::run(args, console),
+            Verb::Sweep(args) => sweep::run(args, console),
+            Verb::Build(args) => return build::run(args, console, Cli::run_within),
+            Verb::Reproduce(args) => reproduce::run(args, console),
+            Verb::Report(args) => return report::run(args, console, Cli::run_within),
+            Verb::Serve(args) => return serve::run(args, console),
+            Verb::Ila(args) => ila::run(args, console),
+            Verb::Compare(args) => return compare::run(args, console),
+            Verb::Dataset(args) => dataset::run(args, console),
+            Verb::Train(args) => train::run(args, console),
+            Verb::Scenario(args) => scenario::run(args, console),
             Verb::Completions(args) => completions::run(args, &mut Cli::without_help()),
-            Verb::Man(args) => man::run(args, Cli::without_help(), talk),
+            Verb::Man(args) => man::run(args, Cli::without_help(), console),
         }?;
         Ok(ExitCode::SUCCESS)
     }

@@ -122,15 +122,15 @@ fn a_verdict_says_whether_the_laser_is_within_class_1_and_for_how_long() {
 fn a_laser_above_class_1_is_said_on_stderr_and_refused_when_strict() {
     let args = ["budget", "-s", "laser.average_power_w=0.1"];
     let found = output(empty().path(), &args);
-    let (table, talk) = (String::from_utf8(found.stdout), String::from_utf8(found.stderr));
+    let (table, console) = (String::from_utf8(found.stdout), String::from_utf8(found.stderr));
     let table = table.unwrap();
     assert!(
         table.contains(
             " eye safety            above        52.08 of 10.85 mW, Class 1 for one frame"
         )
     );
-    let talk = talk.unwrap();
-    assert!(talk.contains("note: laser.average_power_w = 0.1: a frame: 52.08 mW"), "{talk}");
+    let console = console.unwrap();
+    assert!(console.contains("note: laser.average_power_w = 0.1: a frame: 52.08 mW"), "{console}");
     assert!(refused(empty().path(), &[&args[..], &["--strict"]].concat()).contains("--strict"));
     let dim = ["budget", "--strict", "-s", "laser.average_power_w=2e-3"];
     assert!(

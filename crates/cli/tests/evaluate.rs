@@ -269,3 +269,18 @@ fn what_is_written_does_not_depend_on_the_folder() {
         assert_eq!(here, there);
     }
 }
+
+#[test]
+fn too_few_errors_have_no_standard_error_and_a_missing_bound_has_a_reason() {
+    let folder = empty();
+    let few = ["evaluate", "--grid", "target.distance_m=0.5", "--repeats", "2", "--check", "0"];
+    let text = stdout(folder.path(), &few);
+    assert!(!text.contains("+-0.00") && !text.contains("No Cramer-Rao bound"), "{text}");
+    let report = json(folder.path(), &[&few[..], &["--json"]].concat());
+    let found = at(&report, "network", 0.5);
+    assert!(found["two_sd_mm"].is_number() && found["two_sd_se_mm"].is_null(), "{found}");
+    let text = stdout(folder.path(), &[&few[..], &["-s", "laser.energy_jitter=0.3"]].concat());
+    let why =
+        "No Cramer-Rao bound where there is a dash: the pulse energy differs from shot to shot";
+    assert!(text.replace("\n  ", " ").contains(why), "{text}");
+}

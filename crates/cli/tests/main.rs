@@ -32,6 +32,7 @@ mod measured;
 mod new;
 mod parquet_files;
 mod quantize;
+mod readme;
 mod recalibration;
 mod replay;
 mod report;

@@ -158,7 +158,7 @@ fn a_truth_that_does_not_fit_is_refused() {
     let both = ["evaluate", "--data", "d", "--grid", "thesis"];
     assert!(refused(folder, &both).contains("cannot be used with"));
     let pair = ["evaluate", "--data", "d", "--estimator", "subtraction"];
-    assert!(refused(folder, &pair).contains("a dark one beside each"));
+    assert!(refused(folder, &pair).contains("it also needs a dark one"));
 }
 
 #[test]

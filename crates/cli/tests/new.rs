@@ -22,7 +22,7 @@ fn a_starter_has_twenty_keys_is_fine_and_is_not_overwritten() {
 
     std::fs::write(&file, text.replace("distance_m = 0.5", "distance_m = 0.3")).unwrap();
     let error = refused(folder, &["new", "mine.toml"]);
-    assert!(error.contains("mine.toml: is there already"), "{error}");
+    assert!(error.contains("mine.toml: exists already"), "{error}");
     assert!(std::fs::read_to_string(&file).unwrap().contains("distance_m = 0.3"));
     stdout(folder, &["new", "mine.toml", "--force"]);
     assert_eq!(std::fs::read_to_string(&file).unwrap(), text);

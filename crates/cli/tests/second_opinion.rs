@@ -55,7 +55,7 @@ fn every_estimate_has_the_same_members() {
 }
 
 #[test]
-fn a_network_out_of_its_depth_parts_from_it() {
+fn a_network_out_of_its_depth_disagrees_with_it() {
     let far = ["-s", "target.distance_m=0.8"];
     let found = run(&[&far[..], &["--frames", "100"]].concat());
     assert_eq!(notes(&found), ["outside-training", "second-opinion"]);
@@ -69,11 +69,14 @@ fn a_network_out_of_its_depth_parts_from_it() {
     };
     let one = of_three("1");
     let said = String::from_utf8(one.stderr.clone()).unwrap();
-    assert!(said.contains("note: estimator.kind = network: it says "), "{said}");
-    assert!(said.contains(" m of 3 of 3 frames (furthest in frame "), "{said}");
+    assert!(
+        said.contains("note: estimator.kind = network: it disagrees with likelihood_estimator in "),
+        "{said}"
+    );
+    assert!(said.contains(" in 3 of 3 frames (most in frame "), "{said}");
     assert_eq!(of_three("2").stderr, one.stderr);
     let table = String::from_utf8(one.stdout).unwrap();
-    assert!(table.contains("of 3 depths 3 part from it; of 0 frames it believes none"), "{table}");
+    assert!(table.contains("3 of 3 depths disagree with it; it rejected 0 frames"), "{table}");
     let table = stdout(empty().path(), &[&["run", "--waves", "none"], &far[..]].concat());
     assert!(
         table.contains("second opinion  0.79") || table.contains("second opinion  0.80"),

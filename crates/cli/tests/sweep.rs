@@ -170,6 +170,7 @@ fn a_search_finds_the_depth_range_of_the_worst_case() {
     let home = empty();
     let folder = home.path();
     let text = stdout(folder, &["sweep", "show", "fig-4-2"]);
+    assert_eq!(stdout(folder, &["sweep", "show", "fig-4.2"]), text);
     let text = text
         .replace("range = \"0.010..0.020:0.002\"", "values = [0.012, 0.020]")
         .replace("repeats = 20", "repeats = 5");

@@ -84,12 +84,12 @@ fn first<'a>(run: &'a Run, of: impl Fn(&'a str) -> Option<&'a str>) -> Vec<Strin
 fn seen(fault: &Fault) -> Result<bool, String> {
     let (spec, folder) = (blocks::find(fault.block()).unwrap(), tempfile::tempdir().unwrap());
     // As many shots as the block's vectors have; of the whole, a frame as the scenario has it.
-    let (set, as_told): (&[&str], _) = match spec.name {
+    let (set, as_configured): (&[&str], _) = match spec.name {
         "frame_ctrl" => (&["firmware.shots_per_frame=3"], false),
         "tof_top" => (&["firmware.shots_per_frame=60"], true),
         _ => (&[], false),
     };
-    let setting = Setting { as_told, ..Setting::new(Setup::load("kc705", set).unwrap()) };
+    let setting = Setting { as_configured, ..Setting::new(Setup::load("kc705", set).unwrap()) };
     let vectors = (spec.record)(spec, &setting).unwrap();
     Bench::new(&vectors).write(folder.path()).unwrap();
     write(folder.path(), ("kc705", set), Some(&[spec.name]));

@@ -51,7 +51,7 @@ fn main() -> Result<()> {
     let rows = Rows::Subset(Subset::new(Grid::test(), 1020, 1));
     let estimators = panel.into_estimators();
     let evaluation = Evaluation::new(&source, &rows, 1, &estimators, None, |_| ())?;
-    println!("\nestimator  mean error [mm]  2 sd [mm]  failures");
+    println!("\nestimator  mean error [mm]  2σ [mm]  failures");
     for errors in &evaluation.columns {
         let all = Figures::new(&evaluation, errors, 0.1).all;
         let [mean, two_sd] = [all.mean_mm, all.two_sd_mm].map(Option::unwrap_or_default);

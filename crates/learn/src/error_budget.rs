@@ -4,9 +4,8 @@
 //! A [variant] is a scenario with some effects off. Its histograms are drawn from the closed form, with
 //! the same random numbers in each variant, so that the difference between two is known far better than either.
 //! Without shot noise the histogram is the expected one, rounded to whole hits in sixteen ways. The estimator is
-//! told what a variant's histograms are like, as far as it asks for shots, bins or the pulse; a network cannot be
-//! told, and what it was not trained to do without is [left out](state::EffectState::LeftOut), that is on
-//! throughout. An effect alone has no spread without shot noise: its bias is that of the expected histogram, its
+//! configured with the shots, bins and pulse of each variant, if it uses them. A network is not; effects that it was
+//! not trained to work without are [left out](state::EffectState::LeftOut), that is, on throughout. An effect alone has no spread without shot noise: its bias is that of the expected histogram, its
 //! spread that of the effect beside shot noise.
 //!
 //! Where shots depend on each other (afterpulses, MODE 1) there is no closed form. Such an effect is in the last
@@ -15,6 +14,7 @@
 
 mod bound;
 mod budget;
+mod configured;
 pub mod effect;
 mod expected;
 pub mod figures;
@@ -24,7 +24,6 @@ mod presence;
 mod quantile;
 mod simulated;
 pub mod state;
-mod told;
 mod variant;
 
 pub use bound::Bound;

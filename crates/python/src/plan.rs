@@ -159,7 +159,7 @@ impl Plan {
         seed: Option<u64>,
     ) -> Result<Self> {
         let (home, folder) = Bundle { files }.unpack()?;
-        let label = if builtin::plan(name) == Some(text) {
+        let label = if builtin::plan(name).is_some_and(|(_, known)| known == text) {
             format!("plan {name}")
         } else {
             source.to_owned()

@@ -43,7 +43,8 @@ impl Watch {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
 
-    fn told(&self) -> (u64, u64) {
+    /// Returns the finished and the total amount.
+    fn position(&self) -> (u64, u64) {
         (self.done.load(Ordering::Relaxed), self.all.load(Ordering::Relaxed))
     }
 }
@@ -83,11 +84,11 @@ pub fn run<T: Send + 'static>(
     let worker = spawned.map_err(|error| Input::new("threads", error))?;
     let receiver = Mutex::new(receiver);
     let wait = |time| py.detach(|| received(&receiver, time));
-    let mut told = (0, 0);
+    let mut reported = (0, 0);
     loop {
         match wait(LOOK) {
             Ok(result) => {
-                tell(py, &terms, &watch, &mut told)?;
+                tell(py, &terms, &watch, &mut reported)?;
                 return Ok(result?);
             }
             Err(RecvTimeoutError::Disconnected) => {
@@ -96,7 +97,7 @@ pub fn run<T: Send + 'static>(
             }
             Err(RecvTimeoutError::Timeout) => {}
         }
-        let heard = py.check_signals().and_then(|()| tell(py, &terms, &watch, &mut told));
+        let heard = py.check_signals().and_then(|()| tell(py, &terms, &watch, &mut reported));
         if let Err(why) = heard {
             watch.stop.store(true, Ordering::Relaxed);
             drop(wait(PATIENCE));
@@ -112,11 +113,13 @@ fn received<T>(
     receiver.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(time)
 }
 
-/// Calls the progress function, if there is more than it was told.
-fn tell(py: Python<'_>, terms: &Terms, watch: &Watch, told: &mut (u64, u64)) -> PyResult<()> {
-    let now = watch.told();
-    let Some(progress) = terms.progress.as_ref().filter(|_| now != *told) else { return Ok(()) };
-    *told = now;
+/// Calls the progress function if the position has changed since it was `reported`.
+fn tell(py: Python<'_>, terms: &Terms, watch: &Watch, reported: &mut (u64, u64)) -> PyResult<()> {
+    let now = watch.position();
+    let Some(progress) = terms.progress.as_ref().filter(|_| now != *reported) else {
+        return Ok(());
+    };
+    *reported = now;
     progress.call1(py, now).map(drop)
 }
 

@@ -18,7 +18,7 @@ mod vpi;
 /// Scenario, seed and language of checkers.
 pub struct Checkers {
     setup: Arc<Setup>,
-    /// The scenario as the library is told it: its name or path, and a line for each key that is set.
+    /// The scenario for the library: a line with its name or path, and one for each key that is set.
     scenario: String,
     blocks: Vec<Block>,
 }

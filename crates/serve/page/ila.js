@@ -35,7 +35,7 @@ export function show(state) {
   $("ila-disarm").disabled = status !== "armed";
   if (status === "armed") {
     const waits = armed.trigger ? `waits for ${armed.trigger}` : "takes any sample";
-    const still = state.running ? "" : "; the run stands still";
+    const still = state.running ? "" : "; the run is stopped";
     say($("ila-status"), `${armed.name} is armed and ${waits}: ${armed.triggers} of ${armed.windows} windows${still}`);
   } else if (capture) {
     const times = capture.trigger_times_us.slice(0, 4).join(", ");

@@ -22,7 +22,11 @@ fn a_wrong_request_says_what_was_expected() {
         ("scene", "{\"target.distance_m\":-1}", "target.distance_m = -1"),
         ("scene", "{\"target.distance_m\":1e999}", "number out of range"),
         ("ila", "{\"arm\":true}", "expected either set_up"),
-        ("ila", "{\"arm\":true,\"set_up\":\"fig_9\"}", "no such file or built-in set-up"),
+        (
+            "ila",
+            "{\"arm\":true,\"set_up\":\"fig_9\"}",
+            "no such file or built-in probe configuration",
+        ),
         ("ila", "{\"arm\":true,\"set_up\":\"/etc/passwd\"}", "expected the name of a built-in"),
         ("ila", "{\"arm\":true,\"set_up\":\"fig_6_6\",\"trigger\":\"X rising\"}", "no such signal"),
         (

@@ -78,9 +78,12 @@ const EXPECTED: &[Expected] = &[
     ("pulse_energy_j", "J", "Energy of a laser pulse", |setup| {
         Ok(Some(setup.budget.pulse_energy_j))
     }),
-    ("average_power_w", "W", "Average power of the laser at the firmware's rate", |setup| {
-        Ok(Some(setup.exposure_to_a_frame().average_w))
-    }),
+    (
+        "average_power_w",
+        "W",
+        "Average power of the laser at the firmware's rate; the key laser.average_power_w is that at laser.repetition_rate_hz",
+        |setup| Ok(Some(setup.exposure_to_a_frame().average_w)),
+    ),
     ("eye_safety_limit_w", "W", "Class 1 limit for an eye that sees a frame (eq. 3.3)", |setup| {
         Ok(setup.exposure_to_a_frame().limit_w)
     }),

@@ -58,7 +58,7 @@ impl Plan {
     /// # Errors
     /// If there is no such plan, it is invalid, or the scenario has no such key or value.
     pub fn load(name: &str, set: &[String], seed: Option<u64>) -> Result<Self> {
-        if let Some(text) = builtin::plan(name) {
+        if let Some((name, text)) = builtin::plan(name) {
             return Plan::parse(name, &format!("plan {name}"), text, Path::new(""), set, seed);
         }
         let path = Path::new(name);

@@ -26,7 +26,7 @@ pub fn delays_ps(source: &str, text: &str) -> Result<Vec<f64>> {
         in_turn(&input, delays.len(), *LENGTHS.end())?;
         let delay = input.field::<f64>(1).filter(|ps| (0.0..=LONGEST_PS).contains(ps));
         let expected =
-            "expected a delay from 0 to 100000 ps: one that is negative can stand in tap_delays_ps";
+            "expected a delay from 0 to 100000 ps: a negative delay is possible in tap_delays_ps";
         delays.push(delay.ok_or_else(|| input.fault(1, expected))?);
     }
     long_enough(source, "tap", delays.len())?;

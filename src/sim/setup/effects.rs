@@ -20,6 +20,11 @@ impl Setup {
         self.obstacles(method).next().is_none()
     }
 
+    /// Returns why a method is invalid: the reason of the first effect that invalidates it.
+    pub fn why_not(&self, method: Method) -> Option<&'static str> {
+        self.obstacles(method).next().map(|found| found.effect.why())
+    }
+
     /// Refuses a setup with an effect that invalidates a method, which `user` uses.
     ///
     /// # Errors

@@ -97,8 +97,9 @@ impl Setup {
         };
         if !C4_NM.contains(&laser.wavelength_nm) {
             let expected = format!("{} to {}", C4_NM.start(), C4_NM.end());
-            let text =
-                format!("{what}: no Class 1 limit to tell, Table 3.1 has none for such light");
+            let text = format!(
+                "{what}: no Class 1 limit is known, because Table 3.1 has none for such light"
+            );
             let (key, value) = ("laser.wavelength_nm", laser.wavelength_nm);
             return Some(Note::new(NoteCode::EyeSafety, key, value, expected, text));
         }
@@ -106,7 +107,7 @@ impl Setup {
             let (key, value) = ("laser.repetition_rate_hz", laser.repetition_rate_hz);
             let expected = format!("{} or more", (self.pulses() / LONGEST_S).ceil());
             let text = format!(
-                "{what}: no Class 1 limit to tell, an exposure of {length} is outside Table 3.1"
+                "{what}: no Class 1 limit is known, because an exposure of {length} is outside Table 3.1"
             );
             return Some(Note::new(NoteCode::EyeSafety, key, value, expected, text));
         };

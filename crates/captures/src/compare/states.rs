@@ -157,9 +157,10 @@ fn states(pair: &Pair, map: &SignalMap, bits: Option<&Signal>, width: u32) -> Ha
         is_it(&pair.name) || is_it(&pair.other)
     };
     let rules = map.signal.iter().filter(|rule| rule.a.iter().chain(&rule.b).any(called));
-    let told = rules.flat_map(|rule| rule.states.iter().map(|(name, bits)| (name.clone(), *bits)));
+    let configured =
+        rules.flat_map(|rule| rule.states.iter().map(|(name, bits)| (name.clone(), *bits)));
     let fits = |(_, bits): &(String, u64)| width >= 64 || bits >> width == 0;
-    booleans.chain(learned).chain(told).filter(fits).collect()
+    booleans.chain(learned).chain(configured).filter(fits).collect()
 }
 
 /// Formats a note on words whose values are unknown.

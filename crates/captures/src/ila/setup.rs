@@ -140,8 +140,9 @@ impl AnalyserSetup {
         let path = Path::new(name);
         if !path.exists() && !name.contains(['/', '.']) {
             let (hint, names) = hint(name, builtin::SET_UPS.iter().map(|(name, _)| *name));
-            let expected =
-                format!("no such file or built-in set-up{hint}; expected a path or one of {names}");
+            let expected = format!(
+                "no such file or built-in probe configuration{hint}; expected a path or one of {names}"
+            );
             return Err(Input::new("--probes", expected).value(name).into());
         }
         let text = read_text(path)?;

@@ -101,7 +101,7 @@ impl Findings for PulseFindings {
             .words("pulse", |one| name(one.kind))
             .words("sigma [ps]", |one| parts(one)[0].clone())
             .words("tail [ps]", |one| parts(one)[1].clone())
-            .words("log L", |one| format!("{:.1}", one.log_likelihood - best))
+            .words("log L", |one| table::fixed(one.log_likelihood - best, 1))
             .words("chi2 / dof", |Candidate { goodness, .. }| {
                 format!("{:.3}", goodness.chi_square / goodness.degrees_of_freedom)
             })
@@ -175,13 +175,13 @@ fn parts(candidate: &Candidate) -> [String; 2] {
 
 /// Draws the pulse in the bins, the pulse to take and the scenario's.
 fn svg(calibration: &Calibration) -> Result<String> {
-    let (taken, told) = (calibration.taken(), &calibration.candidates[0].pulse);
+    let (taken, assumed) = (calibration.taken(), &calibration.candidates[0].pulse);
     let [from_ps, until_ps] = taken.pulse.ends_ps().map(|ps| 1.15 * ps);
     let line = |pulse: &Pulse| -> Vec<(f64, f64)> {
         let at = |k: usize| from_ps + (until_ps - from_ps) * k as f64 / POINTS as f64;
         (0..=POINTS).map(|k| (at(k), 1e3 * pulse.density(at(k)))).collect()
     };
-    let lines = [line(&taken.pulse), line(told)];
+    let lines = [line(&taken.pulse), line(assumed)];
     let most = lines.iter().flatten().map(|point| point.1).fold(0.0, f64::max);
     let within = |point: &&[f64; 3]| {
         let [t_ps, density, se] = **point;
@@ -210,9 +210,9 @@ fn svg(calibration: &Calibration) -> Result<String> {
             .draw_series(dots.map(|at| Circle::new(at, 2, BLACK.mix(0.6).filled())))?
             .label("bins, and one standard error")
             .legend(|(x, y)| Circle::new((x + 6, y), 2, BLACK.mix(0.6).filled()));
-        let [fitted, told] = lines;
+        let [fitted, assumed] = lines;
         chart
-            .draw_series(DashedLineSeries::new(told, 6, 4, RED.mix(0.7).stroke_width(2)))?
+            .draw_series(DashedLineSeries::new(assumed, 6, 4, RED.mix(0.7).stroke_width(2)))?
             .label("the scenario's pulse")
             .legend(|(x, y)| PathElement::new([(x, y), (x + 12, y)], RED.mix(0.7)));
         chart

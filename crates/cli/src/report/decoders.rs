@@ -8,7 +8,7 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::characterisation::decoders::{Comparison, DecoderFigures, Read};
 
 use crate::text::svg::{COLOURS, legend, picture};
-use crate::text::table::grouped;
+use crate::text::table::{fixed, grouped};
 
 use super::sheet::Digits::{Fixed, Shortest};
 use super::sheet::{NamedText, Sheet};
@@ -81,7 +81,9 @@ fn widths(decoders: &[DecoderFigures]) -> Sheet<'_, DecoderFigures> {
         .both(("dnl_rms_lsb", Fixed(5)), ("DNL rms", Fixed(3)), |one| one.dnl.rms)
         .column("dnl_least_lsb", Fixed(5), |one| one.dnl.least)
         .column("dnl_largest_lsb", Fixed(5), |one| one.dnl.largest)
-        .words("range [LSB]", |one| format!("{:.2} .. {:.2}", one.dnl.least, one.dnl.largest))
+        .words("range [LSB]", |one| {
+            [one.dnl.least, one.dnl.largest].map(|end| fixed(end, 2)).join(" .. ")
+        })
         .both(("widest_ps", Fixed(3)), ("widest", Fixed(1)), |one| one.widest_ps)
         .both(("equivalent_ps", Fixed(4)), ("equiv. [ps]", Fixed(2)), |one| one.equivalent_ps)
 }

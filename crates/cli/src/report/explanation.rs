@@ -6,7 +6,7 @@ use tofsim_learn::quantize::explain::{ErrorBudget, ExplainedNeuron, WordAndTwin}
 use tofsim_learn::quantize::likelihood::StageValue;
 use tofsim_learn::quantize::{ExplainedLikelihood, Explanation};
 
-use crate::text::table::table;
+use crate::text::table::{signed, table};
 
 /// The tables, with a line about what saturates and where the two first part.
 pub fn network(explained: &Explanation) -> String {
@@ -41,8 +41,8 @@ fn row(layer: &str, neuron: String, pair: &WordAndTwin, note: String) -> [String
         pair.word.to_string(),
         format!("{:.8}", pair.fixed),
         format!("{:.8}", pair.float),
-        format!("{:+.2}", pair.difference_lsb),
-        format!("{:+.4}", pair.difference_mm),
+        signed(pair.difference_lsb, 2),
+        signed(pair.difference_mm, 4),
         note,
     ]
 }
@@ -55,7 +55,7 @@ fn budget(budget: &ErrorBudget) -> String {
         ("W2 and B2 to their words", budget.output_weights_mm),
         ("all", budget.total_mm),
     ];
-    let rows = parts.map(|(part, mm)| [part.to_owned(), format!("{mm:+.4}")]);
+    let rows = parts.map(|(part, mm)| [part.to_owned(), signed(mm, 4)]);
     table(["what rounding adds to the depth", "mm"], rows, 1..)
 }
 

@@ -12,6 +12,7 @@ use tofsim::sim::setup::Setup;
 
 use crate::page::html::{Document, commands, section, table, tiles, wide_figure};
 use crate::record::Record;
+use crate::text::table::fixed;
 
 /// Caption of the frame's picture.
 const FRAME: &str = "Its histogram, by what caused each count. Its waveform, and save files for GTKWave and Surfer, are in frame/.";
@@ -88,7 +89,9 @@ impl Page<'_> {
     /// The numbers that a reader looks for first.
     fn tiles(&self) -> String {
         let all = &self.evaluation["estimators"][0]["all"];
-        let mm = |key: &str| all[key].as_f64().map_or("-".to_owned(), |mm| format!("{mm:.2} mm"));
+        let mm = |key: &str| {
+            all[key].as_f64().map_or("-".to_owned(), |mm| format!("{} mm", fixed(mm, 2)))
+        };
         let (part, luts_of) = match self.setup.scenario.pll.part {
             Part::Kintex7 => ("kintex7", "LUTs of a Kintex-7"),
             Part::Ecp5 => ("ecp5", "LUTs of an ECP5"),

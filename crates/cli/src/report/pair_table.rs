@@ -6,7 +6,7 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::subtraction::NAME;
 use tofsim_learn::estimation::{Estimate, HistogramPair};
 
-use crate::text::table::{facts, grouped};
+use crate::text::table::{facts, grouped, signed};
 
 use super::frame_log::FrameLog;
 use super::pairs::{PairStatistics, mean, right_of_echo};
@@ -53,7 +53,7 @@ fn one_pair(
     ]);
     if let Some(bin) = right_of_echo(setup) {
         let hits = mean(&difference[bin..]);
-        let text = format!("{hits:+.1} hits in a bin on average, from bin {bin} on");
+        let text = format!("{} hits per bin on average, from bin {bin} on", signed(hits, 1));
         rows.push(("right of the echo", text));
     }
     let cycles = dark.frame_cycles + lit.frame_cycles + 1;
@@ -91,7 +91,7 @@ pub fn lines(statistics: &PairStatistics) -> String {
         text += "\n";
     }
     if let Some(hits) = statistics.right_of_echo {
-        text += &format!("right of the echo: {hits:+.2} hits in a bin on average\n");
+        text += &format!("right of the echo: {} hits per bin on average\n", signed(hits, 2));
     }
     text
 }

@@ -104,8 +104,8 @@ impl PairLog {
     }
 }
 
-/// The first bin that the echo has no part in any more; none where air sends light back from behind it.
-pub(super) fn right_of_echo(setup: &Setup) -> Option<usize> {
+/// Returns the first bin after the echo, if there is one; none if air behind it sends light back.
+pub fn right_of_echo(setup: &Setup) -> Option<usize> {
     setup.true_depth_m()?;
     let budget = &setup.budget;
     if budget.backscatter_per_shot > 0.0 {

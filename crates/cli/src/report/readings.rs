@@ -3,7 +3,7 @@
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::Estimate;
 
-use crate::text::table::{number_or_dash, table};
+use crate::text::table::{number_or_dash, signed, signed_or_dash, table};
 
 use super::frame_log::FrameLog;
 use super::statistics::EstimatorStatistics;
@@ -11,7 +11,7 @@ use super::statistics::EstimatorStatistics;
 /// Returns a row for each estimator's result of the only frame or pair, with its error.
 pub fn rows(setup: &Setup, readings: &[Estimate]) -> impl Iterator<Item = (&'static str, String)> {
     readings.iter().map(|reading| {
-        let error = |depth_m: f64, truth| format!("  {:+.2} mm", 1e3 * (depth_m - truth));
+        let error = |depth_m: f64, truth| format!("  {} mm", signed(1e3 * (depth_m - truth), 2));
         let depth = |depth_m| {
             let error = setup.true_depth_m().map_or(String::new(), |truth| error(depth_m, truth));
             format!("{depth_m:.6} m{error}")
@@ -46,7 +46,7 @@ pub fn many<'a>(
 fn statistics(log: &FrameLog) -> Vec<[String; 5]> {
     let metres = |m: Option<f64>| number_or_dash(m, 6);
     let cells = |one: EstimatorStatistics| {
-        let error = one.mean_error_m.map_or("-".to_owned(), |m| format!("{:+.3}", 1e3 * m));
+        let error = signed_or_dash(one.mean_error_m.map(|m| 1e3 * m), 3);
         let counts = [one.outliers, one.failures].map(|count| count.to_string());
         let [outliers, failures] = counts;
         [metres(one.mean_m), metres(one.two_sd_m), error, outliers, failures]

@@ -2,7 +2,7 @@
 
 use tofsim_studies::table::Cell;
 
-use crate::text::table;
+use crate::text::table::{self, fixed};
 
 /// Number format of a column.
 #[derive(Clone, Copy, Debug)]
@@ -151,7 +151,7 @@ fn written(cell: &Cell, digits: Digits) -> String {
     match digits {
         Digits::Shortest => number.to_string(),
         Digits::Literal => format!("{number:?}"),
-        Digits::Fixed(decimals) => format!("{number:.decimals$}"),
+        Digits::Fixed(decimals) => fixed(*number, decimals),
         Digits::Scientific(decimals) => format!("{number:.decimals$e}"),
     }
 }

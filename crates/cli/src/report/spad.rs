@@ -18,7 +18,7 @@ mod pictures;
 
 /// All that was measured.
 pub struct Characterisation<'a> {
-    /// Counts of each measurement.
+    /// Number of counts per measurement.
     pub counts: u64,
     /// The keys of the diode.
     pub spad: &'a Spad,
@@ -123,7 +123,7 @@ fn rates(points: &[Point]) -> Sheet<'_, Point> {
             )
             .words("off", move |at| {
                 let off = at.counted_hz[k].deviations_from(at.closed_form_hz[k]);
-                format!("{off:+.1} se")
+                format!("{} se", table::signed(off, 1))
             });
     }
     sheet.column("with_afterpulses_hz", fine, |at| at.own_hz.map(|own| own.value)).column(

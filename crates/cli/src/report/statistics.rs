@@ -4,13 +4,14 @@ use serde::Serialize;
 
 use tofsim::Note;
 use tofsim::Setup;
+use tofsim::sim::disagreements::Disagreements;
 use tofsim::sim::estimates::{Estimate, digits};
 use tofsim::sim::frames::Frame;
-use tofsim::sim::partings::Partings;
 use tofsim::sim::second_opinion::{ESTIMATOR, SecondOpinion};
 use tofsim_learn::evaluation::spread::is_outlier;
 
-use crate::verbs::terminal::Talk;
+use crate::text::table::{counted, grouped, signed};
+use crate::verbs::terminal::Console;
 
 /// Criteria for outliers.
 #[derive(Clone, Copy, Debug, Default)]
@@ -127,11 +128,11 @@ impl Moments {
     }
 }
 
-/// Who gives second opinions, if anybody does, and what they have come to.
+/// Second opinions on the frames of a run, if there are any.
 #[derive(Default)]
 pub struct Opinions {
     second: Option<SecondOpinion>,
-    partings: Partings,
+    disagreements: Disagreements,
     depths: Moments,
 }
 
@@ -140,18 +141,20 @@ pub struct Opinions {
 pub struct OpinionStatistics {
     /// Its name on the command line.
     pub estimator: &'static str,
-    /// Mean of the depths that are to be believed [m].
+    /// Mean of the valid depths [m].
     pub mean_m: Option<f64>,
     /// Two standard deviations of them, with n - 1 [m].
     pub two_sd_m: Option<f64>,
     /// Mean less the true distance [m].
     pub mean_error_m: Option<f64>,
-    /// Frames of which there is an opinion.
+    /// Frames with a second opinion.
     pub frames: u64,
-    /// Frames whose depth in the firmware is further from it than their spreads allow.
-    pub parted: u64,
-    /// Frames of which no depth is to be believed.
-    pub unbelieved: u64,
+    /// Frames whose depth in the firmware differs from it by more than their spreads allow.
+    #[serde(rename = "parted")]
+    pub disagreeing: u64,
+    /// Frames that it rejected.
+    #[serde(rename = "unbelieved")]
+    pub rejected: u64,
 }
 
 impl Opinions {
@@ -168,18 +171,18 @@ impl Opinions {
     /// Takes what it said of the next frame.
     pub fn add(&mut self, frame: &Frame, opinion: Option<&Estimate>) {
         let (Some(second), Some(opinion)) = (&self.second, opinion) else { return };
-        self.partings.add(second, frame, opinion);
+        self.disagreements.add(second, frame, opinion);
         opinion.depth_m.filter(|_| opinion.valid).into_iter().for_each(|m| self.depths.add(m));
     }
 
     /// Returns the notes on the second opinions.
     pub fn notes(&self) -> Vec<Note> {
-        self.second.as_ref().map_or(Vec::new(), |second| self.partings.notes(second))
+        self.second.as_ref().map_or(Vec::new(), |second| self.disagreements.notes(second))
     }
 
     /// Returns the statistics of at least two second opinions.
     pub fn statistics(&self, judge: &Judge) -> Option<OpinionStatistics> {
-        let Partings { frames, parted, unbelieved, .. } = self.partings;
+        let Disagreements { frames, disagreeing, rejected, .. } = self.disagreements;
         let mean_m = self.depths.mean();
         (frames > 1).then(|| OpinionStatistics {
             estimator: ESTIMATOR,
@@ -187,21 +190,25 @@ impl Opinions {
             two_sd_m: self.depths.two_sd(),
             mean_error_m: mean_m.and_then(|mean_m| judge.error_m(mean_m)),
             frames,
-            parted,
-            unbelieved,
+            disagreeing,
+            rejected,
         })
     }
 }
 
 /// Returns who gives second opinions on a setup's histograms; a note says why nobody does, which is no matter for
 /// `--strict`.
-pub fn second_opinion(setup: &Setup, notes: &mut Vec<Note>, talk: &Talk) -> Option<SecondOpinion> {
+pub fn second_opinion(
+    setup: &Setup,
+    notes: &mut Vec<Note>,
+    console: &Console,
+) -> Option<SecondOpinion> {
     let why = match SecondOpinion::new(setup) {
         Ok(second) => return Some(second),
         Err(why) => why,
     };
     if !notes.contains(&why) {
-        talk.note(&why);
+        console.note(&why);
         notes.push(why);
     }
     None
@@ -212,7 +219,7 @@ pub fn in_words(estimate: &Estimate, truth_m: Option<f64>) -> String {
     let mut text = estimate.depth_m.map_or("none".to_owned(), |m| format!("{m:.6} m"));
     text += &estimate.depth_raw.map_or(String::new(), |word| format!("  {}", digits(word)));
     if let (Some(depth_m), Some(truth_m)) = (estimate.depth_m, truth_m) {
-        text += &format!("  {:+.2} mm", 1e3 * (depth_m - truth_m));
+        text += &format!("  {} mm", signed(1e3 * (depth_m - truth_m), 2));
     }
     if let Some(sigma_m) = estimate.sigma_m {
         text += &format!("  {}, sd {sigma_m:.6} m", estimate.estimator);
@@ -230,15 +237,14 @@ pub fn line(of: &OpinionStatistics) -> String {
         text += &format!(", mean {mean_m:.6} m");
     }
     if let Some(error_m) = of.mean_error_m {
-        text += &format!(", error {:+.3} mm", 1e3 * error_m);
+        text += &format!(", error {} mm", signed(1e3 * error_m, 3));
     }
     if let Some(two_sd_m) = of.two_sd_m {
         text += &format!(", 2σ {two_sd_m:.6} m");
     }
-    let OpinionStatistics { frames, parted, unbelieved, .. } = of;
-    text + &format!(
-        "\nof {frames} depths {parted} part from it; of {unbelieved} frames it believes none"
-    )
+    let [disagreeing, frames] = [of.disagreeing, of.frames].map(grouped);
+    let rejected = counted(of.rejected, "frames");
+    text + &format!("\n{disagreeing} of {frames} depths disagree with it; it rejected {rejected}")
 }
 
 #[cfg(test)]

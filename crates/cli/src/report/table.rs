@@ -6,7 +6,7 @@ use tofsim::sim::estimates::digits;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 
-use crate::text::table::{facts, grouped, number_or_dash, table};
+use crate::text::table::{facts, grouped, number_or_dash, signed_or_dash, table};
 
 use super::frame_log::{DepthSpread, FrameLog};
 use super::summary::TdcSummary;
@@ -90,7 +90,7 @@ fn many_frames(log: &FrameLog) -> String {
 /// Returns the rows with the statistics of all frames, of `cells` cells and one for each other estimator.
 fn below(own: &DepthSpread, cells: usize, log: &FrameLog) -> Vec<Vec<String>> {
     let metres = |m: f64| format!("{m:.6}");
-    let error = own.mean_error_m.map_or("-".to_owned(), |m| format!("{:+.3}", 1e3 * m));
+    let error = signed_or_dash(own.mean_error_m.map(|m| 1e3 * m), 3);
     let (mean, two_sd, outliers) =
         (metres(own.mean_m), metres(own.two_sd_m), own.outliers.to_string());
     let own_cells = [mean, two_sd, error, outliers, "-".to_owned()];

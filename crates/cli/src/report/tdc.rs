@@ -10,7 +10,7 @@ use tofsim_learn::characterisation::Characterisation;
 use tofsim_learn::characterisation::density::{CodeDensity, NARROW, Spread};
 use tofsim_learn::characterisation::timing::TimeError;
 
-use crate::text::table::{self, grouped};
+use crate::text::table::{self, fixed, grouped, signed};
 
 use super::sheet::Digits::{Fixed, Shortest};
 use super::sheet::{NamedText, Sheet};
@@ -165,7 +165,7 @@ fn drift_ps(setup: &Setup) -> [f64; 2] {
 
 fn drift(setup: &Setup) -> String {
     let [by_c, by_mv] = drift_ps(setup);
-    format!("{by_c:+.2} ps for a degree, {by_mv:+.2} ps for a millivolt")
+    format!("{} ps per degree, {} ps per millivolt", signed(by_c, 2), signed(by_mv, 2))
 }
 
 fn linearity(found: &Characterisation) -> String {
@@ -183,7 +183,7 @@ fn linearity(found: &Characterisation) -> String {
         ("INL of times, calibrated", calibrated.inl, 1.0 / lsb_ps),
     ];
     let range = |of: &Spread, factor: f64, decimals: usize| {
-        format!("{:.decimals$} .. {:.decimals$}", of.least * factor, of.largest * factor)
+        [of.least, of.largest].map(|end| fixed(end * factor, decimals)).join(" .. ")
     };
     let linearity = Sheet::of(&spreads)
         .words("", |(name, ..)| *name)
@@ -200,7 +200,7 @@ fn linearity(found: &Characterisation) -> String {
     let precisions = Sheet::of(&precisions)
         .words("single shot", |(name, _)| *name)
         .words("precision [ps]", |(_, (precision_ps, _))| format!("{precision_ps:.2}"))
-        .words("mean error [ps]", |(_, (_, mean_ps))| mean_ps.map(|ps| format!("{ps:.2}")));
+        .words("mean error [ps]", |(_, (_, mean_ps))| mean_ps.map(|ps| fixed(ps, 2)));
     format!("{}\n\n{}", linearity.table(), precisions.table())
 }
 

@@ -8,7 +8,7 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::drift::{Drift, Point};
 use tofsim_learn::evaluation::Spread;
 
-use crate::text::table::number_or_dash;
+use crate::text::table::{number_or_dash, signed};
 
 use super::sheet::Digits::{Fixed, Shortest};
 use super::sheet::{NamedText, Sheet, evenly};
@@ -41,14 +41,14 @@ impl Findings for DriftFindings<'_> {
         format!(
             "Depth by {} over time, target at {} m\n\
              Chain {}, {} histograms each\n\
-             Delays of the chain: {:+.3} % for a degree, {:+.3} % for a millivolt\n\n{}\n\n\
+             Delays of the chain: {} % per degree, {} % per millivolt\n\n{}\n\n\
              once: calibrated at the first moment. again: every {} s. none: without a depth.\n",
             found.estimator,
             setup.scenario.target.distance_m,
             tdc.profile,
             found.repeats,
-            100.0 * tdc.delay_per_c,
-            100.0 * tdc.delay_per_mv,
+            signed(100.0 * tdc.delay_per_c, 3),
+            signed(100.0 * tdc.delay_per_mv, 3),
             self.sheet().table_of(evenly(found.points.len(), SHOWN)),
             found.every_s,
         )

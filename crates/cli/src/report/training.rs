@@ -12,6 +12,7 @@ use tofsim_learn::training::state::CurvePoint;
 use tofsim_learn::training::weighting::Weighting;
 
 use crate::text::svg::{chart, picture};
+use crate::text::table::fixed;
 
 use super::sheet::Digits::{Literal, Shortest};
 use super::sheet::Sheet;
@@ -72,7 +73,7 @@ fn table(rows: &[DistanceErrors], line: &Weighting) -> String {
     let shown: Vec<_> = rows.iter().filter(is_shown).collect();
     let table = Sheet::of(&shown)
         .words("distance [m]", |row| row.distance_m)
-        .words("mean [mm]", |row| format!("{:.2}", row.mean_mm))
+        .words("mean [mm]", |row| fixed(row.mean_mm, 2))
         .words("2 sigma [mm]", |row| format!("{:.2}", row.two_sd_mm))
         .words("to stay below", |row| format!("{:.2}", line.line_mm(row.distance_m)))
         .table();

@@ -10,7 +10,7 @@ use tofsim::sim::setup::Setup;
 
 use crate::record::Record;
 use crate::text::table::plain;
-use crate::verbs::terminal::{Talk, print, print_json};
+use crate::verbs::terminal::{Console, print, print_json};
 
 use super::sheet::NamedText;
 
@@ -83,8 +83,8 @@ pub struct Report<'a, F> {
 
 impl<'a, F: Findings> Report<'a, F> {
     /// Reports what the command found of a setup.
-    pub fn new(findings: F, setup: &Setup, notes: &'a [Note], talk: &Talk) -> Self {
-        Report { findings, record: Some(Record::new(setup, &talk.command)), notes }
+    pub fn new(findings: F, setup: &Setup, notes: &'a [Note], console: &Console) -> Self {
+        Report { findings, record: Some(Record::new(setup, &console.command)), notes }
     }
 
     /// Reports what was found of something else than a scenario.
@@ -103,7 +103,7 @@ impl<'a, F: Findings> Report<'a, F> {
     ///
     /// # Errors
     /// When a picture cannot be drawn, or something cannot be written.
-    pub fn deliver(&self, folder: Option<&Path>, as_json: bool, talk: &Talk) -> Result<()> {
+    pub fn deliver(&self, folder: Option<&Path>, as_json: bool, console: &Console) -> Result<()> {
         let object = self.json();
         if let (Some(folder), Some(record)) = (folder, &self.record) {
             let line = record.comment_line();
@@ -112,8 +112,8 @@ impl<'a, F: Findings> Report<'a, F> {
             let plots = self.findings.plots()?.into_iter();
             let plots = plots.map(|(name, svg)| (name, record.in_svg(&svg)));
             let whole = F::FILE.map(|name| (name.to_owned(), format!("{object:#}\n")));
-            talk.write_into(folder, sheets.chain(plots).chain(whole))?;
+            console.write_into(folder, sheets.chain(plots).chain(whole))?;
         }
-        if as_json { print_json(&object) } else { talk.report(&self.findings.text()) }
+        if as_json { print_json(&object) } else { console.report(&self.findings.text()) }
     }
 }

@@ -67,9 +67,36 @@ pub fn facts<N: Into<String>>(rows: impl IntoIterator<Item = (N, String)>) -> St
     plain(rows.into_iter().map(|(name, value)| [name.into(), value]))
 }
 
-/// A number with so many decimals, or a dash.
+/// Formats a number with a fixed number of decimals. Zero has no sign, and nor does a number that rounds to it.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if is_zero(rest) => rest.to_owned(),
+        _ => text,
+    }
+}
+
+/// Formats a number as [`fixed`] does, with its sign; that of zero is `+`.
+pub fn signed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:+.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if is_zero(rest) => format!("+{rest}"),
+        _ => text,
+    }
+}
+
+fn is_zero(digits: &str) -> bool {
+    digits.bytes().all(|digit| matches!(digit, b'0' | b'.'))
+}
+
+/// Formats a number as [`fixed`] does, or as a dash.
 pub fn number_or_dash(value: Option<f64>, decimals: usize) -> String {
-    value.map_or("-".to_owned(), |value| format!("{value:.decimals$}"))
+    value.map_or("-".to_owned(), |value| fixed(value, decimals))
+}
+
+/// Formats a number as [`signed`] does, or as a dash.
+pub fn signed_or_dash(value: Option<f64>, decimals: usize) -> String {
+    value.map_or("-".to_owned(), |value| signed(value, decimals))
 }
 
 /// A number with so many significant digits and at most so many decimals, without zeros at its end.
@@ -131,6 +158,21 @@ fn paint(word: &str, is_well: bool, with_colour: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn zero_has_no_minus() {
+        let numbers = [-0.0, -0.004, -0.005001, 0.004, -12.0];
+        assert_eq!(
+            numbers.map(|number| fixed(number, 2)),
+            ["0.00", "0.00", "-0.01", "0.00", "-12.00"]
+        );
+        assert_eq!(
+            numbers.map(|number| signed(number, 2)),
+            ["+0.00", "+0.00", "-0.01", "+0.00", "-12.00"]
+        );
+        assert_eq!([fixed(-0.4, 0), signed(-0.4, 0)], ["0", "+0"]);
+        assert_eq!([number_or_dash(Some(-0.001), 2), signed_or_dash(None, 2)], ["0.00", "-"]);
+    }
 
     #[test]
     fn a_table_that_is_too_wide_is_several() {

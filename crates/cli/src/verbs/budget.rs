@@ -18,17 +18,17 @@ use crate::report::writer::Report;
 
 use super::draws::{load, use_threads};
 use super::options::ScenarioArgs;
-use super::terminal::{Talk, stop_signal};
+use super::terminal::{Console, stop_signal};
 
 /// Print the link budget: photons and avalanches that a shot can expect, and eye safety
 ///
-/// With --errors it is the error budget of the depth: what shot noise, pile-up, ambient light, pulse, jitter, the
-/// TDC's taps and their calibration, and the estimator's words do to bias and spread.
+/// With --errors, print the depth error budget: the contributions of shot noise, pile-up, ambient light, pulse,
+/// jitter, TDC taps and their calibration, and word lengths to bias and spread.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim budget near\n  \
     tofsim budget --errors -s tdc.profile=kintex7\n  \
-    tofsim budget --errors --estimator likelihood --grid target.distance_m=0.1..0.6:0.1 -o out")]
+    tofsim budget --errors --grid target.distance_m=0.1..0.6:0.1 -o out")]
 pub struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
@@ -40,28 +40,28 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     if args.errors.errors {
-        return args.errors.run(&args.scenario, args.json, talk);
+        return args.errors.run(&args.scenario, args.json, console);
     }
     let setup = Setup::of_counts(args.scenario.load(None)?)?;
     let findings = LinkBudget::of(setup.clone());
     let notes = findings.notes()?;
-    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)?;
-    talk.heed(&notes)
+    Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)?;
+    console.print_notes(&notes)
 }
 
 /// The options that go with `--errors`.
 #[derive(Debug, clap::Args)]
 pub struct ErrorArgs {
-    /// Print the error budget of the depth instead: bias and spread with every effect off, with each alone, with all
-    /// but each, and with all together
+    /// Print the depth error budget instead: bias and spread with every effect off, with each alone, with all but
+    /// each, and with all
     #[arg(long)]
     pub errors: bool,
     /// With --errors: estimator to analyse [default: the one in the firmware's estimator slot]
     #[arg(long, requires = "errors", value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
-    /// With --errors: frames to draw of each variant
+    /// With --errors: number of frames for each variant
     #[arg(
         long,
         requires = "errors",
@@ -89,7 +89,7 @@ pub struct ErrorArgs {
 
 impl ErrorArgs {
     /// Measures and reports.
-    pub fn run(&self, scenario: &ScenarioArgs, as_json: bool, talk: &Talk) -> Result<()> {
+    pub fn run(&self, scenario: &ScenarioArgs, as_json: bool, console: &Console) -> Result<()> {
         use_threads(self.threads)?;
         let axis = self.grid.as_deref().map(|grid| Axis::parse("--grid", grid)).transpose()?;
         let plans = self.plans(scenario, axis.as_ref())?;
@@ -101,12 +101,12 @@ impl ErrorArgs {
             let new = plan.notes()?.into_iter().filter(|note| !notes.contains(note));
             notes.extend(new.collect::<Vec<_>>());
         }
-        talk.heed(&notes)?;
+        console.print_notes(&notes)?;
         let look = |folder: &PathBuf| create_directory_for(folder, "errors.json");
         self.output.as_ref().map_or(Ok(()), look)?;
         let stop = stop_signal();
         let frames = plans.iter().map(|(_, plan)| plan.frames(self.frames)).sum();
-        let progress = talk.progress(frames, "frames");
+        let progress = console.progress(frames, "frames");
         let done = |more| progress.inc(more);
         let measure = |(value, plan): &(f64, Plan)| {
             Ok((*value, plan.measure(self.frames, stop.as_deref(), &done)?))
@@ -115,8 +115,8 @@ impl ErrorArgs {
         progress.finish_and_clear();
         let key = axis.as_ref().map(|axis| axis.key.as_str());
         let budgets = DepthBudgets { key, points: &measured? };
-        let report = Report::new(budgets, first.setup(), &notes, talk);
-        report.deliver(self.output.as_deref(), as_json, talk)
+        let report = Report::new(budgets, first.setup(), &notes, console);
+        report.deliver(self.output.as_deref(), as_json, console)
     }
 
     /// Plans the measurement at each value of the grid's key, or at the scenario's distance.

@@ -14,7 +14,7 @@ use crate::choice::{threads, words};
 
 use super::draws::use_threads;
 use super::interrupt::look_no_more;
-use super::terminal::{RunCommand, Talk, print_json};
+use super::terminal::{Console, RunCommand, print_json};
 
 mod design;
 mod files;
@@ -31,28 +31,28 @@ use step::{Outcome, Step};
 
 /// Build an instrument: network, Verilog, proofs, accuracy, cost and a report, from one scenario file
 ///
-/// Each step is what its own verb does. A step whose inputs, version and outputs are those of an earlier build is
-/// not done again, so that an interrupted build goes on. DIR/report.html is a page to send to a colleague.
+/// Each step does the same as its own command. A step is skipped if its inputs, version and outputs are those of an
+/// earlier build, so that an interrupted build is resumed. DIR/report.html is a self-contained page.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
-    tofsim build mine.toml -o mine              all of it\n  \
-    tofsim build mine.toml -o mine --quick      in a minute or two, with a poor network\n  \
+    tofsim build mine.toml -o mine           all steps\n  \
+    tofsim build mine.toml -o mine --quick   in a minute or two, poor accuracy\n  \
     tofsim build mine.toml -o mine --steps network,accuracy,report\n\n\
-    Exit status: 0 all done and passed, 1 a step was not done or found a fault, 2 usage or input error.")]
+    Exit status: 0 all done and passed, 1 a step failed or found a fault, 2 usage or input error.")]
 pub struct Args {
     /// Scenario file, or the name of a built-in scenario
     #[arg(value_name = "INSTRUMENT")]
     instrument: String,
-    /// Folder for all that is made; the commands in the report are run in it
+    /// Output folder, in which the commands of the report are run
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Only these steps, separated by commas
+    /// Run only these steps, separated by commas
     #[arg(long, value_parser = words(&Step::CHOICES), value_delimiter = ',')]
     steps: Vec<Step>,
-    /// A poor network trained in seconds, short vectors and few histograms
+    /// Train for seconds (poor accuracy), with short vectors and few histograms
     #[arg(long)]
     quick: bool,
-    /// Do all steps anew
+    /// Repeat all steps
     #[arg(long)]
     force: bool,
     /// Threads; the results are the same for any number [default: one a core]
@@ -64,10 +64,10 @@ pub struct Args {
 }
 
 /// Runs the verb, with others' commands through `run_command`; the status says whether all was done and passed.
-pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console, run_command: RunCommand) -> Result<ExitCode> {
     let instrument = files::InstrumentFiles::read(&args.instrument)?;
-    let site = Site::new(&instrument, args.quick, talk, run_command)?;
-    talk.heed(&site.notes)?;
+    let site = Site::new(&instrument, args.quick, console, run_command)?;
+    console.print_notes(&site.notes)?;
     instrument.check_folder(&args.output)?;
     let _held = FolderLock::take(&args.output)?;
     use_threads(args.threads)?;
@@ -76,7 +76,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     std::env::set_current_dir(&args.output).map_err(Error::io(&args.output, "open"))?;
     instrument.write(Path::new("."))?;
     let journal = Journal::read()?;
-    let mut build = Build { site, journal, args, talk };
+    let mut build = Build { site, journal, args, console };
     let asked = if args.steps.is_empty() { Step::all().to_vec() } else { args.steps.clone() };
     for step in Step::all().into_iter().filter(|step| asked.contains(step)) {
         build.take(step)?;
@@ -89,7 +89,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
         report["passed"] = json!(passed);
         print_json(&report)?;
     } else {
-        talk.report(&summary(&args.output, &journal, &asked))?;
+        console.report(&summary(&args.output, &journal, &asked))?;
     }
     Ok(if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
@@ -114,7 +114,7 @@ struct Build<'a> {
     site: Site<'a>,
     journal: Journal,
     args: &'a Args,
-    talk: &'a Talk,
+    console: &'a Console,
 }
 
 impl Build<'_> {
@@ -133,15 +133,15 @@ impl Build<'_> {
         let lacking = step.tools().iter().find(|tool| !tool.is_installed());
         if let Some(tool) = lacking {
             let record = StepRecord::without(tool);
-            self.talk.note(format_args!("{step}: {}", record.summary));
+            self.console.note(format_args!("{step}: {}", record.summary));
             return self.journal.put(step, record);
         }
         let input = self.site.input(step, &self.journal);
         if !self.args.force && self.journal.is_done(step, &input) {
-            self.talk.note(format_args!("{step}: as before"));
+            self.console.note(format_args!("{step}: as before"));
             return Ok(());
         }
-        self.talk.note(format_args!("{step}: {}", step.about()));
+        self.console.note(format_args!("{step}: {}", step.about()));
         let began = Instant::now();
         let site = &self.site;
         let outcome = match step {
@@ -159,7 +159,7 @@ impl Build<'_> {
         look_no_more();
         let Outcome { outputs, result, passed, summary } = outcome?;
         let record = StepRecord::done(input, &outputs, result, passed, summary)?;
-        self.talk.note(format_args!(
+        self.console.note(format_args!(
             "{step}: {} ({:.1} s)",
             record.summary,
             began.elapsed().as_secs_f64()

@@ -18,9 +18,9 @@ use crate::report::calibration::PulseFindings;
 use crate::report::writer::Report;
 
 use super::options::ResultArgs;
-use super::terminal::Talk;
+use super::terminal::Console;
 
-/// Find what an instrument is from its own histograms
+/// Fit parameters of an instrument to its histograms
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(subcommand)]
@@ -32,12 +32,12 @@ enum Verb {
     Pulse(Box<PulseArgs>),
 }
 
-/// Find width and shape of the pulse, with standard errors
+/// Fit width and shape of the pulse, with standard errors
 ///
-/// Arrival, signal and background of each histogram need not be known: they are fitted together with the pulse
-/// that all have in common. A few histograms of echoes in the middle of the window, neither faint nor so strong
-/// that they use up their shots, tell the width to a part in a hundred or better. -o writes pulse.csv for
-/// laser.pulse_file, pulse.svg and calibration.json.
+/// Arrival, signal and background of each histogram need not be known: they are fitted together with the pulse that
+/// all have in common. A few histograms of echoes in the middle of the window, neither faint nor so strong that they
+/// use up their shots, determine the width to 1 % or better. -o writes pulse.csv for laser.pulse_file, pulse.svg and
+/// calibration.json.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim calibrate pulse mine.npy --scenario mine.toml -o pulse\n  \
@@ -65,14 +65,14 @@ struct PulseArgs {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     match &args.verb {
-        Verb::Pulse(args) => args.run(talk),
+        Verb::Pulse(args) => args.run(console),
     }
 }
 
 impl PulseArgs {
-    fn run(&self, talk: &Talk) -> Result<()> {
+    fn run(&self, console: &Console) -> Result<()> {
         let setup = Setup::of_counts(scenario::load(&self.scenario, &self.set)?)?;
         let bins = setup.known_bins();
         let shots = setup.params.frame_ctrl.shots_per_frame.into();
@@ -80,9 +80,9 @@ impl PulseArgs {
         let step_ps = self.step_ps.unwrap_or(bins.bin_ps());
         let calibration = Calibration::new(&acquisition, self.all(&setup)?, self.shape, step_ps)?;
         let notes = notes(&setup, &calibration);
-        talk.heed(&notes)?;
-        let report = Report::new(PulseFindings { calibration, shots }, &setup, &notes, talk);
-        self.result.deliver(&report, talk)
+        console.print_notes(&notes)?;
+        let report = Report::new(PulseFindings { calibration, shots }, &setup, &notes, console);
+        self.result.deliver(&report, console)
     }
 
     /// The histograms of all files.

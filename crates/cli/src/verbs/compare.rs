@@ -27,15 +27,15 @@ use crate::report::writer::Report;
 
 use super::draws::load;
 use super::host::{Host, host};
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// Compare two waveforms or captures: A is the reference, B the capture under test
 ///
-/// A and B are VCD, FST, GHW, or a logic analyser's CSV, VCD or .ila archive; the contents decide,
-/// not the name. With --scenario, A is a simulation and only B is given. Signals come together by
-/// name or the end of a name (`tdc/hit` is `tof_top.tdc.hit`), or as a map says; so may SIGNAL below.
+/// A and B are VCD, FST, GHW, or a logic analyser's CSV, VCD or .ila archive; the contents decide, not the name. With
+/// --scenario, A is a simulation and only B is given. Signals are matched by name or the end of a name (`tdc/hit` is
+/// `tof_top.tdc.hit`), or as a map says; so may SIGNAL below.
 ///
-/// A CONDITION is as `state == 5 && (start rising || code[7:4] != 0b1x0x)`; TIME is as 10us or 8.5ns.
+/// A CONDITION has the form `state == 5 && (start rising || code[7:4] != 0b1x0x)`; TIME has the form 10us or 8.5ns.
 #[derive(Debug, clap::Args)]
 #[command(
     visible_alias = "diff",
@@ -43,7 +43,7 @@ use super::terminal::Talk;
     tofsim compare waves/kc705.vcd verilog.vcd\n  \
     tofsim compare waves/run.vcd board.ila --map fig_6_6\n  \
     tofsim compare --scenario near board.csv --clock clk_sys --align correlation\n  \
-    tofsim compare a.fst board.ila --clock clk --beats 'valid && ready' --signals data\n  \
+    tofsim compare a.fst b.ila --clock clk --beats 'valid && ready'\n  \
     tofsim compare a.fst b.fst --clock clk_sys --latency depth=2 --waves both.vcd\n\n\
     Exit status: 0 same, 1 different, 2 cannot be compared."
 )]
@@ -59,17 +59,17 @@ pub struct Args {
     when: When,
     #[command(flatten)]
     how: How,
-    /// Compare the words of a bus, and not when they come: those at samples where this CONDITION
-    /// holds, as `valid && ready`
+    /// Compare the words of a bus regardless of their timing: those at samples that meet this CONDITION, e.g. `valid
+    /// && ready`
     #[arg(long, value_name = "CONDITION")]
     beats: Option<String>,
-    /// Write both sides and what differs as one waveform, with save files for GTKWave and Surfer
+    /// Write both sides and their differences as one waveform, with save files for GTKWave and Surfer
     #[arg(long, value_name = "FILE.vcd")]
     waves: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// Write JUnit XML too
+    /// Also write JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
 }
@@ -78,7 +78,7 @@ pub struct Args {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Simulated side")]
 struct Simulated {
-    /// Simulate a scenario as the first side
+    /// Simulate a scenario as the reference
     #[arg(long, value_name = "NAME|FILE")]
     scenario: Option<String>,
     /// Set a scenario key, e.g. `target.distance_m=0.3`; may be repeated
@@ -101,16 +101,16 @@ struct Which {
     /// Match signals by a map file, or by a probe configuration of `ila capture` (name or path)
     #[arg(long, value_name = "FILE|NAME")]
     map: Option<String>,
-    /// Compare only these, with * and ?; may be repeated
+    /// Compare only matching signals, with * and ?; may be repeated
     #[arg(long, value_name = "GLOB")]
     signals: Vec<String>,
-    /// Leave these out, with * and ?; may be repeated
+    /// Ignore matching signals, with * and ?; may be repeated
     #[arg(long, value_name = "GLOB")]
     ignore: Vec<String>,
-    /// Signals without a partner are a difference in waveforms too, as they are in captures
+    /// Count signals without a counterpart as differences in waveforms, as in captures
     #[arg(long)]
     all: bool,
-    /// Radix of the values in a CSV that does not say
+    /// Radix of the values in a CSV without radices
     #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
 }
@@ -131,16 +131,16 @@ struct When {
     /// Trigger of a waveform, as `start rising && mode == 0`
     #[arg(long, value_name = "CONDITION")]
     trigger: Option<String>,
-    /// Do not look at waveforms before this time, as 10us
+    /// Ignore waveforms before this time, e.g. 10us
     #[arg(long, value_name = "TIME", value_parser = time)]
     after: Option<Time>,
-    /// Do not compare from this time on
+    /// Stop comparing at this time
     #[arg(long, value_name = "TIME", value_parser = time)]
     until: Option<Time>,
     /// Condition under which the analyser stored a sample
     #[arg(long, value_name = "CONDITION")]
     qualified_by: Option<String>,
-    /// Signal of the capture that counts the clock, so that its samples need not be of every edge
+    /// Signal of the capture that counts clock edges, for captures that do not contain every edge
     #[arg(long, value_name = "SIGNAL")]
     time_from: Option<String>,
 }
@@ -152,10 +152,10 @@ struct How {
     /// Treat an unknown bit as equal to
     #[arg(long, value_parser = words(choice::UNKNOWNS), default_value = "exact")]
     x: Unknowns,
-    /// Largest difference of a number that is none, in its last place; may be repeated
+    /// Largest difference of a number to accept, in units of its last place; may be repeated
     #[arg(long, value_name = "SIGNAL=N", value_parser = tolerance)]
     tolerance: Vec<(String, u64)>,
-    /// Samples that B has a signal later (less than 0: earlier); may be repeated
+    /// Number of samples by which a signal is later in B (negative: earlier); may be repeated
     #[arg(long, value_name = "SIGNAL=N", value_parser = latency, allow_hyphen_values = true)]
     latency: Vec<(String, i64)>,
     /// Compare a signal only where another is 1 in A; may be repeated
@@ -164,7 +164,7 @@ struct How {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let radix = args.which.radix;
     let open = |path: &PathBuf| Source::file(path, radix);
     let Simulated { scenario, set, seed, frames } = &args.simulated;
@@ -173,11 +173,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         (Some(scenario), [b]) => {
             let setup = Setup::new(load(scenario, set, *seed)?)?;
             notes = setup.notes()?;
-            talk.heed(&notes)?;
+            console.print_notes(&notes)?;
             let b = open(b)?;
             let frames = frames.or((!b.is_capture()).then_some(1));
             super::frames::check("--frames", frames.unwrap_or(1), &setup)?;
-            record = Some(Record::new(&setup, &talk.command));
+            record = Some(Record::new(&setup, &console.command));
             (Source::simulation(setup, frames), b)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
@@ -198,14 +198,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let result = compare(&a, &b, &options)?;
     if let Some(path) = &args.junit {
         comparison::write_junit(path, &result)?;
-        talk.wrote(path);
+        console.wrote(path);
     }
-    options.waves.iter().for_each(|path| talk.wrote_wave(path));
+    options.waves.iter().for_each(|path| console.wrote_wave(path));
     let remark =
         |text: &String| Note::new(NoteCode::Comparison, "compare", NoteValue::None, "", text);
     notes.extend(result.notes.iter().map(remark));
-    let findings = ComparisonFindings { result: &result, notes: &notes, verbose: talk.verbose };
-    Report { findings, record, notes: &notes }.deliver(None, args.json, talk)?;
+    let findings = ComparisonFindings { result: &result, notes: &notes, verbose: console.verbose };
+    Report { findings, record, notes: &notes }.deliver(None, args.json, console)?;
     Ok(ExitCode::from(u8::from(!result.is_same())))
 }
 

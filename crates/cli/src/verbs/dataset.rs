@@ -20,19 +20,20 @@ use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
 use super::scenes::Scenes;
-use super::terminal::{Talk, stop_signal};
+use super::terminal::{Console, stop_signal};
 
 /// Draw histograms of many scenes, for training and tests
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Scenes are those of the thesis: irradiance 0 to 0.4 W/m^2/nm in 9 steps, \
-    reflectance 0.08 to 0.60\nin 53, distance 0.1 to 0.6 m in 201 (train) or 51 (test), each 5 \
-    times. All else is the scenario's.\nWith --grid KEY=... scenes are your own, and what no \
-    --grid sets is the scenario's.\n\nExamples:\n  \
-    tofsim dataset -o train                          479,385 histograms as Parquet\n  \
-    tofsim dataset --grid test --seed 2 -o test      121,635 of them\n  \
-    tofsim dataset --rows 24000 --format npy -o few  random scenes, equally many a distance\n  \
-    tofsim dataset --profile my-chain.toml -o own    for a chain that was measured\n  \
-    tofsim dataset --grid target.distance_m=0.05..0.9:0.05 --grid target.reflectance=0.1,0.5 -o far")]
+#[command(
+    after_help = "By default, the scenes are those of the thesis: irradiance 0 to 0.4 W/m^2/nm in 9 \
+    steps, reflectance 0.08 to 0.60 in 53, distance 0.1 to 0.6 m in 201 (train) or 51 (test), 5 histograms each. --grid \
+    KEY=... sets your own scenes; keys without --grid are those of the scenario.\n\nExamples:\n  \
+    tofsim dataset -o train                          479,385 histograms, Parquet\n  \
+    tofsim dataset --grid test --seed 2 -o test      121,635 histograms\n  \
+    tofsim dataset --rows 24000 --format npy -o few  random scenes\n  \
+    tofsim dataset --profile my-chain.toml -o own    a measured chain\n  \
+    tofsim dataset --grid target.distance_m=0.05..0.9:0.05 -o far"
+)]
 pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
     #[arg(default_value = scenario::DEFAULT)]
@@ -44,13 +45,13 @@ pub struct Args {
     /// [default: the scenario's training.grid, or else thesis]
     #[arg(long, value_name = "GRID")]
     grid: Vec<String>,
-    /// Histograms of each scene, where all are drawn
+    /// Histograms per scene, unless --rows is given
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..))]
     repeats: u64,
     /// Formats to write, separated by commas
     #[arg(long, value_parser = words(choice::DATASET_FORMAT), value_delimiter = ',', default_value = "parquet")]
     format: Vec<DatasetFormat>,
-    /// Write the files and dataset.json, their description, there
+    /// Write the files and dataset.json, their description, into this folder
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Print one JSON object instead of a table
@@ -59,29 +60,29 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let load = |set: &[String]| args.draws.load(&args.scenario, set);
     let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Training, load)?;
     let notes = scenes.notes()?;
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let (source, loaded) = (&scenes.source, &scenes.loaded[0]);
     let seed = loaded.scenario.seed;
     let setup = Setup::of_counts(loaded.clone())?;
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
     let rows = args.draws.rows(None, &grid, seed)?;
-    let description = DatasetDescription::new(&setup, &talk.command, source, &rows, seed);
+    let description = DatasetDescription::new(&setup, &console.command, source, &rows, seed);
     let _held = FolderLock::take(&args.output)?;
     let files = DatasetFiles::create(&args.output, &args.format, &description, &grid)?;
     let stop = stop_signal();
     let blocks = source.blocks(&rows, seed);
     let written = args
         .draws
-        .on_threads(rows.count(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
-    written.iter().for_each(|path| talk.wrote(path));
+        .on_threads(rows.count(), console, |done| write(files, blocks, stop.as_deref(), done))?;
+    written.iter().for_each(|path| console.wrote(path));
 
     let files = written.iter().map(|path| path.display().to_string()).collect();
     let findings = DatasetFindings { description, files, notes };
-    Report::without_record(findings).deliver(None, args.json, talk)
+    Report::without_record(findings).deliver(None, args.json, console)
 }
 
 /// A dataset that was written.

@@ -6,7 +6,7 @@ use tofsim::error::{Input, Result};
 use tofsim_rtl::verify::rtl::Sources;
 use tofsim_rtl::verify::{Rtl, yosys};
 
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// The sources of the design.
 #[derive(Debug, clap::Args)]
@@ -22,7 +22,7 @@ pub struct Design {
     /// File list whose paths are relative to itself; may be repeated
     #[arg(short = 'F', long = "relative-file-list", value_name = "FILE", group = "sources")]
     relative_list: Vec<PathBuf>,
-    /// Folder in which an `include is looked for, after that of the file; may be repeated
+    /// Folder to search for `include files, after that of the including file; may be repeated
     #[arg(short = 'I', long = "include", value_name = "DIR", requires = "sources")]
     include: Vec<PathBuf>,
     /// Define a macro; may be repeated
@@ -51,7 +51,7 @@ impl Design {
     ///
     /// # Errors
     /// When a source cannot be read, or there is none.
-    pub fn read(&self, talk: &Talk) -> Result<Rtl> {
+    pub fn read(&self, console: &Console) -> Result<Rtl> {
         let lists = self.list.iter().map(|list| (list.clone(), false));
         let relative = self.relative_list.iter().map(|list| (list.clone(), true));
         let rtl = Rtl::read(&Sources {
@@ -61,7 +61,7 @@ impl Design {
             defines: self.define.clone(),
         })?;
         for option in &rtl.options.unknown {
-            talk.note(format_args!("{option}: no option of a source, which is passed over"));
+            console.note(format_args!("{option}: no option of a source, which is passed over"));
         }
         Ok(rtl)
     }
@@ -76,7 +76,7 @@ pub fn present<'a, T>(
     has: impl Fn(&T) -> bool,
     name: fn(&T) -> &str,
     (rtl, or, done): (&Rtl, &str, &str),
-    talk: &Talk,
+    console: &Console,
 ) -> Result<Vec<&'a T>> {
     let (there, missing): (Vec<_>, Vec<_>) = all.partition(|block| has(block));
     let missing: Vec<_> = missing.into_iter().map(name).collect();
@@ -86,7 +86,8 @@ pub fn present<'a, T>(
         return Err(Input::new(source, expected).into());
     }
     if !missing.is_empty() {
-        talk.note(format_args!("{source}: not {done}, because it has no such module: {missing}"));
+        console
+            .note(format_args!("{source}: not {done}, because it has no such module: {missing}"));
     }
     Ok(there)
 }

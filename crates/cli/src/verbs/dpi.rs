@@ -14,9 +14,9 @@ use tofsim::sim::setup::Setup;
 use tofsim_rtl::checkers::{Checkers, blocks_of};
 
 use super::options::ScenarioArgs;
-use super::terminal::Talk;
+use super::terminal::Console;
 
-/// Write checkers and photons for a bench of yours in SystemVerilog
+/// Write checkers and photons for your own SystemVerilog bench
 ///
 /// DIR gets tofsim_pkg.sv (the imports), tofsim_photons.sv (tdc_stop as the scenario's light and detector make it),
 /// tofsim_checkers.sv (a module for each block, which compares its outputs with the model's at every edge),
@@ -31,17 +31,17 @@ use super::terminal::Talk;
 #[command(after_help = "Examples:\n  \
     tofsim dpi -o dpi                    all blocks of the KC705's design\n  \
     tofsim dpi mine.toml -b tdc -o dpi   one block of your own instrument\n  \
-    tofsim dpi --without pll -o dpi      where the bench's PLL has jitter\n  \
-    cargo build --release -p tofsim-dpi  makes the library, in a clone\n  \
+    tofsim dpi --without pll -o dpi      if the bench's PLL has jitter\n  \
+    cargo build --release -p tofsim-dpi  build the library, in a clone\n  \
     make -f dpi/Makefile verilator LIB=target/release TOP=tb DESIGN=\"FILES\"\n  \
     make -f dpi/Makefile icarus LIB=target/release TOP=tb DESIGN=\"FILES\"")]
 pub struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
-    /// A block that is to have a checker; may be repeated [default: all that the scenario has]
+    /// Write a checker for this block; may be repeated [default: all blocks of the scenario]
     #[arg(short, long = "block", value_name = "BLOCK")]
     blocks: Vec<String>,
-    /// A block that is to have none, as pll where yours has jitter; may be repeated
+    /// Write no checker for this block, e.g. pll if yours has jitter; may be repeated
     #[arg(long, value_name = "BLOCK", conflicts_with = "blocks")]
     without: Vec<String>,
     /// Directory to write to
@@ -50,11 +50,11 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let loaded = args.scenario.load(None)?;
-    let told = told(args, &loaded)?;
+    let configuration = configuration(args, &loaded)?;
     let setup = Arc::new(Setup::new(loaded)?);
-    let checkers = Checkers::new(Arc::clone(&setup), told, blocks(args, &setup)?)?;
+    let checkers = Checkers::new(Arc::clone(&setup), configuration, blocks(args, &setup)?)?;
     let _held = FolderLock::take(&args.output)?;
     let stage = StagedFolder::new(&args.output)?;
     let files = checkers.files().into_iter().chain([
@@ -66,7 +66,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     for (name, text) in files {
         write_bytes(&stage.path().join(name), text)?;
     }
-    stage.commit()?.iter().for_each(|path| talk.wrote(path));
+    stage.commit()?.iter().for_each(|path| console.wrote(path));
     Ok(())
 }
 
@@ -88,9 +88,9 @@ fn blocks<'a>(args: &'a Args, setup: &Setup) -> Result<Vec<&'a str>> {
     Ok(blocks)
 }
 
-/// The scenario as the library is told it, from whatever folder the simulation runs: a line for its name or path, and
-/// one for each key that is set.
-fn told(args: &Args, loaded: &Loaded) -> Result<String> {
+/// Returns the scenario for the library: a line with its name or absolute path, and one for each key that is set. Paths
+/// are absolute, because the simulation may run in any folder.
+fn configuration(args: &Args, loaded: &Loaded) -> Result<String> {
     let absolute = |path: &Path| -> Result<String> {
         let path = path.canonicalize().map_err(Error::io(path, "read"))?;
         Ok(path.display().to_string())
@@ -116,7 +116,7 @@ fn told(args: &Args, loaded: &Loaded) -> Result<String> {
     }
     if let Some(line) = lines.iter().find(|line| line.contains('\n')) {
         let expected =
-            "expected a path and values without line ends, which a bench is told in lines";
+            "expected a path and values without line ends, because a bench reads them line by line";
         return Err(Input::new("scenario", expected).value(format!("{line:?}")).into());
     }
     Ok(lines.join("\n"))

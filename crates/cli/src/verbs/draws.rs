@@ -14,7 +14,7 @@ use tofsim_learn::dataset::{Grid, Rows, Subset};
 use crate::choice::{seed, threads};
 
 use super::host::host;
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// Most threads for a core.
 const MOST_PER_CORE: usize = 4;
@@ -29,7 +29,7 @@ pub struct Draws {
     /// [default: the scenario's]
     #[arg(long, value_name = "P")]
     profile: Option<String>,
-    /// Draw so many random scenes, equally many at each distance, instead of all
+    /// Draw N random scenes, the same number at each distance, instead of all
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..=MOST_ROWS))]
     rows: Option<u64>,
     /// Seed of every random stream, instead of the scenario's
@@ -81,13 +81,13 @@ impl Draws {
     pub fn on_threads<T: Send>(
         &self,
         rows: u64,
-        talk: &Talk,
+        console: &Console,
         work: impl FnOnce(&(dyn Fn(u64) + Sync)) -> Result<T> + Send,
     ) -> Result<T> {
         let pool = ThreadPoolBuilder::new()
             .num_threads(self.threads.map_or(0, |threads| useful(threads.into())));
         let pool = pool.build().map_err(|error| Input::new("--threads", error))?;
-        let progress = talk.progress(rows, "rows");
+        let progress = console.progress(rows, "rows");
         let done = pool.install(|| work(&|rows| progress.inc(rows)));
         progress.finish_and_clear();
         done

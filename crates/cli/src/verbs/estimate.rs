@@ -7,7 +7,7 @@ use tofsim::error::Result;
 use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::network::estimate;
 use tofsim::scenario;
-use tofsim::sim::partings::Partings;
+use tofsim::sim::disagreements::Disagreements;
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
 use tofsim_learn::dataset::labelled::histograms;
@@ -21,7 +21,7 @@ use crate::report::statistics::second_opinion;
 use crate::report::writer::Report;
 
 use super::draws::from_here;
-use super::terminal::Talk;
+use super::terminal::Console;
 
 mod sensor;
 
@@ -34,24 +34,24 @@ pub struct Args {
     /// Parquet with columns b0 to b255
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Width of a bin, of histograms of another sensor, which may have any number of bins [ps]
+    /// Bin width of histograms from another sensor, with any number of bins [ps]
     #[arg(long, value_name = "PS", value_parser = width, conflicts_with_all = ["network", "explain"])]
     bin_ps: Option<f64>,
     /// Built-in network, such as uniform-16, or network file [default: the scenario's]
     #[arg(long, value_name = "NAME|FILE")]
     network: Option<String>,
-    /// Estimators that see the same histograms too, separated by commas
+    /// Additional estimators for the same histograms, separated by commas
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
-    /// Built-in scenario, or the path of a scenario file: what estimators know of shots, pulse and chain
+    /// Built-in scenario, or the path of a scenario file: shots, pulse and chain for the estimators
     #[arg(long, default_value = scenario::DEFAULT)]
     scenario: String,
     /// Set a scenario key, e.g. `tdc.profile=chain.toml`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Show every value of the datapath beside its twin in double precision, where they part, and
-    /// what each rounding adds to the depth; with --estimator likelihood_estimator the stages of that one instead,
-    /// and of both with network,likelihood_estimator
+    /// Compare every value of the datapath with double precision, and list the cost of each rounding; with
+    /// --estimator likelihood_estimator, compare the stages of that estimator instead, and with
+    /// network,likelihood_estimator both
     #[arg(long)]
     explain: bool,
     /// Print one JSON object
@@ -65,12 +65,12 @@ fn width(text: &str) -> std::result::Result<f64, String> {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let layout = Layout::of(&args.files[0])?;
     let setup = args.setup(layout)?;
     let request = args.request();
     if let Some(sensor) = Sensor::of(&request, layout, &setup)? {
-        return sensor.run(&request, &setup, talk);
+        return sensor.run(&request, &setup, console);
     }
     setup.check_estimator()?;
     let network = &setup.network;
@@ -78,14 +78,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let params = &setup.params.estimators.depth_estimator;
     let is_network = setup.params.estimator == FirmwareEstimator::Network;
     let mut notes = args.notes(&setup)?;
-    talk.heed(&notes)?;
-    let second = second_opinion(&setup, &mut notes, talk);
+    console.print_notes(&notes)?;
+    let second = second_opinion(&setup, &mut notes, console);
     let panel = Panel::new(&args.estimator, &setup)?;
     let explainer = args.explains_likelihood(&setup).then(|| LikelihoodExplainer::new(&setup));
     let explainer = explainer.transpose()?;
     let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
     let mut rows = Vec::new();
-    let mut partings = Partings::of_histograms();
+    let mut disagreements = Disagreements::of_histograms();
     let shots = setup.shots(1);
     let mut crowded = None;
     for (path, file) in args.files.iter().zip(&names) {
@@ -99,7 +99,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             let second_opinion = second.as_ref().map(|second| {
                 let opinion = second.of_histogram(&histogram);
                 let own_m = words.depth_m().to_num();
-                partings.add_depth(second, (index as u64, own_m), &opinion);
+                disagreements.add_depth(second, (index as u64, own_m), &opinion);
                 opinion
             });
             let sums = is_network.then(|| estimate(params, &histogram).l1_in);
@@ -120,7 +120,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             });
         }
     }
-    let mut late = second.as_ref().map_or(Vec::new(), |second| partings.notes(second));
+    let mut late = second.as_ref().map_or(Vec::new(), |second| disagreements.notes(second));
     late.extend(crowded.map(|(index, hits)| {
         let text = format!("histogram {index} has {hits} hits, more than its shots");
         let expected = format!("{hits} or more");
@@ -132,7 +132,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             text,
         )
     }));
-    talk.heed(&late)?;
+    console.print_notes(&late)?;
     notes.extend(late);
     let (several, explain) = (names.len() > 1, args.explain);
     let findings = EstimateFindings {
@@ -142,7 +142,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         several,
         explain,
     };
-    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
+    Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)
 }
 
 impl Args {

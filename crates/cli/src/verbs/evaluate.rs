@@ -12,6 +12,7 @@ use tofsim::files::folder::FolderLock;
 use tofsim::files::output::create_directory_for;
 use tofsim::network::Network;
 use tofsim::scenario::Loaded;
+use tofsim::scenario::effects::Method;
 use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::axis::thinned;
@@ -24,9 +25,11 @@ use tofsim_learn::evaluation::{Evaluation, Figures};
 
 use crate::report::evaluation::{self as report, EvaluationFindings};
 use crate::report::writer::Report;
+use crate::text::table::width;
+use crate::text::wrap::wrapped;
 
 use super::scenes::Scenes;
-use super::terminal::{Talk, stop_signal};
+use super::terminal::{Console, stop_signal};
 
 mod args;
 mod measured;
@@ -38,10 +41,10 @@ use args::SHOWN;
 type Estimators = Vec<Box<dyn Estimator>>;
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let args = &args.with_estimators()?;
     if let Some(data) = &args.data {
-        measured::run(args, data, talk)?;
+        measured::run(args, data, console)?;
         return Ok(ExitCode::SUCCESS);
     }
     let load = |set: &[String]| args.draws.load_with(&args.scenario, args.network.as_deref(), set);
@@ -51,14 +54,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let seed = scenes.loaded[0].scenario.seed;
     let mut notes = args.notes(&scenes, network)?;
     notes.extend(args.notes_of_estimators(&scenes)?);
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let estimators = args.estimators(&scenes, network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
     let held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let look = |folder: &PathBuf| create_directory_for(folder, "evaluation.json");
     args.output.as_ref().map_or(Ok(()), look)?;
     let stop = stop_signal();
-    let evaluation = args.draws.on_threads(rows.count(), talk, |done| {
+    let evaluation = args.draws.on_threads(rows.count(), console, |done| {
         let of = |scene: &Scene| &estimators[scene.setting][..];
         Evaluation::with(source, &rows, seed, of, stop.as_deref(), done)
     })?;
@@ -89,8 +92,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         grid: Some(&grid),
     };
     drop(held);
-    let report = Report::new(findings, &scenes.setups[0], &notes, talk);
-    report.deliver(args.output.as_deref(), args.json, talk)?;
+    let report = Report::new(findings, &scenes.setups[0], &notes, console);
+    report.deliver(args.output.as_deref(), args.json, console)?;
     let agrees = cross_check.iter().all(CrossCheck::agrees);
     Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
@@ -152,7 +155,16 @@ impl Drawn<'_> {
         let beside = report::Beside { distances_m: &self.shown, bound_mm: &bound_mm, thesis };
         let tables = report::overview(figures) + "\n" + &report::tables(figures, &beside);
         let tables = tables + &report::setting_tables(figures) + &report::biased_scenes(figures);
-        head + &tables + &text(figures, shots, cross_check)
+        let no_bound = if bound_mm.contains(&None) { self.no_bound() } else { String::new() };
+        head + &tables + &no_bound + &text(figures, shots, cross_check)
+    }
+
+    /// Returns the reason for a distance without a Cramer-Rao bound, as a paragraph.
+    fn no_bound(&self) -> String {
+        let why = |setup: &Setup| setup.why_not(Method::CramerRaoBound);
+        let why = self.scenes.setups.iter().find_map(why).unwrap_or("no laser light returns");
+        let line = format!("No Cramer-Rao bound where there is a dash: {why}");
+        format!("\n{}\n", wrapped(&line, width(), ["", "  "]))
     }
 }
 

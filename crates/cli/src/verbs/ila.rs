@@ -15,7 +15,7 @@ use tofsim_captures::ila::{AnalyserSetup, builtin};
 use crate::report::writer::print_list;
 use crate::verbs::terminal::print;
 
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// The logic analyser: capture a simulation as Vivado's captures the board, and read its files
 #[derive(Debug, clap::Args)]
@@ -29,31 +29,31 @@ enum Verb {
     Capture(Box<capture::Args>),
     Info(info::Args),
     Replay(replay::Args),
-    /// List the built-in set-ups of captures
+    /// List the built-in probe configurations
     List {
         /// Print JSON
         #[arg(long)]
         json: bool,
     },
-    /// Print a set-up, to begin one's own with
+    /// Print a probe configuration, as a template for your own
     Show {
-        /// Built-in set-up, or the path of a set-up file
+        /// Built-in probe configuration, or the path of a file
         set_up: String,
     },
-    /// Print the JSON Schema of set-up files: every key with its meaning and unit
+    /// Print the JSON Schema of probe configurations: every key with its meaning and unit
     Schema {
-        /// That of the map files of `compare`
+        /// Print the schema of the map files of `compare` instead
         #[arg(long)]
         map: bool,
     },
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     match &args.verb {
-        Verb::Capture(args) => capture::run(args, talk),
-        Verb::Info(args) => info::run(args, talk),
-        Verb::Replay(args) => replay::run(args, talk),
+        Verb::Capture(args) => capture::run(args, console),
+        Verb::Info(args) => info::run(args, console),
+        Verb::Replay(args) => replay::run(args, console),
         Verb::List { json } => list(*json),
         Verb::Show { set_up } => show(set_up),
         Verb::Schema { map } => schema(*map),

@@ -8,33 +8,33 @@ use clap_mangen::Man;
 use tofsim::error::{Error, Result};
 use tofsim::files::output::{create_directory, write_bytes};
 
-use super::terminal::{Talk, print};
+use super::terminal::{Console, print};
 
 /// Print the manual page, or write one for each subcommand
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Write tofsim.1, tofsim-run.1 and so on there instead
+    /// Write tofsim.1, tofsim-run.1 and so on into this folder instead
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 }
 
 /// Prints or writes the pages of `command`.
-pub fn run(args: &Args, mut command: Command, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, mut command: Command, console: &Console) -> Result<()> {
     command.build();
     let Some(folder) = &args.output else {
         return print(&String::from_utf8_lossy(&page(command)?));
     };
     create_directory(folder)?;
-    pages(&command, "tofsim".to_owned(), folder, talk)
+    pages(&command, "tofsim".to_owned(), folder, console)
 }
 
-fn pages(command: &Command, name: String, folder: &Path, talk: &Talk) -> Result<()> {
+fn pages(command: &Command, name: String, folder: &Path, console: &Console) -> Result<()> {
     let text = page(command.clone())?;
     let path = folder.join(format!("{name}.1"));
     write_bytes(&path, text)?;
-    talk.wrote(&path);
+    console.wrote(&path);
     let mut below = command.get_subcommands();
-    below.try_for_each(|sub| pages(sub, format!("{name}-{}", sub.get_name()), folder, talk))
+    below.try_for_each(|sub| pages(sub, format!("{name}-{}", sub.get_name()), folder, console))
 }
 
 fn page(command: Command) -> Result<Vec<u8>> {

@@ -8,7 +8,7 @@ use tofsim::scenario::{self, Loaded};
 use crate::report::writer::{Findings, Report};
 
 use super::draws::load;
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// The scenario of a verb.
 #[derive(Clone, Debug, clap::Args)]
@@ -44,7 +44,7 @@ impl ResultArgs {
     ///
     /// # Errors
     /// When a picture cannot be drawn, or something cannot be written.
-    pub fn deliver<F: Findings>(&self, report: &Report<F>, talk: &Talk) -> Result<()> {
-        report.deliver(self.output.as_deref(), self.json, talk)
+    pub fn deliver<F: Findings>(&self, report: &Report<F>, console: &Console) -> Result<()> {
+        report.deliver(self.output.as_deref(), self.json, console)
     }
 }

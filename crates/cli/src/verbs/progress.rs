@@ -30,7 +30,7 @@ pub struct Progress {
 enum Shown {
     Nowhere,
     /// Callback of the program around the verb.
-    Told(HearProgress),
+    Callback(HearProgress),
     Bar(ProgressBar),
     Lines(Ticker),
 }
@@ -38,9 +38,19 @@ enum Shown {
 impl Progress {
     /// Over `count` of `things`, or in percent alone if they have no name.
     pub fn new(count: u64, things: &'static str, is_quiet: bool) -> Progress {
-        let meter = Arc::new(Meter::new(count, things));
+        Progress::of(Meter::new(count, things), is_quiet)
+    }
+
+    /// Creates a display over items that differ in length, without an estimate of the remaining time.
+    pub fn uneven(count: u64, things: &'static str, is_quiet: bool) -> Progress {
+        Progress::of(Meter { is_even: false, ..Meter::new(count, things) }, is_quiet)
+    }
+
+    fn of(meter: Meter, is_quiet: bool) -> Progress {
+        let count = meter.all;
+        let meter = Arc::new(meter);
         if let Some(host) = host() {
-            return Progress { meter, shown: Shown::Told(host.progress) };
+            return Progress { meter, shown: Shown::Callback(host.progress) };
         }
         let shown = match (is_quiet || count < 2, stderr().is_terminal()) {
             (true, _) => Shown::Nowhere,
@@ -66,12 +76,12 @@ impl Progress {
         let done = self.meter.done.load(Ordering::Relaxed);
         match &self.shown {
             Shown::Bar(bar) => bar.set_position(done),
-            Shown::Told(hear) => hear(done, self.meter.all),
+            Shown::Callback(hear) => hear(done, self.meter.all),
             _ => {}
         }
     }
 
-    /// Time to go is reckoned from here on.
+    /// Restarts the estimate of the remaining time.
     pub fn reset_eta(&self) {
         self.meter.begin();
     }
@@ -87,7 +97,7 @@ impl Progress {
     /// Shows nothing more.
     pub fn finish_and_clear(&self) {
         match &self.shown {
-            Shown::Nowhere | Shown::Told(_) => {}
+            Shown::Nowhere | Shown::Callback(_) => {}
             Shown::Bar(bar) => bar.finish_and_clear(),
             Shown::Lines(ticker) => ticker.end(),
         }
@@ -116,12 +126,14 @@ struct Meter {
     done: AtomicU64,
     /// When it began, and how much was done then.
     begun: Mutex<(Instant, u64)>,
+    /// Whether all items take about the same time, so that the remaining time can be estimated.
+    is_even: bool,
 }
 
 impl Meter {
     fn new(all: u64, things: &'static str) -> Meter {
         let begun = Mutex::new((Instant::now(), 0));
-        Meter { all, things, done: AtomicU64::new(0), begun }
+        Meter { all, things, done: AtomicU64::new(0), begun, is_even: true }
     }
 
     fn begin(&self) {
@@ -143,7 +155,7 @@ impl Meter {
                 grouped(self.all)
             ),
         };
-        if let Some(new) = done.checked_sub(before).filter(|new| *new > 0) {
+        if let Some(new) = done.checked_sub(before).filter(|new| self.is_even && *new > 0) {
             let left = begun.elapsed().as_secs_f64() * (self.all - done) as f64 / new as f64;
             text += &format!(", {} to go", rough(left));
         }
@@ -203,6 +215,9 @@ mod tests {
         assert_eq!(meter.text(), "75 %, 1,500 of 2,000 rows, 0 s to go");
         meter.begin();
         assert_eq!(meter.text(), "75 %, 1,500 of 2,000 rows");
+        let uneven = Meter { is_even: false, ..Meter::new(64, "items") };
+        uneven.done.store(16, Ordering::Relaxed);
+        assert_eq!(uneven.text(), "25 %, 16 of 64 items");
         assert_eq!(Meter::new(138_240_000, "").text(), "0.0 %");
         let times = [4.0, 89.0, 600.0, 7_200.0, 1e6].map(rough);
         assert_eq!(times, ["4 s", "89 s", "10 min", "2.0 h", "12 days"]);

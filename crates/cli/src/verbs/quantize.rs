@@ -26,22 +26,24 @@ use crate::text::table::table;
 use super::draws::Draws;
 use super::formats::Formats;
 use super::scenes::Scenes;
-use super::terminal::{Talk, print_json, stop_signal};
+use super::terminal::{Console, print_json, stop_signal};
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
 const EXPLORED: u64 = 10_200;
 
-/// Fold and round a network that was trained elsewhere, or explore word lengths
+/// Fold and round a network trained elsewhere, or explore word lengths
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Arrays by name: IW (N x bins), LW (N), b1 (N), b2 (1), for N hidden neurons, 1 to 32, and the settings of\n\
-    mapminmax on both sides if there are any: x_xoffset, x_gain (bins each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
-    1, that removeconstantrows kept. In MATLAB:\n\n  \
+    after_help = "Arrays by name, for N hidden neurons, 1 to 32: IW (N x bins), LW (N), b1 (N), b2 (1), and the settings \
+    of mapminmax on both sides, if any: x_xoffset, x_gain (bins each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep holds \
+    the bins, from 1, that removeconstantrows kept. In MATLAB:\n\n  \
     s = net.inputs{1}.processSettings{2}; t = net.outputs{2}.processSettings{2};\n  \
     IW = net.IW{1,1}; LW = net.LW{2,1}; b1 = net.b{1}; b2 = net.b{2};\n  \
-    x_xoffset = s.xoffset; x_gain = s.gain; x_ymin = s.ymin; y_xoffset = t.xoffset; y_gain = t.gain; y_ymin = t.ymin;\n  \
+    x_xoffset = s.xoffset; x_gain = s.gain; x_ymin = s.ymin;\n  \
+    y_xoffset = t.xoffset; y_gain = t.gain; y_ymin = t.ymin;\n  \
     save('net.mat', 'IW', 'LW', 'b1', 'b2', 'x_*', 'y_*', '-v7')\n\n\
-    JSON: {\"IW\": [[...], ...], \"LW\": [...], \"b\": [[...], [...]], \"x\": {\"xoffset\": [...], \"gain\": [...], \"ymin\": -1}, \"y\": {...}}\n\n\
+    JSON: {\"IW\": [[...], ...], \"LW\": [...], \"b\": [[...], [...]],\n       \
+    \"x\": {\"xoffset\": [...], \"gain\": [...], \"ymin\": -1}, \"y\": {...}}\n\n\
     Examples:\n  \
     tofsim quantize --from net.mat -o net.toml --roms roms\n  \
     tofsim run -s estimator.network=net.toml"
@@ -52,7 +54,7 @@ pub struct Args {
     /// Network file to write
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write the ROMs for $readmemh there: w1.mem, b1.mem, w2.mem, b2.mem, tansig.mem
+    /// Write the ROMs for $readmemh into this folder: w1.mem, b1.mem, w2.mem, b2.mem, tansig.mem
     #[arg(long, value_name = "DIR")]
     roms: Option<PathBuf>,
     /// Chain whose bins it was trained on, for the file
@@ -63,7 +65,7 @@ pub struct Args {
     description: String,
     #[command(flatten)]
     formats: Formats,
-    /// Take the nearest word for a weight that does not fit, instead of an error
+    /// Saturate weights that do not fit, instead of an error
     #[arg(long)]
     saturate: bool,
     /// Built-in scenario, or the path of a scenario file, to explore with
@@ -82,21 +84,21 @@ struct Task {
     /// Fold and round a network: MATLAB file, JSON file, or folder of NumPy arrays (IW.npy, ...)
     #[arg(long, value_name = "FILE|DIR", conflicts_with_all = ["scenario", "Draws"])]
     from: Option<PathBuf>,
-    /// Sweep word lengths and the table of activations: accuracy against block RAMs and DSP slices;
-    /// of 10,200 histograms unless --rows says how many
+    /// Sweep word lengths and the table of activations: accuracy against block RAMs and DSP slices; on 10,200
+    /// histograms unless --rows is given
     #[arg(long, value_name = "NETWORK", conflicts_with_all = ["output", "roms", "chain", "description", "saturate", "Formats"])]
     explore: Option<String>,
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     match (&args.task.from, &args.task.explore) {
-        (Some(from), _) => quantize(args, from, talk),
-        (None, explore) => args.explore(explore.as_deref(), talk),
+        (Some(from), _) => quantize(args, from, console),
+        (None, explore) => args.explore(explore.as_deref(), console),
     }
 }
 
-fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
+fn quantize(args: &Args, path: &Path, console: &Console) -> Result<()> {
     let from = path.display().to_string();
     let size = scenario::load(&args.scenario, &args.draws.set)?.scenario.histogram();
     let float = import::read(path, size.bins)?;
@@ -106,7 +108,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
     datapath.check("--format")?;
     let rounded = float.round(&from, &datapath, overflow)?;
     if rounded.saturated > 0 {
-        talk.note(format_args!("note: {} weights were saturated", rounded.saturated));
+        console.note(format_args!("note: {} weights were saturated", rounded.saturated));
     }
     let magnitude =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a, b| f64::max(a, b.abs()));
@@ -132,7 +134,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         float: Some(float),
     };
     let files = args.write(&network)?;
-    files.iter().for_each(|path| talk.wrote(path));
+    files.iter().for_each(|path| console.wrote(path));
     let files: Vec<_> = files.iter().map(|path| path.display().to_string()).collect();
     if args.json {
         return print_json(&json!({
@@ -150,11 +152,11 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         [weights.to_owned(), format!("{magnitude:.6}"), format!("below {limit}")]
     });
     let table = table(["weights", "largest", "word holds"], rows, ..0);
-    talk.report(&format!("{table}\nsaturated: {}\n", rounded.saturated))
+    console.report(&format!("{table}\nsaturated: {}\n", rounded.saturated))
 }
 
 impl Args {
-    fn explore(&self, network: Option<&str>, talk: &Talk) -> Result<()> {
+    fn explore(&self, network: Option<&str>, console: &Console) -> Result<()> {
         let load = |set: &[String]| self.draws.load_with(&self.scenario, network, set);
         let Scenes { grid, setups, source, .. } =
             Scenes::new(&[], &self.draws.set, GridPurpose::Test, load)?;
@@ -162,7 +164,7 @@ impl Args {
         setup.check_network()?;
         let (seed, profile) = (setup.scenario.seed, &setup.scenario.tdc.profile);
         let notes = domain::notes(network, &setup.scenario, &grid.ranges())?;
-        talk.heed(&notes)?;
+        console.print_notes(&notes)?;
         let distances_m = if grid.is_thesis() {
             thesis::DISTANCES_M.to_vec()
         } else {
@@ -170,7 +172,7 @@ impl Args {
         };
         let rows = self.draws.rows(Some(EXPLORED), &grid, seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
-        let points = self.draws.on_threads(rows.count(), talk, |done| {
+        let points = self.draws.on_threads(rows.count(), console, |done| {
             let datapaths = sweep(&network.datapath);
             explore(network, &datapaths, data, &distances_m, stop.as_deref(), done)
         })?;
@@ -182,7 +184,7 @@ impl Args {
             points: &points,
             seed,
         };
-        Report::new(findings, setup, &notes, talk).deliver(None, self.json, talk)
+        Report::new(findings, setup, &notes, console).deliver(None, self.json, console)
     }
 
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {

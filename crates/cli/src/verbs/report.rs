@@ -31,17 +31,18 @@ use super::draws::use_threads;
 use super::interrupt::look_no_more;
 use super::options::ScenarioArgs;
 use super::progress::Progress;
-use super::terminal::{RunCommand, Talk, print_json, stop_signal};
+use super::terminal::{Console, RunCommand, print_json, stop_signal};
 use super::verify;
 
 mod words;
 
 use words::Words;
 
-/// Write a page about a scenario: light, waveform, histogram, TDC, errors by cause, accuracy, cycles, verification
+/// Write an HTML report of a scenario: link budget, waveform, histogram, TDC, error budget, accuracy, cycles,
+/// verification
 ///
-/// The page is one file without scripts, for a screen, a phone or paper. What a scenario does not allow is left out,
-/// with the reason.
+/// The report is one file without scripts, for a screen, a phone or paper. Parts that the scenario does not allow are
+/// omitted, with the reason.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim report far -o far\n  \
@@ -54,10 +55,10 @@ pub struct Args {
     /// Folder for report.html, report.json and waveform.json
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// A tenth of the histograms
+    /// Use a tenth of the histograms
     #[arg(long)]
     quick: bool,
-    /// Hold the Verilog to the model, and prove its cycle counts; takes minutes, Icarus Verilog and Yosys
+    /// Verify the Verilog against the model, and prove its cycle counts; takes minutes, and needs Icarus Verilog and Yosys
     #[arg(long)]
     verify: bool,
     /// Seed of every random stream, instead of the scenario's
@@ -89,7 +90,7 @@ const SCOPE: &str = "scenario = \"kc705\"\nclock = \"clk_laser\"\ndepth = 1024\n
 const SAMPLES: usize = 48;
 
 /// Runs the verb, with others' commands through `run_command`.
-pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console, run_command: RunCommand) -> Result<ExitCode> {
     use_threads(args.threads)?;
     let loaded = args.scenario.load(args.seed)?;
     let setup = Setup::new(loaded.clone())?;
@@ -97,7 +98,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     notes.extend(notes_of_firmware(&setup));
     let findings = LinkBudget::of(setup.clone());
     notes.extend(findings.eye_safety_notes());
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let _held = FolderLock::take(&args.output)?;
     let words = Words {
         scenario: &args.scenario.scenario,
@@ -106,8 +107,8 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
         grid: loaded.scenario.training.grid_options(),
     };
     let parts =
-        Parts { quick: args.quick, words, talk, run_command, loaded: &loaded, setup: &setup };
-    let progress = talk.progress(6, "parts");
+        Parts { quick: args.quick, words, console, run_command, loaded: &loaded, setup: &setup };
+    let progress = console.uneven_progress(6, "parts");
     let waveform = made(parts.waveform(), &progress)?;
     let run = made(parts.run(), &progress)?;
     let tdc = made(parts.tdc(), &progress)?;
@@ -120,7 +121,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     };
     progress.finish_and_clear();
     look_no_more();
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     let trace = waveform.as_ref().ok().map(|trace| wavejson(trace, &setup.name));
     let page = ScenarioPage {
         setup: &setup,
@@ -144,7 +145,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     if let Some(trace) = trace {
         write_bytes(&stage.path().join("waveform.json"), format!("{trace}\n"))?;
     }
-    stage.commit()?.iter().for_each(|path| talk.wrote(path));
+    stage.commit()?.iter().for_each(|path| console.wrote(path));
     if args.json {
         print_json(&object)?;
     }
@@ -177,7 +178,7 @@ fn made<T>(part: Result<T>, progress: &Progress) -> Result<ReportPart<T>> {
 struct Parts<'a> {
     quick: bool,
     words: Words<'a>,
-    talk: &'a Talk,
+    console: &'a Console,
     run_command: RunCommand,
     loaded: &'a Loaded,
     setup: &'a Setup,
@@ -200,7 +201,7 @@ impl Parts<'_> {
         words.extend(more.iter().map(|&word| word.to_owned()));
         words.extend(["-o".to_owned(), folder.display().to_string()]);
         let words: Vec<_> = words.iter().map(String::as_str).collect();
-        (self.run_command)(&words, self.talk)?;
+        (self.run_command)(&words, self.console)?;
         read(&folder)
     }
 
@@ -226,7 +227,7 @@ impl Parts<'_> {
     fn tdc(&self) -> Result<(Value, Vec<String>)> {
         let setup = self.setup;
         if setup.scenario.tdc.conditions.is_some() {
-            let expected = "a chain is characterised in conditions that stand still";
+            let expected = "a chain is characterised under constant conditions";
             return Err(Input::new("tdc.conditions", expected).into());
         }
         let converter = (&setup.params.tdc, setup.disturbance());
@@ -262,9 +263,9 @@ impl Parts<'_> {
         let words: Vec<_> = words.iter().map(String::as_str).collect();
         let checked = || -> Result<(Value, Value, bool)> {
             let args = verify::Args::of(&words)?;
-            let talk = self.talk.within(Vec::new());
-            let (source, blocks) = verify::blocks(&args, &talk)?;
-            let (counted, counts) = verify::cycle_counts(&args, &talk)?;
+            let console = self.console.within(Vec::new());
+            let (source, blocks) = verify::blocks(&args, &console)?;
+            let (counted, counts) = verify::cycle_counts(&args, &console)?;
             let passed =
                 blocks.iter().all(|block| !block.failed()) && counts.iter().all(|one| one.holds());
             let blocks = Verified { rtl: &source, simulator: "icarus", blocks: &blocks };

@@ -6,6 +6,7 @@ use tofsim::error::{Input, Result, nearest};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
+use tofsim_studies::plan::builtin::is_name;
 
 use crate::choice::{seed, threads};
 use crate::page::trace::wavejson;
@@ -18,16 +19,16 @@ use crate::reproduce::{finding, html, text};
 
 use super::draws::use_threads;
 use super::interrupt::look_no_more;
-use super::terminal::{Talk, print_json, stop_signal};
+use super::terminal::{Console, print_json, stop_signal};
 
-/// Make the tables and figures of the thesis again, each with a verdict: same, differs, cannot be reproduced
+/// Reproduce the tables and figures of the thesis, each with a verdict: same, differs, cannot be reproduced
 ///
-/// Each number stands beside the thesis's, with its standard error; where something differs, the reason is said. With
-/// names of items only these are made, and their rows are printed.
+/// Each number is compared with that of the thesis, with its standard error, and each difference has a reason. With
+/// ITEMs, only those are reproduced, and their rows are printed.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim reproduce -o thesis\n  \
-    tofsim reproduce --quick -o thesis     in seconds, with a tenth of the draws\n  \
+    tofsim reproduce --quick -o thesis   a tenth of the histograms\n  \
     tofsim reproduce table-4.3 table-6.3\n  \
     tofsim reproduce --list\n\n\
     Exit status: 0 whatever the verdicts, 2 usage or input error.")]
@@ -35,13 +36,13 @@ pub struct Args {
     /// Tables, figures and others by name, such as table-4.3 or fig-6.21 [default: all]
     #[arg(value_name = "ITEM")]
     items: Vec<String>,
-    /// Write reproduce.html, a page with all in it, reproduce.json, and timing diagrams as WaveJSON there
+    /// Write reproduce.html, reproduce.json, and timing diagrams as WaveJSON into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// A tenth of the histograms
+    /// Use a tenth of the histograms
     #[arg(long)]
     quick: bool,
-    /// Print the names of the items, and make none
+    /// Print the names of the items and exit
     #[arg(long)]
     list: bool,
     /// Seed of every random stream
@@ -56,7 +57,7 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let items = chosen(&args.items)?;
     if args.list {
         let rows: Vec<_> = items.into_iter().map(|item| [item.id, item.title]).collect();
@@ -65,17 +66,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     use_threads(args.threads)?;
     let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let study = Study::new(args.seed, args.quick, stop_signal());
-    let progress = talk.progress(items.len() as u64, "items");
+    let progress = console.uneven_progress(items.len() as u64, "items");
     let mut made = Vec::new();
     for item in items {
-        talk.detail(&item.id);
+        console.detail(&item.id);
         made.push(Finding::new(&item, &study)?);
         progress.inc(1);
     }
     progress.finish_and_clear();
     look_no_more();
     let setup = study.ideal()?;
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     let mut object = finding::json(&made, args.quick);
     record.put_into(&mut object, &setup.notes()?);
     if let Some(folder) = &args.output {
@@ -84,12 +85,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         write_bytes(&stage.path().join("reproduce.html"), html::page(&made, &record, args.quick))?;
         write_bytes(&stage.path().join("reproduce.json"), object)?;
         write_waves(&made, stage.path())?;
-        stage.commit()?.iter().for_each(|path| talk.wrote(path));
+        stage.commit()?.iter().for_each(|path| console.wrote(path));
     }
-    match (args.json, args.items.is_empty() && !talk.verbose) {
+    match (args.json, args.items.is_empty() && !console.verbose) {
         (true, _) => print_json(&object),
-        (false, true) => talk.report(&text::overview(&made)),
-        (false, false) => talk.report(&text::in_full(&made)),
+        (false, true) => console.report(&text::overview(&made)),
+        (false, false) => console.report(&text::in_full(&made)),
     }
 }
 
@@ -104,16 +105,17 @@ fn write_waves(findings: &[Finding], folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The items of such names, in the order of the thesis; all without names.
+/// Returns the items with some names, or all without names, in the order of the thesis.
 fn chosen(names: &[String]) -> Result<Vec<Item>> {
     let all = table::items()?;
     for name in names {
-        if all.iter().all(|item| item.id != *name) {
+        if !all.iter().any(|item| is_name(name, &item.id)) {
             let near = nearest(name, all.iter().map(|item| item.id.as_str()));
             let hint = near.map_or(String::new(), |near| format!(" ({near}?)"));
             let expected = format!("there is no item of that name{hint}; --list has all");
             return Err(Input::new("ITEM", expected).value(name).into());
         }
     }
-    Ok(all.into_iter().filter(|item| names.is_empty() || names.contains(&item.id)).collect())
+    let is_chosen = |item: &Item| names.iter().any(|name| is_name(name, &item.id));
+    Ok(all.into_iter().filter(|item| names.is_empty() || is_chosen(item)).collect())
 }

@@ -13,7 +13,7 @@ use tofsim::error::{Error, Input, Result};
 
 use crate::record::Record;
 
-use super::terminal::{Talk, print, print_json};
+use super::terminal::{Console, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
@@ -49,18 +49,18 @@ pub static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 /// Regenerate an output from its embedded record, and compare the two byte by byte
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Any output will do: waveforms, JSON, CSV, Parquet and SVG carry the command that made \
-    them.\nPaths in that command are taken from here. Exit status 1 says that the bytes differ.\n\n\
+    after_help = "Waveforms, JSON, CSV, Parquet and SVG files record the command that wrote them. Paths in \
+    that command are relative to the current folder. Exit status 1 means that the bytes differ.\n\n\
     Examples:\n  \
     tofsim run -s target.distance_m=0.3 -o out\n  \
-    tofsim rerun out/histogram.svg                 is it still what this version makes?\n  \
-    tofsim rerun out/summary.json -o again         keep what is made"
+    tofsim rerun out/histogram.svg           does this version write the same?\n  \
+    tofsim rerun out/summary.json -o again   keep the new files"
 )]
 pub struct Args {
-    /// The output
+    /// Output file of a command
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Keep what is made in this folder, which must be another than the file's
+    /// Keep the new files in this folder, which must not be that of FILE
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print one JSON object instead of a line
@@ -69,7 +69,7 @@ pub struct Args {
 }
 
 /// Runs the verb; the status says whether the bytes are the same.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let given = read(&args.file)?;
     let record = record(&args.file, &given)?;
     let scratch =
@@ -82,7 +82,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         Some(folder) => folder.as_path(),
         None => scratch.path(),
     };
-    talk.detail(format_args!("tofsim {}", record.command.join(" ")));
+    console.detail(format_args!("tofsim {}", record.command.join(" ")));
     let again = again(&args.file, &given, &record, folder)?;
     let differences = differences(&without_folder(given), &without_folder(again), &record);
     let same = differences.is_empty();
@@ -126,7 +126,7 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
     let mut beside = names.into_iter().chain([map.as_str()]);
     let found = beside.find_map(|name| Record::find(&read(&folder.join(name)).ok()?));
     found.ok_or_else(|| {
-        let expected = "has no record of how it was made, nor has a summary beside it";
+        let expected = "has no record of its command, and there is no summary in its folder";
         Input::new(path.display(), expected).into()
     })
 }

@@ -28,15 +28,15 @@ use crate::report::table;
 
 use super::draws::{load, use_threads};
 use super::frames;
-use super::terminal::{Talk, print_with, stop_signal};
+use super::terminal::{Console, print_with, stop_signal};
 
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
-    tofsim run                              one frame of the built-in kc705, waveform in waves/\n  \
+    tofsim run                           one frame of kc705, waveform in waves/\n  \
     tofsim run far --frames 20 --waves none\n  \
     tofsim run far --frames 1000 --fidelity shot\n  \
-    tofsim run --estimator subtraction      a dark and a lit frame of 15,000 shots each\n  \
+    tofsim run --estimator subtraction   a dark and a lit frame of 15,000 shots\n  \
     tofsim run -s target.distance_m=0.3 --seed 7 -o out\n  \
     tofsim run --window 10us..12us --signals 'tdc.*' --waves fst")]
 pub struct Args {
@@ -49,10 +49,10 @@ pub struct Args {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
-    /// How many frames to simulate; of dark and lit frames, how many pairs
+    /// Number of frames; with dark frames, number of pairs
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
-    /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
+    /// Simulation fidelity: cycle and shot give identical frames, histogram frames of the same distribution
     #[arg(long, value_parser = words(&Fidelity::ALL), default_value = "cycle")]
     fidelity: Fidelity,
     /// Threads for the frames of a run without waveform and events; the results are the same for
@@ -62,28 +62,28 @@ pub struct Args {
     /// Format of the waveform [default: vcd; none for fidelities without signals]
     #[arg(long, value_parser = words(choice::WAVEFORM))]
     waves: Option<WaveformChoice>,
-    /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
-    /// repeated [default: the scenario's, or shot:0..16 and estimation]
+    /// Part of the run to record in the waveform: shot:0..8, 10us..12us or estimation; may be repeated [default: the
+    /// scenario's, or shot:0..16 and estimation]
     #[arg(long, value_name = "W", value_parser = str::parse::<Window>)]
     window: Vec<Window>,
-    /// Signals that go into the waveform, by name or path with * and ?; may be repeated
-    /// [default: all but the histogram's RAM]
+    /// Signals to record in the waveform, by name or path with * and ?; may be repeated [default: all but the
+    /// histogram's RAM]
     #[arg(long, value_name = "GLOB")]
     signals: Vec<String>,
-    /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
-    /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
+    /// Additional estimators for each frame's histogram, separated by commas; with subtraction, frames are pairs of a
+    /// dark and a lit one (firmware.dark_frames) for all estimators
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
-    /// Leave out what the likelihood estimator says of each frame's histogram beside the firmware's own
+    /// Do not run the likelihood estimator on each frame for comparison
     #[arg(long)]
     no_second_opinion: bool,
-    /// Count a depth as an outlier that is further than this from the truth
+    /// Error above which a depth is an outlier [mm]
     #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = choice::millimetres)]
     outlier_limit_mm: f64,
-    /// Write a row for each shot, as .csv or .parquet
+    /// Write a row per shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
-    /// Write summary.json, histogram.csv, histogram.svg and the waveform there
+    /// Write summary.json, histogram.csv, histogram.svg and the waveform into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print one JSON object instead of a table
@@ -92,7 +92,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let waves = args.waves_format()?;
     let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
@@ -100,7 +100,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut notes = setup.notes()?;
     notes.extend(notes_of_firmware(&setup));
     notes.extend(args.estimator.iter().flat_map(|kind| kind.notes_of_scene(&setup)));
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;
     let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
@@ -109,17 +109,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let home = plan.as_ref().and_then(|plan| plan.path.parent()).or(args.output.as_deref());
     let _held = home.map(FolderLock::take).transpose()?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     let mut files = RunFiles::new(folder, events, &record, &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(&record, &setup)).transpose()?;
     use_threads(args.threads)?;
 
     let stop = stop_signal();
-    let progress = talk.progress(frames, "frames");
+    let progress = console.progress(frames, "frames");
     let panel = Panel::new(&args.estimator, &setup)?;
     let limit_m = 1e-3 * args.outlier_limit_mm;
     let wants_second = !args.no_second_opinion;
-    let second = wants_second.then(|| second_opinion(&setup, &mut notes, talk)).flatten();
+    let second = wants_second.then(|| second_opinion(&setup, &mut notes, console)).flatten();
     let json = args.json || folder.is_some();
     let mut log = FrameLog::new(&setup, json, (panel, second), limit_m);
     let mut take_frame = |frame: &Frame| {
@@ -155,7 +155,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if setup.no_depth().is_none() {
         late.extend(log.notes());
     }
-    talk.heed(&late)?;
+    console.print_notes(&late)?;
     notes.extend(late);
 
     let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
@@ -166,10 +166,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
     let Written { files, older } = files.finish(&setup, &mut log, &summary, written)?;
     for path in files {
-        talk.wrote(&path);
+        console.wrote(&path);
     }
     for path in older {
-        talk.note(format_args!(
+        console.note(format_args!(
             "{} is of an older run: summary.json does not list it",
             path.display()
         ));
@@ -181,7 +181,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }
-    talk.report(&text)
+    console.report(&text)
 }
 
 impl Args {

@@ -10,7 +10,7 @@ use tofsim::sim::setup::Setup;
 use crate::report::writer::print_list;
 
 use super::options::ScenarioArgs;
-use super::terminal::{Talk, print, print_json};
+use super::terminal::{Console, print, print_json};
 
 /// List, show and check scenarios
 #[derive(Debug, clap::Args)]
@@ -48,7 +48,7 @@ enum What {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     match &args.what {
         What::List { json } => list(*json),
         What::Show { which, json } => {
@@ -63,11 +63,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             let setup = Setup::new(which.load(None)?)?;
             setup.windows(&[], 1)?;
             let notes = setup.notes()?;
-            talk.heed(&notes)?;
+            console.print_notes(&notes)?;
             if *json {
                 print_json(&json!({ "scenario": setup.name, "ok": true, "notes": notes }))
             } else {
-                talk.report(&format!("{}: ok\n", setup.name))
+                console.report(&format!("{}: ok\n", setup.name))
             }
         }
         What::Schema => print(&format!("{:#}\n", show::schema())),

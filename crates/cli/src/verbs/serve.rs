@@ -13,16 +13,16 @@ use crate::choice::seed;
 use super::host::host;
 use super::options::ScenarioArgs;
 use super::rerun;
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// Program that serves the page; it lies beside this one.
 const PROGRAM: &str = "tofsim-serve";
 
-/// Open the acquisition computer as a page in a browser on this computer
+/// Serve the acquisition computer as a web page on this computer
 ///
-/// The page has the computer's signals, acting on a running model; the histogram by cause, the depths and their
-/// bound; the scene; a logic analyser; and the waveform of a shot. Its address, which holds a secret, is printed;
-/// Ctrl-C ends it.
+/// The page shows control signals, which act on the running model; the histogram by cause; the depths and their
+/// bound; the scene; a logic analyser; and the waveform of a shot. The command prints its URL, which contains a
+/// secret, and runs until Ctrl-C.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim serve\n  \
@@ -36,13 +36,13 @@ pub struct Args {
     /// Simulation fidelity; the frames are the same
     #[arg(long, value_enum, default_value_t = Way::Cycle)]
     fidelity: Way,
-    /// Port on 127.0.0.1; 0 takes any that is free
+    /// Port on 127.0.0.1; 0 selects a free one
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
-    /// Frames a second at most
+    /// Largest number of frames per second
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rate: u32,
-    /// Wait for a press of Start before the first frame
+    /// Wait for Start to be pressed before the first frame
     #[arg(long)]
     stopped: bool,
     /// Print one JSON object instead of the address
@@ -55,19 +55,19 @@ pub struct Args {
 enum Way {
     /// Every cycle, with the cause of every avalanche
     Cycle,
-    /// Leaps over shots that are alike; causes are what is to be expected
+    /// Skips idle cycles; causes are expected values
     Shot,
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     if rerun::PROGRAM.get().is_some() || host().is_some() {
         let expected = "is not in the Python package, which has no server: install the command with \
             `cargo install --path crates/cli` and `cargo install --path crates/serve`";
         return Err(Input::new("serve", expected).into());
     }
     let setup = Setup::new(args.scenario.load(args.seed)?)?;
-    talk.heed(&setup.notes()?)?;
+    console.print_notes(&setup.notes()?)?;
     let program = program()?;
     if !program.is_file() {
         tell(format_args!(
@@ -76,13 +76,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         ));
         return Ok(ExitCode::FAILURE);
     }
-    become_program(Command::new(&program).args(args.words(talk)))
+    become_program(Command::new(&program).args(args.words(console)))
         .map_err(Error::io(&program, "run"))
 }
 
 impl Args {
     /// Returns the options of the program.
-    fn words(&self, talk: &Talk) -> Vec<String> {
+    fn words(&self, console: &Console) -> Vec<String> {
         let fidelity = match self.fidelity {
             Way::Cycle => "cycle",
             Way::Shot => "shot",
@@ -97,7 +97,7 @@ impl Args {
         // Notes have been said.
         words.push("--without-notes".to_owned());
         let flags =
-            [("--stopped", self.stopped), ("--json", self.json), ("--quiet", talk.is_quiet())];
+            [("--stopped", self.stopped), ("--json", self.json), ("--quiet", console.is_quiet())];
         words
             .extend(flags.iter().filter(|(_, is_set)| *is_set).map(|(flag, _)| (*flag).to_owned()));
         words.extend(["--".to_owned(), self.scenario.scenario.clone()]);

@@ -20,7 +20,7 @@ use crate::record::Record;
 use crate::report::{sweep as report, sweep_plot};
 
 use super::draws::use_threads;
-use super::terminal::{Talk, print_json, stop_signal};
+use super::terminal::{Console, print_json, stop_signal};
 
 mod catalogue;
 
@@ -28,15 +28,15 @@ mod catalogue;
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(
-    after_help = "A plan is a TOML file: axes (lists, ranges, distributions) over any keys of \
-    the scenario,\nwhat is simulated at each point, which columns the table has, what is searched for.\n\
-    docs/studies.md explains it. A sweep that was stopped or killed goes on where it was.\n\nExamples:\n  \
-    tofsim sweep fig-4-2                    a plan of the program's, printed\n  \
-    tofsim sweep p.toml -o out              sweep.parquet and .csv, and .svg with [plot]\n  \
-    tofsim sweep p.toml --shard 3/7 -o out  one of seven parts, for an array of jobs\n  \
+    after_help = "A plan is a TOML file with axes (lists, ranges, distributions) over any keys of the \
+    scenario, the simulation at each point, the columns of the table, and the search, if any; see \
+    docs/studies.md. A sweep that was stopped or killed is resumed.\n\nExamples:\n  \
+    tofsim sweep fig-4-2                    a built-in plan, table printed\n  \
+    tofsim sweep p.toml -o out              Parquet and CSV; SVG with [plot]\n  \
+    tofsim sweep p.toml --shard 3/7 -o out  one of seven parts, for job arrays\n  \
     tofsim sweep merge out -o whole         one table of all seven\n  \
-    tofsim sweep list                       plans that come with the program\n  \
-    tofsim sweep columns                    what a point can give"
+    tofsim sweep list                       built-in plans\n  \
+    tofsim sweep columns                    available columns"
 )]
 pub struct Args {
     #[command(subcommand)]
@@ -64,16 +64,16 @@ struct SweepArgs {
     /// Seed of every random number, instead of the plan's
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
-    /// Work out one of N parts, every Nth point from the Ith on
+    /// Evaluate one of N parts, every Nth point from the Ith on
     #[arg(long, value_name = "I/N", requires = "output")]
     shard: Option<Shard>,
-    /// Forget what is in the folder, and begin anew
+    /// Discard the results in the folder and start again
     #[arg(long, requires = "output")]
     restart: bool,
     /// Threads; the results are the same for any number [default: one a core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads())]
     threads: Option<u16>,
-    /// Write the table there, as Parquet and CSV, and a picture if the plan has one
+    /// Write the table into this folder, as Parquet and CSV, and the plot of the plan
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print one JSON object instead of a table
@@ -82,24 +82,24 @@ struct SweepArgs {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     match &args.action {
-        Some(Action::Merge(args)) => catalogue::merge(args, talk),
-        Some(Action::List(args)) => catalogue::list(args, talk),
+        Some(Action::Merge(args)) => catalogue::merge(args, console),
+        Some(Action::List(args)) => catalogue::list(args, console),
         Some(Action::Show(args)) => catalogue::show(args),
-        Some(Action::Columns(args)) => catalogue::columns(args, talk),
-        None => args.sweep.run(talk),
+        Some(Action::Columns(args)) => catalogue::columns(args, console),
+        None => args.sweep.run(console),
     }
 }
 
 impl SweepArgs {
-    fn run(&self, talk: &Talk) -> Result<()> {
+    fn run(&self, console: &Console) -> Result<()> {
         let Some(name) = &self.plan else {
             return Err(Input::new("plan", "expected a built-in plan or the path of one").into());
         };
         let plan = Plan::load(name, &self.set, self.seed)?;
         let setup = Setup::of_counts(plan.base()?)?;
-        let record = Record::new(&setup, &talk.command);
+        let record = Record::new(&setup, &console.command);
         let about = about(&plan, &record);
         let sweep = Sweep {
             plan: &plan,
@@ -108,40 +108,40 @@ impl SweepArgs {
             comment: record.comment_line(),
         };
         use_threads(self.threads)?;
-        let mut finished = self.finished(&sweep, talk)?;
+        let mut finished = self.finished(&sweep, console)?;
         let notes = notes(&finished, sweep.shard.size(plan.points.count()));
         if let (Some(folder), Shard::WHOLE) = (&self.output, sweep.shard) {
             match draw(&plan, &record, &finished.rows, folder)? {
                 Some(Ok(path)) => finished.files.push(path),
                 // The table is there all the same.
-                Some(Err(fault)) => talk.note(fault),
+                Some(Err(fault)) => console.note(fault),
                 None => {}
             }
         }
-        finished.files.iter().for_each(|path| talk.wrote(path));
-        talk.heed(&notes)?;
+        finished.files.iter().for_each(|path| console.wrote(path));
+        console.print_notes(&notes)?;
         if self.json {
             return print_json(&self.object(about, &plan, &finished, &notes));
         }
         let shown = plan.points.count();
-        talk.report(&report::text(&plan, &finished.rows, shown))
+        console.report(&report::text(&plan, &finished.rows, shown))
     }
 
-    fn finished(&self, sweep: &Sweep, talk: &Talk) -> Result<Finished> {
+    fn finished(&self, sweep: &Sweep, console: &Console) -> Result<Finished> {
         let stop = stop_signal();
         let count = sweep.shard.size(sweep.plan.points.count());
         let Some(folder) = &self.output else {
-            let progress = talk.progress(count, "points");
+            let progress = console.progress(count, "points");
             let finished = sweep.in_memory(stop.as_deref(), &|more| progress.inc(more));
             progress.finish_and_clear();
             return finished;
         };
         let _held = FolderLock::share(folder)?;
         if !self.restart && sweep.is_done(folder) {
-            talk.note(format_args!("{} is there and whole", sweep.table(folder).display()));
+            console.note(format_args!("{} is there and whole", sweep.table(folder).display()));
             return read(sweep, folder);
         }
-        let progress = talk.progress(count, "points");
+        let progress = console.progress(count, "points");
         let is_first = std::sync::atomic::AtomicBool::new(true);
         let done = |more| {
             progress.inc(more);
@@ -153,14 +153,14 @@ impl SweepArgs {
         let finished = sweep.run(folder, self.restart, stop.as_deref(), &done);
         progress.finish_and_clear();
         if let Err(tofsim::Error::Interrupted) = &finished {
-            talk.note(format_args!(
+            console.note(format_args!(
                 "finished points are kept in {}; the same command goes on",
                 folder.display()
             ));
         }
         let finished = finished?;
         if finished.resumed > 0 {
-            talk.note(format_args!("{} of {count} points were there already", finished.resumed));
+            console.note(format_args!("{} of {count} points were there already", finished.resumed));
         }
         Ok(finished)
     }

@@ -23,7 +23,7 @@ use crate::report::tdc_rom::csv;
 use crate::report::writer::Report;
 
 use super::options::{ResultArgs, ScenarioArgs};
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// Characterise the TDC: bin widths, DNL, INL, bubbles, precision, clock edges
 ///
@@ -33,9 +33,9 @@ use super::terminal::Talk;
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Examples:\n  \
-    tofsim tdc -s tdc.profile=kintex7 -o tdc              as a Kintex-7's carry chain is\n  \
+    tofsim tdc -s tdc.profile=kintex7 -o tdc         realistic carry chain\n  \
     tofsim tdc -s tdc.profile=kintex7 -s tdc.calibration=uniform\n  \
-    tofsim tdc --decoders -s tdc.profile=kintex7 -o dec   ones, leading bit, reordered taps\n  \
+    tofsim tdc --decoders -s tdc.profile=kintex7     compare the decoders\n  \
     tofsim tdc calibrate tdc/counts.csv -s tdc.profile=kintex7 -o cal.csv\n  \
     tofsim run -s tdc.profile=kintex7 -s tdc.calibration=cal.csv")]
 pub struct Args {
@@ -55,62 +55,61 @@ enum Verb {
 struct OwnArgs {
     #[command(flatten)]
     scenario: ScenarioArgs,
-    /// Hits of the code-density test, and times at random
+    /// Number of hits of the code-density test, and of random times
     #[arg(long, default_value_t = 1_000_000, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     hits: u64,
     #[command(flatten)]
     result: ResultArgs,
-    /// Compare what each decoder makes of the same hits: files are decoders.csv, patterns.csv, decoders.json and
-    /// decoders.svg
+    /// Compare the decoders on the same hits; -o writes decoders.csv, patterns.csv, decoders.json and decoders.svg
     #[arg(long)]
     decoders: bool,
 }
 
 /// Runs the verb; the status says whether no hit is off by a period of the clock.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     match &args.verb {
-        Some(Verb::Calibrate(args)) => calibrate(args, talk).map(|()| ExitCode::SUCCESS),
-        Some(Verb::Drift(args)) => drift::run(args, talk).map(|()| ExitCode::SUCCESS),
-        None => args.own.run(talk),
+        Some(Verb::Calibrate(args)) => calibrate(args, console).map(|()| ExitCode::SUCCESS),
+        Some(Verb::Drift(args)) => drift::run(args, console).map(|()| ExitCode::SUCCESS),
+        None => args.own.run(console),
     }
 }
 
 impl OwnArgs {
-    fn run(&self, talk: &Talk) -> Result<ExitCode> {
+    fn run(&self, console: &Console) -> Result<ExitCode> {
         let setup = Setup::of_counts(self.scenario.load(None)?)?;
         if let Some(file) = &setup.scenario.tdc.conditions {
-            let expected = "expected none: a chain is characterised in conditions that stand still";
+            let expected = "expected none: a chain is characterised under constant conditions";
             return Err(Input::new("scenario", expected)
                 .field("tdc.conditions")
                 .value(file)
                 .into());
         }
         if self.decoders {
-            return self.compare(&setup, talk);
+            return self.compare(&setup, console);
         }
         let converter = (&setup.params.tdc, setup.disturbance());
         let found = Characterisation::new(converter, self.hits, setup.scenario.seed);
         let findings = TdcFindings { found: &found, setup: &setup };
-        let report = Report::new(findings, &setup, &[], talk);
-        self.result.deliver(&report, talk)?;
+        let report = Report::new(findings, &setup, &[], console);
+        self.result.deliver(&report, console)?;
         let is_right = found.is_coarse_right();
         Ok(if is_right { ExitCode::SUCCESS } else { ExitCode::FAILURE })
     }
 
     /// Compares the decoders themselves, so that the scenario's own and its calibration play no part.
-    fn compare(&self, setup: &Setup, talk: &Talk) -> Result<ExitCode> {
+    fn compare(&self, setup: &Setup, console: &Console) -> Result<ExitCode> {
         let found = Comparison::new(&setup.params.tdc, self.hits, setup.scenario.seed);
-        let report = Report::new(DecoderFindings { found: &found, setup }, setup, &[], talk);
-        self.result.deliver(&report, talk)?;
+        let report = Report::new(DecoderFindings { found: &found, setup }, setup, &[], console);
+        self.result.deliver(&report, console)?;
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// Make the decoder's ROM from the counts of a code-density test, with standard errors
+/// Compute the decoder's ROM from the counts of a code-density test, with standard errors
 ///
-/// The hits must be uncorrelated with the clock, such as those of ambient light. The delay to tap 0, which no count
-/// shows, is taken from the scenario's chain.
+/// The hits must be uncorrelated with the clock, such as those of ambient light. The delay to tap 0, which counts
+/// cannot measure, is that of the scenario's chain.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim tdc calibrate counts.csv --scenario mine.toml -o cal.csv\n  \
@@ -134,16 +133,16 @@ struct CalibrateArgs {
 }
 
 /// Runs the verb.
-fn calibrate(args: &CalibrateArgs, talk: &Talk) -> Result<()> {
+fn calibrate(args: &CalibrateArgs, console: &Console) -> Result<()> {
     let setup = Setup::of_counts(scenario::load(&args.scenario, &args.set)?)?;
     let source = args.counts.display().to_string();
     let counts = measured::counts(&source, &read_text(&args.counts)?)?;
     let rom = CalibratedRom::new(&source, &counts, &setup.params.tdc)?;
     let notes: Vec<_> = rom.note().into_iter().collect();
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     if let Some(path) = &args.output {
-        write_bytes(path, Record::new(&setup, &talk.command).comment_line() + &csv(&rom))?;
-        talk.wrote(path);
+        write_bytes(path, Record::new(&setup, &console.command).comment_line() + &csv(&rom))?;
+        console.wrote(path);
     }
-    Report::new(rom, &setup, &notes, talk).deliver(None, args.json, talk)
+    Report::new(rom, &setup, &notes, console).deliver(None, args.json, console)
 }

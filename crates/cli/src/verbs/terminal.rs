@@ -7,9 +7,11 @@ use std::process::ExitCode;
 use serde_json::Value;
 
 use tofsim::Note;
-use tofsim::error::{Error, Input, Result, tell};
+use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
+
+use crate::text::wrap::message;
 
 use super::host;
 pub use super::interrupt::stop_signal;
@@ -36,11 +38,11 @@ pub fn print_with(fill: impl FnOnce(&mut Output) -> io::Result<()>) -> Result<()
 }
 
 /// Runs a command line, the first word of which is a verb, as part of another command.
-pub type RunCommand = fn(&[&str], &Talk) -> Result<ExitCode>;
+pub type RunCommand = fn(&[&str], &Console) -> Result<ExitCode>;
 
-/// Messages to the terminal, and how many of them.
+/// Messages to the user, and how many of them are printed.
 #[derive(Debug, clap::Args)]
-pub struct Talk {
+pub struct Console {
     /// Print only errors and the object of --json
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
@@ -58,16 +60,16 @@ pub struct Talk {
     within: bool,
 }
 
-impl Talk {
+impl Console {
     /// Returns the console of a command that is part of this one.
-    pub fn within(&self, command: Vec<String>) -> Talk {
-        let Talk { quiet, verbose, strict, .. } = *self;
-        Talk { quiet, verbose, strict, command, within: true }
+    pub fn within(&self, command: Vec<String>) -> Console {
+        let Console { quiet, verbose, strict, .. } = *self;
+        Console { quiet, verbose, strict, command, within: true }
     }
 
     /// Returns the console of a command within another program, which prints only what is asked for.
-    pub fn silent(&self, command: Vec<String>) -> Talk {
-        Talk { quiet: true, verbose: false, strict: self.strict, command, within: false }
+    pub fn silent(&self, command: Vec<String>) -> Console {
+        Console { quiet: true, verbose: false, strict: self.strict, command, within: false }
     }
 
     /// Whether only errors are printed.
@@ -78,15 +80,15 @@ impl Talk {
     /// Prints a message, unless `--quiet` is given.
     pub fn note(&self, text: impl std::fmt::Display) {
         if !self.quiet && (!self.within || self.verbose) {
-            tell(text);
+            message(text);
         }
     }
 
-    /// Prints the notes on results, a line each.
+    /// Prints the notes on results.
     ///
     /// # Errors
     /// With `--strict`, if there is a note.
-    pub fn heed(&self, notes: &[Note]) -> Result<()> {
+    pub fn print_notes(&self, notes: &[Note]) -> Result<()> {
         notes.iter().for_each(|note| self.note(note));
         let Some(first) = notes.first().filter(|_| self.strict) else { return Ok(()) };
         let expected = format!("expected no note [{}]", first.code);
@@ -134,12 +136,17 @@ impl Talk {
     /// Prints a message if `--verbose` is given.
     pub fn detail(&self, text: impl std::fmt::Display) {
         if self.verbose {
-            tell(text);
+            message(text);
         }
     }
 
     /// Creates a progress bar over `count` of `things`.
     pub fn progress(&self, count: u64, things: &'static str) -> Progress {
         Progress::new(count, things, self.quiet)
+    }
+
+    /// Creates a progress bar over items that differ in length, without an estimate of the remaining time.
+    pub fn uneven_progress(&self, count: u64, things: &'static str) -> Progress {
+        Progress::uneven(count, things, self.quiet)
     }
 }

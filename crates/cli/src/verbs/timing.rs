@@ -22,18 +22,17 @@ use crate::report::timing::DesignTiming;
 use crate::report::writer::Report;
 
 use super::design::{Design, present};
-use super::terminal::{Talk, stop_signal};
+use super::terminal::{Console, stop_signal};
 
-/// Measure and estimate how fast Verilog can be clocked
+/// Measure or estimate the clock frequency of Verilog
 ///
-/// Synthesises each block between registers (Yosys). For an ECP5 of speed grade 8, nextpnr places and
-/// routes it and measures every clock; for a Kintex-7 there is an estimate from the netlist: levels, and
-/// the longest path if each routed net takes 0.3, 0.6 or 0.9 ns. Both name the critical path. Without --rtl
-/// it takes tofsim's own Verilog, which is in the program. The tools are looked for on PATH.
+/// Synthesises each block between registers (Yosys). For an ECP5 of speed grade 8, nextpnr places and routes it and
+/// measures every clock; for a Kintex-7 there is an estimate from the netlist: levels, and the longest path if each
+/// routed net takes 0.3, 0.6 or 0.9 ns. Both name the critical path. Without --rtl it takes tofsim's own Verilog,
+/// which is in the program. The tools must be on PATH.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Exit status: 0 every measured clock is fast enough (125 and 250 MHz), 1 one is \
-    not, 2 it could not be measured."
+    after_help = "Exit status: 0 every measured clock meets 125 or 250 MHz, 1 one does not, 2 not measured."
 )]
 pub struct Args {
     #[command(flatten)]
@@ -44,14 +43,14 @@ pub struct Args {
     /// Part [default: both]
     #[arg(long, value_parser = words(choice::PART))]
     part: Option<timing::Part>,
-    /// How many placements to try, with the seeds from 1 on
+    /// Number of placements, with seeds from 1 on
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
     seeds: u32,
-    /// Most that one run of a tool may take
+    /// Time limit of each run of a tool
     #[arg(long, value_name = "SECONDS", default_value_t = 1200,
         value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,
-    /// Take what this file has of the same netlists from it, and write all that was timed into it
+    /// Reuse the results in this file for netlists that have not changed, and write all results to it
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Print one JSON object
@@ -60,16 +59,16 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     strays::end();
     let work = ScratchFolder::new()?;
-    let (folder, rtl) = design(args, work.path(), talk)?;
-    let blocks = wanted(args, &rtl, talk)?;
+    let (folder, rtl) = design(args, work.path(), console)?;
+    let blocks = wanted(args, &rtl, console)?;
     let stop = stop_signal();
     let limits =
         Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };
     let design = timing::TimedDesign { rtl: &rtl, folder: &folder, work: work.path(), limits };
-    let place = placer(args, talk)?;
+    let place = placer(args, console)?;
     let known = args.record.as_deref().map(Record::read).transpose()?.flatten().unwrap_or_default();
     let mut tools = BTreeMap::from([("yosys".to_owned(), version(YOSYS, "-V", work.path())?)]);
     if let Some(tool) = place {
@@ -78,14 +77,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let known = if known.tools == tools { known } else { Record::default() };
     let one = |block: &&'static TimedBlock| {
         let ecp5 = match place {
-            Some(tool) => Some(measured(&design, block, tool, args.seeds, &known, talk)?),
+            Some(tool) => Some(measured(&design, block, tool, args.seeds, &known, console)?),
             None => None,
         };
         let kintex7 = args
             .wants(timing::Part::Kintex7)
             .then(|| timing::estimate(&design, block))
             .transpose()?;
-        talk.note(format_args!("{}: timed", block.name));
+        console.note(format_args!("{}: timed", block.name));
         Ok((block.name.to_owned(), BlockTiming { ecp5, kintex7 }))
     };
     let timed: Result<BTreeMap<_, _>> = blocks.par_iter().map(one).collect();
@@ -94,10 +93,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         let mut all = Record { tools: record.tools.clone(), blocks: known.blocks };
         all.blocks.extend(record.blocks.clone());
         all.write(path)?;
-        talk.wrote(path);
+        console.wrote(path);
     }
     let timing = DesignTiming { rtl: &rtl.source, record: &record };
-    Report::without_record(timing).deliver(None, args.json, talk)?;
+    Report::without_record(timing).deliver(None, args.json, console)?;
     let measured = || record.blocks.values().filter_map(|block| block.ecp5.as_ref());
     Ok(ExitCode::from(u8::from(!measured().all(Measurement::closes))))
 }
@@ -109,27 +108,27 @@ impl Args {
 }
 
 /// Reads the design; its own Verilog goes into `work`. Returns the folder of its sources too.
-fn design(args: &Args, work: &Path, talk: &Talk) -> Result<(PathBuf, Rtl)> {
+fn design(args: &Args, work: &Path, console: &Console) -> Result<(PathBuf, Rtl)> {
     let (folder, rtl) = if args.design.is_ours() {
         let setup = Setup::new(scenario::load(DEFAULT, &[])?)?;
         (work.to_owned(), timing::own(work, &setup)?)
     } else {
         let here = std::env::current_dir().map_err(Error::io(".".as_ref(), "read"))?;
-        (here, args.design.read(talk)?)
+        (here, args.design.read(console)?)
     };
     Design::check_for_yosys(&rtl, "timing")?;
     Ok((folder, rtl))
 }
 
 /// Finds the tool that places and routes, if it is wanted; a note says that it is missing.
-fn placer(args: &Args, talk: &Talk) -> Result<Option<Tool>> {
+fn placer(args: &Args, console: &Console) -> Result<Option<Tool>> {
     let place = nextpnr::installed().filter(|_| args.wants(timing::Part::Ecp5));
     if place.is_none() && args.part == Some(timing::Part::Ecp5) {
         let expected = format!("not found on PATH; install it: {}", nextpnr::HOW_TO_INSTALL);
         return Err(Input::new("nextpnr-ecp5", expected).into());
     }
     if place.is_none() && args.part.is_none() {
-        talk.note(format_args!(
+        console.note(format_args!(
             "nextpnr-ecp5: not found on PATH, so nothing is measured for an ECP5; install it: {}",
             nextpnr::HOW_TO_INSTALL
         ));
@@ -144,26 +143,26 @@ fn measured(
     tool: Tool,
     seeds: u32,
     known: &Record,
-    talk: &Talk,
+    console: &Console,
 ) -> Result<Measurement> {
     let before = known.blocks.get(block.name).and_then(|block| block.ecp5.as_ref());
     let mut placed = 0;
     let measurement = timing::measure(design, block, tool, seeds, before, |seed| {
         placed = seed;
-        talk.detail(format_args!("{}: seed {seed} placed and routed", block.name));
+        console.detail(format_args!("{}: seed {seed} placed and routed", block.name));
     })?;
     if placed == 0 {
-        talk.note(format_args!("{}: the same netlist as in the record", block.name));
+        console.note(format_args!("{}: the same netlist as in the record", block.name));
     }
     Ok(measurement)
 }
 
 /// The blocks that are asked for, or all that the design has.
-fn wanted(args: &Args, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static TimedBlock>> {
+fn wanted(args: &Args, rtl: &Rtl, console: &Console) -> Result<Vec<&'static TimedBlock>> {
     if !args.block.is_empty() {
         return args.block.iter().map(|name| TimedBlock::find(name)).collect();
     }
     let has = |block: &TimedBlock| block.modules.iter().all(|module| rtl.has(module));
     let usual = BLOCKS.iter().filter(|block| block.usual);
-    present(usual, has, |block| block.name, (rtl, "", "timed"), talk)
+    present(usual, has, |block| block.name, (rtl, "", "timed"), console)
 }

@@ -20,7 +20,7 @@ use crate::report::writer::Report;
 use super::draws::use_threads;
 use super::progress::Progress;
 use super::scenes::of_the_own_grid;
-use super::terminal::{Talk, print, stop_signal};
+use super::terminal::{Console, print, stop_signal};
 
 mod args;
 mod origin;
@@ -31,7 +31,7 @@ use origin::Origin;
 use written::TrainingOrigin;
 
 /// Runs the verb.
-pub fn run(given: &Args, talk: &Talk) -> Result<()> {
+pub fn run(given: &Args, console: &Console) -> Result<()> {
     let loaded = scenario::load(&given.scenario, &given.set)?;
     let args = &given.over(&loaded)?;
     let recipe = args.recipe(None)?;
@@ -51,7 +51,7 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
     }
     material.check(&recipe)?;
     let notes = origin.notes()?;
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let mut settings: checkpoint::CheckpointSettings = recipe.settings()?.into_iter().collect();
     settings.insert("seed".to_owned(), args.seed.to_string());
     settings.extend(origin.settings());
@@ -61,8 +61,8 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
     let state = args.resume.then(|| checkpoint::load(&path, &of, &recipe)).transpose()?;
     let _held = FolderLock::take(&args.output)?;
     let mut tournament = Tournament::new(&recipe, &*material, args.seed, state);
-    if !args.train(&mut tournament, &path, &of, talk)? {
-        talk.note(format_args!("stopped; {} has the state", path.display()));
+    if !args.train(&mut tournament, &path, &of, console)? {
+        console.note(format_args!("stopped; {} has the state", path.display()));
         return Ok(());
     }
     let scenario = origin.scenario();
@@ -71,13 +71,13 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
     let mut trained_for = scenario.clone();
     trained_for.tdc.profile.clone_from(&chain);
     let domain = Some(domain::of(&trained_for, &origin.ranges())?);
-    let record = Record { seed, ..Record::new(&origin.setup()?, &talk.command) };
+    let record = Record { seed, ..Record::new(&origin.setup()?, &console.command) };
     let made = TrainingOrigin { chain, command, seed, domain, record: &record };
-    let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
+    let (network, rows) = written::write(&args.output, &recipe, &tournament, made, console)?;
     let line = &recipe.weighting;
     let findings = TrainingFindings { rows: &rows, line, network: &network };
     let report = Report { findings, record: Some(record), notes: &notes };
-    report.deliver(None, args.json, talk)
+    report.deliver(None, args.json, console)
 }
 
 /// Checks the training that a scenario describes.
@@ -114,7 +114,7 @@ fn print_recipe(recipe: &Recipe) -> Result<()> {
 const BETWEEN: Duration = Duration::from_secs(15);
 
 /// Prints the progress.
-fn say(talk: &Talk, progress: &Progress, tournament: &Tournament, before: usize) {
+fn say(console: &Console, progress: &Progress, tournament: &Tournament, before: usize) {
     let state = &tournament.state;
     let (done, all) = tournament.progress();
     let percent = 100.0 * done as f64 / all as f64;
@@ -122,7 +122,11 @@ fn say(talk: &Talk, progress: &Progress, tournament: &Tournament, before: usize)
     let least = last.map(|point| point.cost).fold(f64::INFINITY, f64::min);
     let text = format!("{percent:5.1} %  stage {before}  least cost {least:.3}");
     progress.suspend(|| {
-        if before != state.stage || state.epochs == 0 { talk.note(text) } else { talk.detail(text) }
+        if before != state.stage || state.epochs == 0 {
+            console.note(text)
+        } else {
+            console.detail(text)
+        }
     });
 }
 
@@ -134,11 +138,11 @@ impl Args {
         tournament: &mut Tournament,
         path: &Path,
         of: &checkpoint::CheckpointOf,
-        talk: &Talk,
+        console: &Console,
     ) -> Result<bool> {
         let stop = stop_signal();
         let (done, all) = tournament.progress();
-        let progress = talk.progress(all, "");
+        let progress = console.progress(all, "");
         progress.set_position(done);
         progress.reset_eta();
         let mut checkpoints = 0;
@@ -152,11 +156,11 @@ impl Args {
             }
             if let Err(Error::Interrupted) = advanced {
                 progress.finish_and_clear();
-                talk.note(format_args!("{} has the state, for --resume", path.display()));
+                console.note(format_args!("{} has the state, for --resume", path.display()));
             }
             if advanced? {
                 checkpoints += 1;
-                say(talk, &progress, tournament, before);
+                say(console, &progress, tournament, before);
             }
             progress.set_position(tournament.progress().0);
         }

@@ -19,7 +19,7 @@ use crate::choice::{self, seed, words};
 use crate::record::Record;
 
 use super::design::Design;
-use super::terminal::Talk;
+use super::terminal::Console;
 
 /// Write golden vectors of a block with a self-checking bench
 ///
@@ -29,11 +29,11 @@ use super::terminal::Talk;
 ///
 ///   cd DIR/BLOCK && iverilog -g2005 -o tb tb_BLOCK.v YOUR_FILES.v && vvp tb
 ///
-/// With --rtl and --map the bench is for your module: it has its names, and BLOCK_adapter.v between the
-/// two says what the map says. Icarus tells its ports.
+/// With --rtl and --map the bench is for your module and uses its names; BLOCK_adapter.v implements the map. Icarus
+/// reads the ports.
 ///
-/// With --language vhdl it is tb_BLOCK.vhd, in VHDL-2008 for std_logic and std_logic_vector ports. It was
-/// run in GHDL; it has nothing in it that is GHDL's own, but NVC, Questa and xsim were not tried:
+/// With --language vhdl it is tb_BLOCK.vhd, in VHDL-2008 for std_logic and std_logic_vector ports. It was run in
+/// GHDL; it uses no extensions of GHDL, but was not tried in NVC, Questa or xsim:
 ///
 ///   cd DIR/BLOCK && ghdl -i --std=08 tb_BLOCK.vhd YOUR_FILES.vhd
 ///
@@ -47,7 +47,7 @@ pub struct Args {
     output: PathBuf,
     #[command(flatten)]
     design: Design,
-    /// Read from this file how your design (--rtl) differs by intention: the bench gets BLOCK_adapter.v between (TOML)
+    /// Map file (TOML) with the intended differences of your design (--rtl), which BLOCK_adapter.v implements
     #[arg(long, value_name = "FILE", requires = "sources", conflicts_with = "language")]
     map: Option<PathBuf>,
     /// Language of the bench
@@ -89,20 +89,20 @@ impl From {
         let setup = Setup::new(scenario::load(name, &self.set)?)?;
         let seed = self.seed.unwrap_or(setup.scenario.seed);
         let cycles = self.cycles.map(|cycles| cycles as usize);
-        let as_told = self.scenario.is_some() || !self.set.is_empty() || self.frames > 1;
-        Ok(Setting { as_told, seed, cycles, frames: self.frames, ..Setting::new(setup) })
+        let as_configured = self.scenario.is_some() || !self.set.is_empty() || self.frames > 1;
+        Ok(Setting { as_configured, seed, cycles, frames: self.frames, ..Setting::new(setup) })
     }
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let blocks: Vec<_> = match args.block.as_str() {
         "all" => BLOCKS.iter().collect(),
         name => vec![find(name, "BLOCK")?],
     };
     let setting = args.from.setting()?;
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
-    let rtl = if args.design.is_ours() { None } else { Some(args.design.read(talk)?) };
+    let rtl = if args.design.is_ours() { None } else { Some(args.design.read(console)?) };
     let limits = Limits::new(Duration::from_secs(300));
     let dut = rtl.as_ref().map(|rtl| Dut {
         rtl,
@@ -119,14 +119,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         let folder = stage.path().join(spec.name);
         let mut bench = Bench::new(&vectors);
         bench.language = args.language;
-        bench.about = json!(record(&setting, &talk.command, spec));
+        bench.about = json!(record(&setting, &console.command, spec));
         if let Some(dut) = &dut {
             dut.fit(&mut bench, &task, &scratch.path().join(spec.name), &folder)?;
         }
         bench.write(&folder)?;
-        talk.detail(format_args!("{}: {} cycles", spec.name, vectors.stimulus.rows()));
+        console.detail(format_args!("{}: {} cycles", spec.name, vectors.stimulus.rows()));
     }
-    stage.commit()?.iter().for_each(|path| talk.wrote(path));
+    stage.commit()?.iter().for_each(|path| console.wrote(path));
     Ok(())
 }
 

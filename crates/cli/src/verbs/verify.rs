@@ -22,17 +22,18 @@ use crate::report::writer::Report;
 use crate::text::table::coloured;
 
 use super::design::{Design, present};
-use super::terminal::{Talk, stop_signal};
+use super::terminal::{Console, stop_signal};
 use super::vectors::{From, find};
 
 /// Run Verilog or VHDL against the golden vectors
 ///
-/// Makes the vectors of each block, compiles its bench with your design, runs it, and says where it
-/// first differs, with a table of the cycles around and a waveform of both sides. Without --rtl it
-/// checks tofsim's own Verilog, which is in the program. VHDL goes through GHDL's synthesis to Verilog.
-/// Simulators and GHDL are looked for on PATH.
+/// Makes the vectors of each block, compiles its bench with your design, runs it, and reports the first difference,
+/// with a table of the cycles around it and a waveform of both sides. Without --rtl it checks tofsim's own Verilog,
+/// which is in the program. VHDL goes through GHDL's synthesis to Verilog. Simulators and GHDL must be on PATH.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Exit status: 0 all pass, 1 something differs, 2 it could not be checked.")]
+#[command(
+    after_help = "Exit status: 0 all pass, 1 a block differs, 2 a block could not be checked."
+)]
 pub struct Args {
     #[command(flatten)]
     design: Design,
@@ -46,22 +47,22 @@ pub struct Args {
     /// Count cycles in the model and in the RTL, and prove them (Icarus and Yosys), instead of vectors
     #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "from_power_up", "fail_fast", "junit", "simulator"])]
     cycle_counts: bool,
-    /// Simulator to run
+    /// Simulator
     #[arg(long, value_parser = words(choice::SIMULATOR), default_value = "icarus")]
     simulator: Simulator,
-    /// Read from this file how your design differs by intention: names, polarities, latencies, adapters (TOML)
+    /// Map file (TOML) with the intended differences of your design: names, polarities, latencies, adapters
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
-    /// Compare registers inside the blocks too, which have to have our names [default for our own]
+    /// Also compare registers inside the blocks, which must have the names of tofsim's [default for our own]
     #[arg(long, conflicts_with = "map")]
     registers: bool,
     /// Compare from power-up on, not only from the first reset on [default for our own]
     #[arg(long)]
     from_power_up: bool,
-    /// End at the first mismatch, without the blocks not yet begun, and without a waveform
+    /// Stop at the first mismatch, without a waveform
     #[arg(long)]
     fail_fast: bool,
-    /// Most that a compilation or a simulation may take
+    /// Time limit of each compilation and simulation
     #[arg(long, value_name = "SECONDS", default_value_t = 300,
         value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,
@@ -71,7 +72,7 @@ pub struct Args {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// Write JUnit XML too
+    /// Also write JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
     #[command(flatten)]
@@ -92,15 +93,15 @@ impl Args {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let failed = if args.cycle_counts {
-        let (rtl, counts) = &cycle_counts(args, talk)?;
-        Report::without_record(CycleCounts { rtl, counts }).deliver(None, args.json, talk)?;
+        let (rtl, counts) = &cycle_counts(args, console)?;
+        Report::without_record(CycleCounts { rtl, counts }).deliver(None, args.json, console)?;
         !counts.iter().all(Count::holds)
     } else {
-        let (rtl, blocks) = &blocks(args, talk)?;
+        let (rtl, blocks) = &blocks(args, console)?;
         let verified = Verified { rtl, simulator: args.simulator.name(), blocks };
-        Report::without_record(verified).deliver(None, args.json, talk)?;
+        Report::without_record(verified).deliver(None, args.json, console)?;
         blocks.iter().any(BlockReport::failed)
     };
     Ok(ExitCode::from(u8::from(failed)))
@@ -110,13 +111,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 ///
 /// # Errors
 /// When one cannot be checked.
-pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
+pub fn blocks(args: &Args, console: &Console) -> Result<(String, Vec<BlockReport>)> {
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
     let work = ScratchFolder::new()?;
-    let rtl = args.rtl(&work, talk)?;
+    let rtl = args.rtl(&work, console)?;
     let stop = stop_signal();
     let limits = args.limits(stop.as_deref());
-    let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
+    let tasks = tasks(args, map.as_ref(), &rtl, console)?;
     let check = BlockCheck {
         dut: Dut { rtl: &rtl, map: map.as_ref(), simulator: args.simulator, limits },
         registers: args.registers || args.design.is_ours(),
@@ -132,7 +133,7 @@ pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
         let report = check.run(task, &work.path().join(&task.name));
         if let Ok(report) = &report {
             let word = coloured(report.word(), !report.failed(), &std::io::stderr());
-            talk.note(format_args!("{}: {word}", task.name));
+            console.note(format_args!("{}: {word}", task.name));
             over.fetch_or(args.fail_fast && report.failed(), Ordering::Relaxed);
         }
         report
@@ -142,10 +143,10 @@ pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
     let simulator = args.simulator.name();
     if let Some(path) = &args.junit {
         write_junit(path, simulator, &reports)?;
-        talk.wrote(path);
+        console.wrote(path);
     }
     for wave in reports.iter().filter_map(|report| report.wave.as_ref()) {
-        talk.wrote_wave(wave);
+        console.wrote_wave(wave);
     }
     Ok((rtl.source, reports))
 }
@@ -154,9 +155,9 @@ pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
 ///
 /// # Errors
 /// When they cannot be counted.
-pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
+pub fn cycle_counts(args: &Args, console: &Console) -> Result<(String, Vec<Count>)> {
     let work = ScratchFolder::new()?;
-    let rtl = args.rtl(&work, talk)?;
+    let rtl = args.rtl(&work, console)?;
     let stop = stop_signal();
     let limits = args.limits(stop.as_deref());
     Design::check_for_yosys(&rtl, "--cycle-counts")?;
@@ -164,16 +165,16 @@ pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
     let counts = count::cycle_counts(&rtl, &design, &limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };
         let word = coloured(word, count.holds(), &std::io::stderr());
-        talk.note(format_args!("{}: {word}", count.what));
+        console.note(format_args!("{}: {word}", count.what));
     })?;
     Ok((rtl.source, counts))
 }
 
 impl Args {
     /// The design; our own is put into `work`.
-    fn rtl(&self, work: &ScratchFolder, talk: &Talk) -> Result<Rtl> {
+    fn rtl(&self, work: &ScratchFolder, console: &Console) -> Result<Rtl> {
         strays::end();
-        if self.design.is_ours() { Rtl::own(work.path()) } else { self.design.read(talk) }
+        if self.design.is_ours() { Rtl::own(work.path()) } else { self.design.read(console) }
     }
 
     fn limits<'a>(&self, stop: Option<&'a AtomicBool>) -> Limits<'a> {
@@ -182,17 +183,17 @@ impl Args {
 }
 
 /// The blocks that are asked for and all that they can be, then the whole.
-fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<Task>> {
+fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, console: &Console) -> Result<Vec<Task>> {
     let setting = args.from.setting()?;
     let all = |spec| (spec, None);
     let chosen: Vec<_> = match (args.block.as_slice(), args.top) {
         ([], true) => Vec::new(),
-        ([], false) => every(map, rtl, talk)?.into_iter().map(all).collect(),
+        ([], false) => every(map, rtl, console)?.into_iter().map(all).collect(),
         (names, _) => names.iter().map(|name| named(name)).collect::<Result<_>>()?,
     };
     let mut tasks = Vec::new();
     for (spec, configuration) in chosen {
-        if let Some(name) = configuration.filter(|&name| setting.as_told && name != DEFAULT) {
+        if let Some(name) = configuration.filter(|&name| setting.as_configured && name != DEFAULT) {
             let expected = "expected no configuration: a scenario or a key says what the block is";
             return Err(Input::new("--block", expected)
                 .value(format!("{}.{name}", spec.name))
@@ -201,7 +202,7 @@ fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Ve
         tasks.extend(Task::every(spec, configuration, &setting, map)?);
     }
     if args.top {
-        let setting = Setting { as_told: true, ..setting };
+        let setting = Setting { as_configured: true, ..setting };
         let task = Task::new(find("tof_top", "--top")?, &setting, map);
         tasks.push(Task { name: format!("tof_top.{}", setting.setup.name), ..task });
     }
@@ -224,11 +225,11 @@ fn named(name: &str) -> Result<(&'static Spec, Option<&str>)> {
 }
 
 /// All blocks that the design has, or the map names.
-fn every(map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>> {
+fn every(map: Option<&RtlMap>, rtl: &Rtl, console: &Console) -> Result<Vec<&'static Spec>> {
     let has = |spec: &Spec| {
         let named = map.and_then(|map| map.block.get(spec.name));
         named.is_some_and(|block| block.module.is_some()) || rtl.has(spec.name)
     };
     let or = ", or a map with their names";
-    present(BLOCKS.iter(), has, |spec| spec.name, (rtl, or, "checked"), talk)
+    present(BLOCKS.iter(), has, |spec| spec.name, (rtl, or, "checked"), console)
 }

@@ -31,8 +31,8 @@ fn a_depth_that_the_second_opinion_does_not_share_has_a_note() {
     write("far.csv", &serde_json::from_value::<Vec<u32>>(counts).unwrap());
     let many = case("c13_more_hits_than_shots.csv");
     for (file, text) in [
-        ("zeros.csv", "believes no depth of histogram 0: no echo"),
-        ("far.csv", "it says 0.1521 m of histogram 0 and likelihood_estimator 0.7995 m"),
+        ("zeros.csv", "rejects histogram 0: no echo"),
+        ("far.csv", "in histogram 0: 0.1521 m against 0.7995 m"),
         (&many, "more than its shots"),
     ] {
         let found = json(folder, &["estimate", "--json", file]);

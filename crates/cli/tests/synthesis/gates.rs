@@ -80,7 +80,7 @@ pub fn compare(sources: &Sources) -> Verdict {
     let netlist = netlist(sources);
     let shots = format!("firmware.shots_per_frame={SHOTS}");
     let setting = Setting::new(common::setup("kc705", &[&shots]));
-    let setting = Setting { as_told: true, frames: FRAMES, ..setting };
+    let setting = Setting { as_configured: true, frames: FRAMES, ..setting };
     let spec = blocks::find("tof_top").unwrap();
     let vectors = (spec.record)(spec, &setting).unwrap();
 

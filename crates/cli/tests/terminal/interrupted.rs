@@ -140,7 +140,7 @@ fn an_interrupted_training_goes_on_where_it_was() {
     let state = fs::read_to_string(path.join("t/checkpoint")).unwrap();
     assert!(state.contains("made = "), "{}", &state[..300]);
     let other = refused(path, &[&train[..], &["--resume", "--seed", "7"]].concat());
-    assert!(other.contains("it was begun with --seed 1, here it is --seed 7"), "{other}");
+    assert!(other.contains("it was started with --seed 1, here it is --seed 7"), "{other}");
     let missing = refused(path, &["train", "--resume", "-o", "nowhere"]);
     assert!(missing.contains("nowhere/checkpoint: no checkpoint there"), "{missing}");
 }

@@ -83,3 +83,17 @@ fn an_exploration_fits_80_columns_where_there_is_no_terminal() {
     let summary = text.find("built: the network's own").unwrap();
     assert!(summary < text.find("datapath").unwrap(), "{text}");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn notes_and_errors_fit_the_terminal() {
+    let folder = empty();
+    let shown = on_terminal(folder.path(), "budget -s laser.average_power_w=0.1 >/dev/null", &[]);
+    let lines = lines(&shown);
+    assert!(lines.iter().any(|line| line.starts_with("note: laser.average_power_w")), "{shown}");
+    let longest = lines.iter().map(|line| line.chars().count()).max();
+    assert!(longest <= Some(80), "{longest:?}: {shown}");
+    let piped = output(folder.path(), &["budget", "-s", "laser.average_power_w=0.1"]);
+    let notes = String::from_utf8(piped.stderr).unwrap();
+    assert!(notes.lines().all(|line| line.starts_with("note: ")), "{notes}");
+}

@@ -75,16 +75,16 @@ impl Calibration {
         step_ps: f64,
     ) -> Result<Self> {
         let mut sightings = Sightings::new(acquisition, histograms)?;
-        let told = acquisition.pulse;
+        let assumed = acquisition.pulse;
         let mut candidates = vec![Candidate {
             kind: Kind::Scenario,
-            pulse: told.clone(),
+            pulse: assumed.clone(),
             width: None,
             sampled: None,
-            log_likelihood: sightings.refit(acquisition, told)?,
-            goodness: Goodness::new(acquisition, &sightings, told, 0)?,
+            log_likelihood: sightings.refit(acquisition, assumed)?,
+            goodness: Goodness::new(acquisition, &sightings, assumed, 0)?,
         }];
-        let mut sigma_ps = told.sigma_ps();
+        let mut sigma_ps = assumed.sigma_ps();
         for (kind, formula) in [(Kind::Gaussian, Formula::Gaussian), (Kind::Tail, Formula::Tail)] {
             let climbed = climb(acquisition, &mut sightings, Shape::new(formula, sigma_ps))?;
             let (shape, pulse) = (climbed.shape, climbed.shape.pulse());

@@ -50,8 +50,9 @@ pub fn climb(
     let mut value = sightings.refit(acquisition, &shape.pulse())?;
     for _ in 0..MOST_STEPS {
         let (score, information) = slope(acquisition, sightings, &shape)?;
-        let covariance = inverse(&information, shape.free())
-            .ok_or_else(|| fault("expected histograms that tell of the pulse: none does"))?;
+        let covariance = inverse(&information, shape.free()).ok_or_else(|| {
+            fault("expected histograms with an echo that shows the pulse: none has one")
+        })?;
         let mut step = [0, 1].map(|i| covariance[i][0] * score[0] + covariance[i][1] * score[1]);
         if shape.at[1] == 0.0 && step[1] <= 0.0 {
             // There is no less than no tail, and the width alone moves.

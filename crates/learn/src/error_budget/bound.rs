@@ -17,13 +17,16 @@ use crate::estimation::likelihood::Model;
 const FINER: u64 = 8;
 
 /// The Cramer-Rao bound of a distance, with signal and background unknown too: twice the standard deviation that no
-/// unbiased estimate is below. `None` where the model of the light does not hold, or nothing comes back [mm].
+/// unbiased estimate is below. `None` if an effect invalidates the model of the light, or no light returns [mm].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Bound {
     /// With the chain's own bins [mm].
     pub two_sd_mm: Option<f64>,
     /// With exact bins of an eighth of the width [mm].
     pub fine_two_sd_mm: Option<f64>,
+    /// Effect that invalidates the bound, as a clause.
+    #[serde(skip)]
+    pub invalid_because: Option<&'static str>,
 }
 
 impl Bound {
@@ -32,8 +35,9 @@ impl Bound {
     /// # Errors
     /// When its acquisition makes no sense.
     pub fn of(setup: &Setup) -> Result<Self> {
-        if !setup.allows(Method::CramerRaoBound) {
-            return Ok(Bound::default());
+        let invalid_because = setup.why_not(Method::CramerRaoBound);
+        if invalid_because.is_some() {
+            return Ok(Bound { invalid_because, ..Bound::default() });
         }
         let of = |bins: &Bins| -> Result<Option<f64>> {
             let model = Model::new(&Acquisition::of(setup, bins, setup.shots(1)))?;
@@ -45,6 +49,7 @@ impl Bound {
         let fine = TimeScale::new(scale.period(), bin, scale.first(), coarse_bits, bins);
         let stages = own.decoder.count_stages;
         let fine = tdc::Params::new(own.delays.clone(), fine, coarse_bits, stages);
-        Ok(Bound { two_sd_mm: of(&setup.bins())?, fine_two_sd_mm: of(&Bins::without_taps(&fine))? })
+        let fine_two_sd_mm = of(&Bins::without_taps(&fine))?;
+        Ok(Bound { two_sd_mm: of(&setup.bins())?, fine_two_sd_mm, invalid_because })
     }
 }

@@ -81,6 +81,8 @@ impl Errors {
         let squares = pairs.iter().map(|(a, b)| (a - own).powi(2) - (b - other).powi(2));
         let (variance, variance_se_mm2) = mean_and_error(squares);
         let count = pairs.len() as f64;
+        // Two deviations from their mean are equal, and have no scatter.
+        let variance_se_mm2 = variance_se_mm2.filter(|_| count > 2.0);
         let variance_mm2 = variance.filter(|_| count > 1.0).map(|mm2| mm2 * count / (count - 1.0));
         ErrorChange { mean_mm, mean_se_mm, variance_mm2, variance_se_mm2 }
     }

@@ -15,12 +15,12 @@ use crate::estimation::{EstimatorKind, Needs};
 
 use super::bound::Bound;
 use super::budget::{DepthBudget, EffectErrors};
+use super::configured::estimator;
 use super::effect::{Effect, EffectSet};
 use super::figures::{ErrorChange, Errors};
 use super::histograms::ROUNDINGS;
 use super::simulated;
 use super::state::{self, EffectState, EffectStates};
-use super::told::estimator;
 use super::variant::Variant;
 
 /// Frames between two looks at whether to stop.

@@ -43,7 +43,7 @@ pub fn present(effect: Effect, setup: &Setup, kind: EstimatorKind) -> EffectStat
     }
     match effect {
         Effect::PileUp if kind.is_network() => left_out(
-            "the network was trained on histograms with pile-up, and cannot be told of others",
+            "the network was trained on histograms with pile-up, and cannot be configured for others",
         ),
         Effect::Ambient => {
             above_zero("ambient.irradiance_w_m2_nm", setup.budget.ambient_light_hz())
@@ -62,13 +62,13 @@ pub fn present(effect: Effect, setup: &Setup, kind: EstimatorKind) -> EffectStat
             let is_same = are_same(&Bins::of_tdc(&evened(setup, false)), &exact);
             unless(is_same, "bins begin where taps do")
         }
-        Effect::UnevenTaps => unless(is_even(&setup.params.tdc), "all taps are alike"),
+        Effect::UnevenTaps => unless(is_even(&setup.params.tdc), "all taps are equal"),
         Effect::Calibration => {
             let is_true = scenario.tdc.calibration == TdcCalibration::True;
             unless(is_true, "tdc.calibration = true: the ROM has the chain's own delays")
         }
         Effect::BinWidth => {
-            left_out("bins are what the estimator is given; the bound without them stands above")
+            left_out("estimators work on bins; the bound without bins is printed above")
         }
         Effect::Drift => unless(!setup.has_drifted(), "the TDC was calibrated as it is now"),
         Effect::FixedPoint => match kind {

@@ -8,9 +8,9 @@ use tofsim::sim::setup::Setup;
 
 use crate::estimation::EstimatorKind;
 
+use super::configured::estimator;
 use super::effect::{Effect, EffectSet};
 use super::presence::present;
-use super::told::estimator;
 use super::variant::Variant;
 
 pub use super::presence::EffectState;
@@ -77,12 +77,12 @@ impl EffectStates {
     }
 }
 
-/// Why the estimator is not for a variant, if it is not: it cannot be made, or is a network that was not trained
-/// for it, where it was for the scenario.
+/// Returns why a variant cannot be evaluated: the estimator cannot be made for it, or is a network that was trained for
+/// the scenario but not for the variant.
 fn unfit(kind: EstimatorKind, variant: &Variant, known: &[String]) -> Result<Option<String>> {
     match estimator(kind, variant) {
         Err(Error::Input(fault)) => {
-            return Ok(Some(format!("{} is not for its absence: {fault}", kind.name())));
+            return Ok(Some(format!("it cannot be switched off for {}: {fault}", kind.name())));
         }
         Err(fault) => return Err(fault),
         Ok(_) => {}
@@ -93,7 +93,7 @@ fn unfit(kind: EstimatorKind, variant: &Variant, known: &[String]) -> Result<Opt
     let new = notes.into_iter().find(|note| !is_known(&note.key));
     Ok(new.map(|note| {
         format!(
-            "the network was not trained for its absence, only for {} = {}",
+            "it cannot be switched off, because the network was trained for {} = {} only",
             note.key, note.expected
         )
     }))
@@ -132,7 +132,7 @@ mod tests {
             (Effect::Afterpulses, "spad.afterpulse_probability = 0"),
             (Effect::DeadTime, "firmware.mode = 0"),
             (Effect::PllJitter, "pll.jitter_rms_ps = 0"),
-            (Effect::UnevenTaps, "all taps are alike"),
+            (Effect::UnevenTaps, "all taps are equal"),
             (Effect::Calibration, "tdc.calibration = true"),
             (Effect::Table, "only the network's"),
         ] {

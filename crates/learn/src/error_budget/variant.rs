@@ -15,8 +15,8 @@ use super::effect::{Effect, EffectSet};
 use super::expected::per_shot;
 use super::histograms::Histograms;
 
-/// Standard deviation of the pulse without a width: the shortest that lights more than one bin, so that its place
-/// in a bin can be told, and the shortest that `likelihood_estimator` knows [bins].
+/// Standard deviation of the pulse without a width: the shortest that lights more than one bin, so that its position
+/// within a bin is known, and the shortest that `likelihood_estimator` supports [bins].
 pub const SHORTEST_BINS: f64 = 0.5;
 
 /// A scenario with some effects on and the others off.
@@ -28,10 +28,10 @@ pub struct Variant {
     pub setup: Setup,
     /// Avalanche times of each code.
     pub bins: Bins,
-    /// The same as estimators are told: of the chain as it was calibrated.
-    pub told_bins: Bins,
-    /// Shots that an estimator with a model of pile-up is told of.
-    pub told_shots: u64,
+    /// Avalanche times that estimators assume: those of the chain as it was calibrated.
+    pub assumed_bins: Bins,
+    /// Number of shots that estimators with a pile-up model assume.
+    pub assumed_shots: u64,
 }
 
 impl Variant {
@@ -44,11 +44,11 @@ impl Variant {
         let off = Effect::ALL.into_iter().filter(|&effect| !effects.has(effect));
         off.for_each(|effect| switch_off(effect, &mut loaded.scenario));
         let shots = loaded.scenario.firmware.shots_of_a_frame();
-        // Without pile-up the light comes in the most shots that an estimator can be told of: so faint a shot has as
-        // good as none.
-        let told_shots = if effects.has(Effect::PileUp) { shots } else { MOST_SHOTS };
-        if told_shots != shots && loaded.scenario.estimator.assumed_shots == 0 {
-            loaded.scenario.estimator.assumed_shots = told_shots;
+        // Without pile-up the light is spread over the largest number of shots that can be configured: a shot is then
+        // too faint for pile-up.
+        let assumed_shots = if effects.has(Effect::PileUp) { shots } else { MOST_SHOTS };
+        if assumed_shots != shots && loaded.scenario.estimator.assumed_shots == 0 {
+            loaded.scenario.estimator.assumed_shots = assumed_shots;
         }
         let mut setup = Setup::of_counts(loaded)?;
         let has_errors =
@@ -67,26 +67,26 @@ impl Variant {
             "no taps".clone_into(&mut setup.scenario.tdc.profile);
             Bins::without_taps(&setup.params.tdc)
         };
-        let told_bins = match (is_own, has_taps) {
+        let assumed_bins = match (is_own, has_taps) {
             (true, _) => setup.known_bins(),
             (false, true) => Bins::of_tdc(&setup.params.tdc.clone().with_delays(known.evened())),
             (false, false) => bins.clone(),
         };
-        Ok(Variant { effects, setup, bins, told_bins, told_shots })
+        Ok(Variant { effects, setup, bins, assumed_bins, assumed_shots })
     }
 
     /// Returns the acquisition of its histograms, as the estimator knows it.
     pub fn acquisition(&self) -> Acquisition<'_> {
-        Acquisition::of(&self.setup, &self.told_bins, self.told_shots)
+        Acquisition::of(&self.setup, &self.assumed_bins, self.assumed_shots)
     }
 
-    /// What its histograms are drawn from: without pile-up the same light spread over all the shots that an
-    /// estimator is told of. It has no effect that joins shots.
+    /// What its histograms are drawn from: without pile-up the same light spread over all the shots that
+    /// estimators assume. It has no effect that joins shots.
     pub fn histograms(&self) -> Histograms {
-        let part = self.setup.shots(1) as f64 / self.told_shots as f64;
+        let part = self.setup.shots(1) as f64 / self.assumed_shots as f64;
         let budget = self.setup.budget.dimmed(part);
         let per_shot = per_shot(&Hazard::new(&budget), &self.bins, self.acquisition().jitter_ps);
-        Histograms { per_shot, shots: self.told_shots }
+        Histograms { per_shot, shots: self.assumed_shots }
     }
 }
 
@@ -120,7 +120,7 @@ fn switch_off(effect: Effect, scenario: &mut Scenario) {
     }
 }
 
-/// Whether all taps are alike, to the femtosecond.
+/// Whether all taps are equal, to the femtosecond.
 pub fn is_even(tdc: &tdc::Params) -> bool {
     let even = tdc.delays.evened();
     let pairs = tdc.delays.arrivals().iter().zip(even.arrivals());
@@ -168,7 +168,7 @@ mod tests {
         let (own, variant) =
             (Setup::of_counts(loaded.clone()).unwrap(), Variant::new(&loaded, all()).unwrap());
         assert_eq!(variant.bins, own.bins());
-        assert_eq!((variant.told_shots, &variant.setup.scenario), (30_000, &own.scenario));
+        assert_eq!((variant.assumed_shots, &variant.setup.scenario), (30_000, &own.scenario));
     }
 
     #[test]
@@ -185,9 +185,9 @@ mod tests {
         let short = of(all.without(Effect::PulseWidth).without(Effect::PulseTail)).setup.budget;
         assert_eq!(short.pulse.sigma_ps(), 12.5);
         let linear = of(all.without(Effect::PileUp));
-        assert_eq!((linear.told_shots, linear.setup.shots(1)), ((1 << 24) - 1, 30_000));
+        assert_eq!((linear.assumed_shots, linear.setup.shots(1)), ((1 << 24) - 1, 30_000));
         // Every photon of the budget counts, but for the dark hits past the last bin.
-        let hits = linear.histograms().per_shot.iter().sum::<f64>() * linear.told_shots as f64;
+        let hits = linear.histograms().per_shot.iter().sum::<f64>() * linear.assumed_shots as f64;
         let expected = 30_000.0 * (own.signal_per_shot + own.background_rate_hz() * 6.4e-9);
         assert!((hits / expected - 1.0).abs() < 5e-3, "{hits} {expected}");
     }
@@ -219,13 +219,13 @@ mod tests {
         let middle_ps = |bins: &Bins| bins.edges_ps()[128];
         let drifted = of(all());
         // 1 % of an age of 5.6 ns or so.
-        let moved_ps = middle_ps(&drifted.told_bins) - middle_ps(&drifted.bins);
+        let moved_ps = middle_ps(&drifted.assumed_bins) - middle_ps(&drifted.bins);
         assert!((30.0..80.0).contains(&moved_ps.abs()), "{moved_ps} ps");
         let now = of(all().without(Effect::Drift));
-        assert_eq!(now.bins, now.told_bins);
+        assert_eq!(now.bins, now.assumed_bins);
         // On even taps it is as large.
         let even = of(all().without(Effect::UnevenTaps));
-        let even_ps = middle_ps(&even.told_bins) - middle_ps(&even.bins);
+        let even_ps = middle_ps(&even.assumed_bins) - middle_ps(&even.bins);
         assert!((even_ps - moved_ps).abs() < 13.0, "{even_ps} ps, {moved_ps} ps");
     }
 

@@ -116,7 +116,7 @@ firmware_estimators!([registry] (
     /// Peak detection on a lit histogram less a dark one.
     Subtraction = Registered::new(
         subtraction::NAME,
-        "Peak detection on a lit histogram less a dark one, of half the shots each",
+        "Peak detection on the difference of a lit and a dark histogram, half the shots each",
         |i| Ok(Box::new(Subtraction::of_bins(i.acquisition.shots, i.acquisition.bins)?)),
     )
     .needs(Needs::Dark);
@@ -129,7 +129,7 @@ firmware_estimators!([registry] (
     /// Maximum likelihood of two echoes.
     TwoEchoes = Registered::new(
         two_echoes::NAME,
-        "Maximum likelihood of two echoes where two are sure, of one elsewhere",
+        "Maximum likelihood of two echoes if both are certain, else of one",
         |i| Ok(Box::new(TwoEchoes::new(&i.acquisition)?)),
     );
     /// Matched filter.

@@ -31,7 +31,7 @@ pub struct Spread {
     pub mean_se_mm: Option<f64>,
     /// Twice the standard deviation of the errors [mm].
     pub two_sd_mm: Option<f64>,
-    /// Standard error of that, by the fourth moment [mm].
+    /// Standard error of that, by the fourth moment; none if there are too few errors for it [mm].
     pub two_sd_se_mm: Option<f64>,
     /// Least error, the quartiles and the largest error [mm].
     pub quartiles_mm: Option<[f64; 5]>,
@@ -80,9 +80,12 @@ impl Spread {
             let excess = (moment(4) / n - variance * variance).max(0.0);
             spread.mean_se_mm = Some((variance / n).sqrt());
             spread.two_sd_mm = Some(2.0 * variance.sqrt());
-            let of_variance = (excess / n).sqrt();
-            let has_width = variance > 0.0;
-            spread.two_sd_se_mm = Some(if has_width { of_variance / variance.sqrt() } else { 0.0 });
+            // With few errors the fourth moment may be too small for an estimate; with two it always is.
+            spread.two_sd_se_mm = if variance == 0.0 {
+                Some(0.0)
+            } else {
+                (excess > 0.0).then(|| (excess / n).sqrt() / variance.sqrt())
+            };
         }
         spread
     }
@@ -171,6 +174,8 @@ mod tests {
         let spread = Spread::of([None, Some(0.001), None]);
         assert_eq!((spread.estimates, spread.failures, spread.mean_mm), (1, 2, Some(1.0)));
         assert_eq!(spread.two_sd_mm, None);
+        let two = Spread::of([Some(0.001), Some(0.003)]);
+        assert_eq!((two.mean_se_mm, two.two_sd_se_mm), (Some(1.0), None));
         let none = Spread::of([None]);
         assert_eq!((none.mean_mm, none.quartiles_mm, none.failures), (None, None, 1));
     }

@@ -127,9 +127,9 @@ fn differing(begun: &[String], now: &[String]) -> String {
         ("", "") => {
             "; its options are the same, so a file that they name has changed, or tofsim has".into()
         }
-        (begun, "") => format!("; it was begun with {begun}, which is missing here"),
-        ("", now) => format!("; it was begun without {now}"),
-        (begun, now) => format!("; it was begun with {begun}, here it is {now}"),
+        (begun, "") => format!("; it was started with {begun}, which is missing here"),
+        ("", now) => format!("; it was started without {now}"),
+        (begun, now) => format!("; it was started with {begun}, here it is {now}"),
     }
 }
 

@@ -46,7 +46,7 @@ class Evaluation:
         return self.pictures[shown[0]] if shown else None
 
     def _repr_html_(self) -> str:
-        head = "<tr><th>estimator</th><th>2 sd [mm]</th><th>mean error [mm]</th><th>failures</th></tr>"
+        head = "<tr><th>estimator</th><th>2σ [mm]</th><th>mean error [mm]</th><th>failures</th></tr>"
         rows = [_row(name, one["all"]) for name, one in self.estimators.items()]
         return f"<table>{head}{''.join(rows)}</table>{self._repr_svg_() or ''}"
 
@@ -76,7 +76,7 @@ def evaluate(
     progress: Progress | None = None,
     **options: Any,
 ) -> Evaluation:
-    """Measures how exactly a network and other estimators find the distance, as `tofsim evaluate`.
+    """Measures the accuracy of a network and other estimators, as `tofsim evaluate`.
 
     `grid` is `{key: values}` of any numeric keys, or as the command line has it; further options are the command
     line's: `check=0` leaves out the frames that are simulated cycle by cycle.

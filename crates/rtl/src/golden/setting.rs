@@ -34,7 +34,7 @@ pub struct Setting {
     /// Network, chain, frame length and, for the top, light and control signals.
     pub setup: Setup,
     /// True if the top runs the scenario as it is, and not under random control.
-    pub as_told: bool,
+    pub as_configured: bool,
     /// Seed of the stimulus.
     pub seed: u64,
     /// Lines, if not as many as usual [clock cycles].
@@ -87,7 +87,7 @@ impl Setting {
         let (taps, bins) = (setup.params.tdc.delays.taps(), setup.params.histogram.bins as u64);
         Setting {
             setup,
-            as_told: false,
+            as_configured: false,
             seed,
             cycles: None,
             frames: 1,

@@ -56,7 +56,7 @@ pub(super) fn record(
     let entries = hierarchy::entries(&setup.params);
     // Runs that may be long compare what a logic analyser on the board would see.
     let is_own = |entry: &Entry| entry.scope == hierarchy::TOP;
-    let wanted = |entry: &Entry| !setting.as_told || is_own(entry) || entry.signal.view.probe;
+    let wanted = |entry: &Entry| !setting.as_configured || is_own(entry) || entry.signal.view.probe;
     let samples = spec.timing.samples();
     let spacing = Time::from_fs(spec.timing.period(setup.cycle()).fs() / samples as u64);
     let mut sampler = Sampler {
@@ -79,7 +79,7 @@ pub(super) fn record(
 
 fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<()> {
     let (setup, mut frames) = (&setting.setup, Frames::default());
-    let whole_frames = setting.as_told && setting.cycles.is_none();
+    let whole_frames = setting.as_configured && setting.cycles.is_none();
     let limit =
         if whole_frames { setup.longest_run(setting.frames) } else { setting.cycles() as u64 };
     device.power_up(sampler, &mut Off);

@@ -54,7 +54,8 @@ impl Task {
     /// Returns what the block can be besides, or only what has that name: nothing if the scenario is one of the
     /// user's, who then says what the block is.
     fn others(&self, only: Option<&str>) -> Result<Vec<Self>> {
-        let configurations = if self.setting.as_told { &[] } else { self.spec.configurations };
+        let configurations =
+            if self.setting.as_configured { &[] } else { self.spec.configurations };
         let chosen = configurations.iter().filter(|it| only.is_none_or(|name| name == it.name));
         let other = |configuration: &'static Configuration| {
             Ok(Task {

@@ -118,13 +118,12 @@ impl Ila {
         let mut set_up = match (&request.set_up, &request.text) {
             (Some(name), None) if !name.contains(['/', '.']) => AnalyserSetup::load(name)?,
             (Some(name), None) => {
-                let expected =
-                    "expected the name of a built-in set-up; a set-up of your own goes into `text`";
+                let expected = "expected the name of a built-in probe configuration; your own goes into `text`";
                 return Err(Input::new("ila", expected).field("set_up").value(name).into());
             }
             (None, Some(text)) => AnalyserSetup::parse("own", "set-up", text)?,
             _ => {
-                let expected = "expected either set_up, a name, or text, a set-up file";
+                let expected = "expected either set_up, a name, or text, a probe configuration";
                 return Err(Input::new("ila", expected).into());
             }
         };

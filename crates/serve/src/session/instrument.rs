@@ -9,8 +9,8 @@ use tofsim::error::Result;
 use tofsim::firmware::tof_top::status::Status;
 use tofsim::optics::Hazard;
 use tofsim::optics::cause_parts::cause_parts;
+use tofsim::sim::disagreements::Disagreements;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::partings::Partings;
 use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::error_budget::Bound;
@@ -108,9 +108,9 @@ impl Instrument {
         if self.setup.no_depth().is_some() {
             return Vec::new();
         }
-        let mut partings = Partings::default();
-        partings.add(second, frame, &opinion);
-        partings.notes(second)
+        let mut disagreements = Disagreements::default();
+        disagreements.add(second, frame, &opinion);
+        disagreements.notes(second)
     }
 
     /// Splits a histogram into its expected parts of signal, ambient light and dark counts [hits].

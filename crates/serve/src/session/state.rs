@@ -107,7 +107,7 @@ impl Session {
 
     pub(super) fn scene_fixed(&self) -> Option<&'static str> {
         let can_change = self.live.device().light.can_change();
-        (!can_change).then_some("the scenario's stimulus stands in for the light")
+        (!can_change).then_some("the scenario's stimulus replaces the photon source")
     }
 
     /// Returns the setup with the present scene and control signals.

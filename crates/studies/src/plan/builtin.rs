@@ -31,7 +31,25 @@ pub const PLANS: &[(&str, &str)] = plans!(
     "shapes",
 );
 
-/// Returns the text of a built-in plan.
-pub fn plan(name: &str) -> Option<&'static str> {
-    PLANS.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+/// Returns name and text of a built-in plan.
+pub fn plan(name: &str) -> Option<(&'static str, &'static str)> {
+    PLANS.iter().find(|(known, _)| is_name(name, known)).copied()
+}
+
+/// Returns whether a name is that of a plan, table or figure, with a hyphen or a point between numbers: `fig-4-2` and
+/// `fig-4.2` are the same.
+pub fn is_name(given: &str, known: &str) -> bool {
+    given.replace('.', "-") == known.replace('.', "-")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_hyphens_or_points() {
+        assert_eq!(plan("table-4.3"), plan("table-4-3"));
+        assert_eq!(plan("fig-4.2").unwrap().0, "fig-4-2");
+        assert!(plan("fig-4.1").is_none() && plan("fig 4.2").is_none());
+    }
 }

@@ -244,7 +244,7 @@ pub(super) fn by_counter(
             let step = now.wrapping_sub(last) & mask;
             if step == 0 {
                 let expected =
-                    format!("stands still at sample {row}, so it does not count a clock");
+                    format!("does not change at sample {row}, so it does not count a clock");
                 return Err(fault(&expected).into());
             }
             total = total.saturating_add(step);

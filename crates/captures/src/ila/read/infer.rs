@@ -93,7 +93,7 @@ impl Guess {
         match &self.telling {
             Some(cell) if different.len() > 1 => {
                 let names = self.names();
-                let expected = format!("may be {names}; tell with --radix which of them it is");
+                let expected = format!("may be {names}; select one with --radix");
                 Err(Input { expected, ..cell.clone() }.into())
             }
             _ => Ok(different.first().copied().unwrap_or(Radix::Hex)),
@@ -147,7 +147,7 @@ mod tests {
     fn cells_with_several_values_are_an_error_that_shows_one() {
         let error = guess(16, &["1010"]);
         let radices = "may be HEX or UNSIGNED or SIGNED or BINARY";
-        assert_eq!(error, format!("a.csv: 1010: {radices}; tell with --radix which of them it is"));
+        assert_eq!(error, format!("a.csv: 1010: {radices}; select one with --radix"));
         assert!(guess(8, &["10", "99"]).contains("may be HEX or UNSIGNED or SIGNED;"));
         assert!(guess(4, &["1010", "0001"]) == "BINARY");
         assert!(guess(4, &["10", "11"]).contains("may be UNSIGNED or BINARY;"));

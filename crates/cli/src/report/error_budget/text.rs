@@ -2,9 +2,10 @@
 
 use tofsim_learn::error_budget::figures::{ErrorChange, ErrorFigures};
 use tofsim_learn::error_budget::state::EffectState;
-use tofsim_learn::error_budget::{DepthBudget, EffectErrors};
+use tofsim_learn::error_budget::{Bound, DepthBudget, EffectErrors};
 
-use crate::text::table::{grouped, number_or_dash, table};
+use crate::text::table::{fixed, grouped, number_or_dash, signed, signed_or_dash, table};
+use crate::text::wrap::wrapped;
 
 use super::files::DepthBudgets;
 
@@ -23,7 +24,7 @@ pub fn text(of: &DepthBudgets) -> String {
 fn one(budget: &DepthBudget) -> String {
     let frames = grouped(budget.frames);
     let head = format!(
-        "Errors of {} at {} m [mm], {frames} frames a row\n2σ alone are those beside shot noise\n\n",
+        "Errors of {} at {} m [mm], {frames} frames a row\n2σ of a single effect includes shot noise\n\n",
         budget.kind.name(),
         budget.distance_m,
     );
@@ -73,16 +74,12 @@ fn differences(budget: &DepthBudget) -> String {
 /// Bound, sums, failures, and the effects that are not measured.
 fn below(budget: &DepthBudget) -> String {
     let mut lines = vec![
+        wrapped(&bound(&budget.bound), WIDTH, ["", "  "]),
         format!(
-            "Cramer-Rao bound: 2σ of {} mm; {} mm in exact bins an eighth as wide",
-            number_or_dash(budget.bound.two_sd_mm, 3),
-            number_or_dash(budget.bound.fine_two_sd_mm, 3),
-        ),
-        format!(
-            "alone in sum: bias {:+.3} mm, 2σ {:.3} mm; together {} and {} mm",
-            budget.sum_mean_mm,
+            "alone in sum: bias {} mm, 2σ {:.3} mm; together {} and {} mm",
+            signed(budget.sum_mean_mm, 3),
             budget.sum_two_sd_mm,
-            budget.together.mean_mm.map_or("-".to_owned(), |mm| format!("{mm:+.3}")),
+            signed_or_dash(budget.together.mean_mm, 3),
             number_or_dash(budget.together.two_sd_mm, 3),
         ),
     ];
@@ -98,12 +95,24 @@ fn below(budget: &DepthBudget) -> String {
         lines.push(format!("\n{title}:"));
         lines.extend(rows.into_iter().map(|row| match &row.state {
             EffectState::Off(why) | EffectState::LeftOut(why) => {
-                wrapped(&format!("{}: {why}", row.effect.name()))
+                wrapped(&format!("{}: {why}", row.effect.name()), WIDTH, ["  ", "    "])
             }
             EffectState::On => String::new(),
         }));
     }
     lines.join("\n") + "\n"
+}
+
+fn bound(bound: &Bound) -> String {
+    if bound.two_sd_mm.is_none() && bound.fine_two_sd_mm.is_none() {
+        let why = bound.invalid_because.unwrap_or("no laser light returns");
+        return format!("Cramer-Rao bound: none, because {why}");
+    }
+    format!(
+        "Cramer-Rao bound: 2σ of {} mm; {} mm in exact bins an eighth as wide",
+        number_or_dash(bound.two_sd_mm, 3),
+        number_or_dash(bound.fine_two_sd_mm, 3),
+    )
 }
 
 /// Returns the largest numbers of failures and outliers over the variants that are shown.
@@ -129,20 +138,19 @@ fn measured(budget: &DepthBudget) -> impl Iterator<Item = &EffectErrors> + Clone
 }
 
 fn bias(value: Option<f64>, error: Option<f64>) -> String {
-    let (Some(value), Some(error)) = (value, error) else { return "-".to_owned() };
-    let digits = decimals(value, error);
-    format!("{value:+.digits$} +-{error:.digits$}")
+    with_error(value, error, signed)
 }
 
 fn spread(value: Option<f64>, error: Option<f64>) -> String {
-    match (value, error) {
-        (Some(0.0), _) => "0".to_owned(),
-        (Some(value), Some(error)) => {
-            let digits = decimals(value, error);
-            format!("{value:.digits$} +-{error:.digits$}")
-        }
-        _ => "-".to_owned(),
-    }
+    if value == Some(0.0) { "0".to_owned() } else { with_error(value, error, fixed) }
+}
+
+/// Formats a value with its standard error, if that is known.
+fn with_error(value: Option<f64>, error: Option<f64>, format: fn(f64, usize) -> String) -> String {
+    let Some(value) = value else { return "-".to_owned() };
+    let digits = decimals(value, error.unwrap_or(0.0));
+    let error = error.map_or(String::new(), |error| format!(" +-{error:.digits$}"));
+    format(value, digits) + &error
 }
 
 /// Returns the decimals with which the larger of both has four digits at most.
@@ -155,27 +163,23 @@ fn decimals(value: f64, error: f64) -> usize {
     }
 }
 
-/// Lines no longer than the terminal, the first begun by two blanks and the others by four.
-fn wrapped(text: &str) -> String {
-    let (mut lines, mut line) = (Vec::new(), String::from(" "));
-    for word in text.split(' ') {
-        if line.chars().count() + 1 + word.chars().count() > WIDTH {
-            lines.push(std::mem::replace(&mut line, "   ".to_owned()));
-        }
-        line += " ";
-        line += word;
-    }
-    lines.push(line);
-    lines.join("\n")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
+    fn a_missing_bound_has_a_reason() {
+        let reason = |invalid_because| bound(&Bound { invalid_because, ..Bound::default() });
+        let expected = "Cramer-Rao bound: none, because the pulse energy differs from shot to shot";
+        assert_eq!(reason(Some("the pulse energy differs from shot to shot")), expected);
+        assert_eq!(reason(None), "Cramer-Rao bound: none, because no laser light returns");
+    }
+
+    #[test]
     fn numbers_have_as_many_decimals_as_fit() {
         assert_eq!(bias(Some(-0.01234), Some(0.00021)), "-0.012 +-0.000");
+        assert_eq!(bias(Some(-0.0001), Some(0.0002)), "+0.000 +-0.000");
+        assert_eq!([bias(Some(1.5), None), spread(Some(1.5), None)], ["+1.500", "1.500"]);
         assert_eq!(bias(Some(12.3456), Some(0.123)), "+12.35 +-0.12");
         assert_eq!(spread(Some(0.5), Some(99.999)), "0.5 +-100.0");
         assert_eq!([spread(Some(0.0), Some(0.0)), bias(None, None)], ["0", "-"]);
@@ -186,11 +190,5 @@ mod tests {
                 bias(Some(value), Some(value))
             );
         }
-    }
-
-    #[test]
-    fn reasons_are_wrapped() {
-        let text = wrapped(&"word ".repeat(40));
-        assert!(text.lines().all(|line| line.len() <= WIDTH) && text.lines().count() > 2);
     }
 }

@@ -4,11 +4,13 @@ use rand::Rng;
 
 use tofsim::error;
 use tofsim::optics::BinProbabilities;
+use tofsim::scenario::DEFAULT;
 use tofsim::sensor::streams::{Source, stream};
 use tofsim_learn::estimation::subtraction::Subtraction;
 use tofsim_learn::estimation::{Estimator, Failure, HistogramPair};
 
 use crate::page::plot::{BLUE, GREY, Layer, ORANGE, Shape};
+use crate::report::pairs::right_of_echo;
 use crate::reproduce::peaks::{SHOTS, WRONG_M};
 use crate::reproduce::scenes::{BIN_NS, View, counts, detection};
 use crate::reproduce::study::Study;
@@ -20,11 +22,11 @@ use super::histograms::mean_of;
 const DISTANCE_M: f64 = 0.6;
 /// Irradiance of each picture, by its letter [W/m^2/nm].
 const LIGHTS: [(char, f64); 4] = [('a', 0.1), ('b', 0.2), ('c', 0.3), ('d', 0.4)];
-/// Bins right of the echo at 0.6 m.
-const RIGHT: usize = 180;
 
 pub(super) fn subtraction(study: &Study) -> error::Result<Measured> {
     let draws = study.size(1000, 100);
+    let distance = format!("target.distance_m={DISTANCE_M}");
+    let right = right_of_echo(&study.setup(DEFAULT, &["tdc.profile=ideal", &distance])?);
     let percent = |count: u64| 100.0 * count as f64 / draws as f64;
     let mut random = stream(study.seed, Source::Histogram, 55);
     let mut measured = Measured::default();
@@ -33,7 +35,8 @@ pub(super) fn subtraction(study: &Study) -> error::Result<Measured> {
     measured.values.put("noise", 2.0 * (2500.0 / draws as f64).sqrt());
     for (letter, irradiance) in LIGHTS {
         let view = View::new(study, DISTANCE_M, 0.6, irradiance)?;
-        let pairs = Pairs::draw(&view, draws, &mut random);
+        let pairs =
+            Pairs::draw(&view, right.unwrap_or(view.codes.of_code().len()), draws, &mut random);
         let mut put =
             |name: &str, number: f64| measured.values.put(format!("{name}.{letter}"), number);
         put("irradiance", irradiance);
@@ -66,7 +69,8 @@ struct Pairs {
 }
 
 impl Pairs {
-    fn draw(view: &View, draws: u64, random: &mut impl Rng) -> Self {
+    /// Draws pairs; the bins from `right` on are those right of the echo.
+    fn draw(view: &View, right: usize, draws: u64, random: &mut impl Rng) -> Self {
         let dark = view.dark();
         let both = Subtraction { detection: detection() };
         let mut draw = |codes: &BinProbabilities, shots| -> Vec<u32> {
@@ -79,7 +83,7 @@ impl Pairs {
             let pair = HistogramPair { dark, lit };
             let difference = pair.difference();
             pairs.negative += u64::from(difference.iter().any(|count| *count < 0));
-            let part = &difference[RIGHT..];
+            let part = &difference[right..];
             pairs.right.push(part.iter().sum::<i32>() as f64 / part.len() as f64);
             let whole = draw(&view.codes, SHOTS);
             pairs.found += u64::from(is_echo(both.estimate_pair(&pair)));

@@ -73,8 +73,8 @@ const SHOTS: u64 = 300;
 
 pub fn cycles(site: &Site) -> Result<Outcome> {
     let words = ["--cycle-counts", "--rtl", FOLDER, "--scenario", site.scenario()];
-    let (args, talk) = site.verify(&words)?;
-    let (source, counts) = verify::cycle_counts(&args, &talk)?;
+    let (args, console) = site.verify(&words)?;
+    let (source, counts) = verify::cycle_counts(&args, &console)?;
     let held = counts.iter().filter(|count| count.holds()).count();
     let summary = format!("{held} of {} counts proven", counts.len());
     let passed = counts.iter().all(Count::holds);
@@ -85,16 +85,16 @@ pub fn verify(site: &Site) -> Result<Outcome> {
     let mut words =
         vec!["--rtl", FOLDER, "--scenario", site.scenario(), "--registers", "--from-power-up"];
     words.extend(if site.quick { &["--cycles", QUICK_CYCLES][..] } else { &[] });
-    let (args, talk) = site.verify(&words)?;
-    let (source, mut reports) = verify::blocks(&args, &talk)?;
+    let (args, console) = site.verify(&words)?;
+    let (source, mut reports) = verify::blocks(&args, &console)?;
     let map = PathBuf::from(FOLDER).join(instrument::MAP).display().to_string();
     let shots = SHOTS.min(site.loaded.scenario.firmware.shots_per_frame);
     let shots = format!("firmware.shots_per_frame={shots}");
     let whole =
         ["--rtl", FOLDER, "--map", &map, "--top", "--scenario", site.scenario(), "-s", &shots];
-    let (args, talk) = site.verify(&whole)?;
+    let (args, console) = site.verify(&whole)?;
     reports.extend(
-        verify::blocks(&args, &talk)?.1.into_iter().map(|report| BlockReport {
+        verify::blocks(&args, &console)?.1.into_iter().map(|report| BlockReport {
             name: format!("{}, a frame", instrument::MODULE),
             ..report
         }),
@@ -124,7 +124,7 @@ pub fn cost(site: &Site) -> Result<Outcome> {
     let limits = Limits { stop: stop.as_deref(), ..Limits::new(LIMIT) };
     let one = |part: Part| {
         let found = resources(&rtl, (instrument::MODULE, part), [folder, work.path()], &limits)?;
-        site.talk.detail(format_args!("{}: {} LUTs", part.name(), found.lut));
+        site.console.detail(format_args!("{}: {} LUTs", part.name(), found.lut));
         Ok((part.name().to_owned(), found))
     };
     let found: Result<Vec<_>> = [Part::Kintex7, Part::Ecp5].into_par_iter().map(one).collect();

@@ -10,6 +10,7 @@ use tofsim_learn::dataset::{GridOption, GridPurpose};
 use tofsim_learn::estimation::EstimatorKind;
 
 use crate::record::read_object;
+use crate::text::table::fixed;
 
 use super::files::NETWORK;
 use super::site::Site;
@@ -57,7 +58,7 @@ pub fn accuracy(site: &Site) -> Result<Outcome> {
     let agrees = site.run(&words)? == ExitCode::SUCCESS;
     let result = read_object(&Path::new(ACCURACY).join("evaluation.json"))?;
     let all = &result["estimators"][0]["all"];
-    let number = |key: &str| all[key].as_f64().map_or("-".to_owned(), |mm| format!("{mm:.2}"));
+    let number = |key: &str| all[key].as_f64().map_or("-".to_owned(), |mm| fixed(mm, 2));
     let summary = format!(
         "2σ {} mm, mean error {} mm, {} outliers of {}",
         number("two_sd_mm"),

@@ -39,7 +39,7 @@ pub fn run(site: &Site, anew: bool) -> Result<Outcome> {
             Some(reason) => reason,
         },
     };
-    site.talk.note(format_args!("network: trained, because {reason}"));
+    site.console.note(format_args!("network: trained, because {reason}"));
     train(site, anew)?;
     let trained = Path::new(TRAINING).join(NETWORK);
     let text = read_text(&trained)?;
@@ -75,7 +75,7 @@ fn why_not(site: &Site, name: &str, text: &str) -> Result<Option<String>> {
             other.map(|note| format!("{name} was not trained for {} = {}", note.key, note.value))
         );
     }
-    notes.iter().for_each(|note| site.talk.note(note));
+    notes.iter().for_each(|note| site.console.note(note));
     Ok(None)
 }
 

@@ -9,7 +9,7 @@ use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
-use crate::verbs::terminal::{RunCommand, Talk};
+use crate::verbs::terminal::{Console, RunCommand};
 use crate::verbs::{train, verify};
 
 use super::files::InstrumentFiles;
@@ -28,7 +28,7 @@ pub struct Site<'a> {
     pub notes: Vec<Note>,
     /// Whether all is to be quick.
     pub quick: bool,
-    pub talk: &'a Talk,
+    pub console: &'a Console,
     run_command: RunCommand,
 }
 
@@ -40,7 +40,7 @@ impl<'a> Site<'a> {
     pub fn new(
         files: &'a InstrumentFiles,
         quick: bool,
-        talk: &'a Talk,
+        console: &'a Console,
         run_command: RunCommand,
     ) -> Result<Self> {
         let loaded = files.with_any_network();
@@ -48,7 +48,7 @@ impl<'a> Site<'a> {
         train::check(&loaded)?;
         let mut notes: Vec<Note> = setup.no_depth().cloned().into_iter().collect();
         notes.extend(notes_of_firmware(&setup));
-        Ok(Site { files, loaded, setup, notes, quick, talk, run_command })
+        Ok(Site { files, loaded, setup, notes, quick, console, run_command })
     }
 
     /// The scenario's file in the folder.
@@ -69,15 +69,15 @@ impl<'a> Site<'a> {
     /// # Errors
     /// When there is no such command, and its own.
     pub fn run(&self, words: &[&str]) -> Result<ExitCode> {
-        (self.run_command)(words, self.talk)
+        (self.run_command)(words, self.console)
     }
 
     /// The options of `verify`, and its voice.
     ///
     /// # Errors
     /// When it has no such options.
-    pub fn verify(&self, words: &[&str]) -> Result<(verify::Args, Talk)> {
-        Ok((verify::Args::of(words)?, self.talk.within(Vec::new())))
+    pub fn verify(&self, words: &[&str]) -> Result<(verify::Args, Console)> {
+        Ok((verify::Args::of(words)?, self.console.within(Vec::new())))
     }
 
     /// A digest of all that decides what a step comes to.

@@ -44,19 +44,19 @@ impl Step {
 
     /// Their words on the command line.
     pub const CHOICES: [Choice<Step>; 10] = [
-        ("network", Step::Network, "Takes the network that the file names, or trains one"),
+        ("network", Step::Network, "Uses the network that the file names, or trains one"),
         ("verilog", Step::Verilog, "Writes the Verilog with its parameters set, and its ROMs"),
         ("constraints", Step::Constraints, "Writes clocks and pins for the part's tools"),
         ("vectors", Step::Vectors, "Writes golden vectors and a bench for each block"),
         ("cycles", Step::Cycles, "Proves the cycle counts (Icarus, Yosys)"),
-        ("verify", Step::Verify, "Holds the Verilog to the model (Icarus)"),
+        ("verify", Step::Verify, "Verifies the Verilog against the model (Icarus)"),
         ("frame", Step::Frame, "Simulates a frame, with a waveform and save files for its viewers"),
         (
             "accuracy",
             Step::Accuracy,
-            "Measures the errors over the grid, beside the Cramer-Rao bound",
+            "Measures the errors over the grid, compared with the Cramer-Rao bound",
         ),
-        ("cost", Step::Cost, "Counts what it takes of a Kintex-7 and an ECP5 (Yosys)"),
+        ("cost", Step::Cost, "Counts the resources in a Kintex-7 and an ECP5 (Yosys)"),
         ("report", Step::Report, "Writes report.html"),
     ];
 

@@ -16,7 +16,7 @@ use tofsim_learn::estimation::{EstimatorKind, Panel};
 
 use crate::report::estimates::{EstimateFindings, Numbers, Row};
 use crate::report::writer::Report;
-use crate::verbs::terminal::Talk;
+use crate::verbs::terminal::Console;
 
 /// What is asked for, of a sensor that may be anybody's.
 pub(super) struct Request<'a> {
@@ -68,12 +68,12 @@ impl Sensor {
     }
 
     /// Estimates the depths of all files.
-    pub fn run(&self, asked: &Request, setup: &Setup, talk: &Talk) -> Result<()> {
+    pub fn run(&self, asked: &Request, setup: &Setup, console: &Console) -> Result<()> {
         let usual = [EstimatorKind::Likelihood];
         let kinds = if asked.estimators.is_empty() { &usual[..] } else { asked.estimators };
         let notes: Vec<_> =
             assumed(asked, setup).chain(kinds.iter().flat_map(|kind| kind.notes(setup))).collect();
-        talk.heed(&notes)?;
+        console.print_notes(&notes)?;
         let panel = Panel::of_bins(kinds, setup, &self.bins)?;
         let names: Vec<String> =
             asked.files.iter().map(|file| file.display().to_string()).collect();
@@ -105,7 +105,7 @@ impl Sensor {
         let several = names.len() > 1;
         let findings =
             EstimateFindings { network: None, sensor: Some(sensor), rows, several, explain: false };
-        Report::new(findings, setup, &notes, talk).deliver(None, asked.json, talk)
+        Report::new(findings, setup, &notes, console).deliver(None, asked.json, console)
     }
 }
 

@@ -11,20 +11,20 @@ use crate::verbs::draws::Draws;
 /// Distances of the tables, where the grid is not the thesis's.
 pub(super) const SHOWN: usize = 6;
 
-/// Measure how exactly the network and other estimators find the distance
+/// Measure the accuracy of the network and other estimators
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    after_help = "Histograms are drawn afresh over the thesis's test grid: 51 distances from 0.1 \
-    to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones,\nbut for \
-    subtraction: a dark and a lit one of half the shots each.\nWith --grid KEY=... scenes are \
-    your own, and what no --grid sets is the scenario's.\n\n\
+    after_help = "By default, new histograms are drawn over the thesis's test grid: 51 distances from \
+    0.1 to 0.6 m, 9 irradiances, 53 reflectances, 5 of each scene. All estimators receive the same histograms, except \
+    subtraction: a dark and a lit one of half the shots each. --grid KEY=... sets your own scenes; keys without --grid \
+    are those of the scenario.\n\n\
     Examples:\n  \
-    tofsim evaluate                                 the default network on its chain's bins\n  \
-    tofsim evaluate ideal --profile ideal -o out    with box plots and tables as CSV\n  \
+    tofsim evaluate                                 the network of the scenario\n  \
+    tofsim evaluate ideal --profile ideal -o out    with box plots and CSV\n  \
     tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000\n  \
-    tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?\n  \
-    tofsim evaluate --data measured --profile chain.toml    on your own histograms\n  \
-    tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --grid laser.pulse_sigma_ps=100,137,200"
+    tofsim evaluate --estimator peak,subtraction    with and without a dark frame\n  \
+    tofsim evaluate --data measured --profile chain.toml   your own histograms\n  \
+    tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --repeats 100"
 )]
 pub struct Args {
     /// Built-in network, such as uniform-16, or network file [default: the scenario's]
@@ -43,7 +43,7 @@ pub struct Args {
     /// training.grid, or else thesis]
     #[arg(long, value_name = "GRID")]
     pub(super) grid: Vec<String>,
-    /// Histograms of each scene, where all are drawn
+    /// Histograms per scene, unless --rows is given
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) repeats: u64,
     /// Histograms of known distances instead of drawn ones: the folder of a dataset, a Parquet file with
@@ -56,11 +56,11 @@ pub struct Args {
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
     pub(super) check: u64,
-    /// Count an estimate as an outlier that is further than this from the truth
+    /// Error above which an estimate is an outlier [mm]
     #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = crate::choice::millimetres)]
     pub(super) outlier_limit_mm: f64,
-    /// Write evaluation.json, evaluation.csv, box plots of the errors, and the spread by distance over the
-    /// Cramer-Rao bound there
+    /// Write evaluation.json, evaluation.csv, box plots of the errors, and the spread by distance over the Cramer-Rao
+    /// bound into this folder
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
     /// Print one JSON object instead of tables

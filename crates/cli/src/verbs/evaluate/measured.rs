@@ -16,28 +16,28 @@ use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures};
 
 use crate::report::evaluation::{self as report, EvaluationFindings};
 use crate::report::writer::Report;
-use crate::verbs::terminal::Talk;
+use crate::verbs::terminal::Console;
 
 use super::args::{Args, SHOWN};
 
 /// Evaluates what is in `data`.
-pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, data: &Path, console: &Console) -> Result<()> {
     let loaded = args.draws.load_with(&args.scenario, args.network.as_deref(), &args.draws.set)?;
     let size = loaded.scenario.histogram();
     let labelled = Labelled::read(data, args.truth.as_deref(), &size)?;
     labelled.check(data, &loaded.scenario)?;
     let setup = Setup::of_counts(loaded)?;
     let notes = args.notes_on(&setup, &labelled)?;
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     if args.estimator.iter().any(|kind| kind.needs() == Needs::Dark) {
-        let expected = "expected estimators of one histogram, it needs a dark one beside each";
+        let expected = "expected estimators of a single histogram: it also needs a dark one";
         return Err(Input::new("--estimator", expected).value("subtraction").into());
     }
     let held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let estimators = Panel::new(&args.estimator, &setup)?.into_estimators();
     let count = labelled.histograms.len() as u64;
     let (histograms, scenes) = (&labelled.histograms, labelled.scenes.clone());
-    let evaluation = args.draws.on_threads(count, talk, |done| {
+    let evaluation = args.draws.on_threads(count, console, |done| {
         let evaluation = Evaluation::of_histograms(histograms, scenes, &estimators);
         done(count);
         Ok(evaluation)
@@ -63,7 +63,11 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
     let (text, figures) = (head + &tables, &figures[..]);
     let findings = EvaluationFindings { json, text, figures, bound: &[], grid: None };
     drop(held);
-    Report::new(findings, &setup, &notes, talk).deliver(args.output.as_deref(), args.json, talk)
+    Report::new(findings, &setup, &notes, console).deliver(
+        args.output.as_deref(),
+        args.json,
+        console,
+    )
 }
 
 /// The figures of an estimator; the thesis's line is for its own scenes.

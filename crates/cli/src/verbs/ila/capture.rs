@@ -22,24 +22,24 @@ use crate::text::table::facts;
 use crate::verbs::draws::load;
 use crate::verbs::frames::check as check_frames;
 use crate::verbs::interrupt::look_no_more;
-use crate::verbs::terminal::{Talk, stop_signal};
+use crate::verbs::terminal::{Console, stop_signal};
 
 /// Sample a simulation as a logic analyser on the board would, and write Vivado's files
 ///
-/// A set-up names the probes, the clock, the buffer and the trigger; options go before its keys.
-/// Conditions are as `state == 5 && (start rising || code[7:4] != 0b1x0x)`, over names of probes
-/// and paths of signals. What is taken at an edge is the value just before it.
+/// A probe configuration names the probes, the clock, the buffer and the trigger; options override its keys.
+/// Conditions are as `state == 5 && (start rising || code[7:4] != 0b1x0x)`, over names of probes and paths of
+/// signals. A sample is the value just before the edge.
 ///
-/// The files are in the dialect of real captures. Vivado itself has not opened one of them yet.
+/// The files have the format of real captures, but have not been opened in Vivado yet.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim ila capture --probes fig_6_21 -o out\n  \
-    tofsim ila capture near --probes my_ila.toml -o out --trigger 'hit rising' --windows 8\n\n\
-    Built-in set-ups: fig_6_6, fig_6_12, fig_6_13, fig_6_21 (the thesis's screen captures), likelihood_estimator, shot")]
+    tofsim ila capture near --probes my_ila.toml --trigger 'hit rising' -o out\n\n\
+    Built-in probe configurations: fig_6_6, fig_6_12, fig_6_13, fig_6_21 (screen captures of the thesis), likelihood_estimator, shot")]
 pub struct Args {
-    /// Built-in scenario or the path of a scenario file [default: the set-up's]
+    /// Built-in scenario or the path of a scenario file [default: that of the probe configuration]
     scenario: Option<String>,
-    /// Built-in set-up, or the path of a set-up file
+    /// Built-in probe configuration, or the path of a file
     #[arg(long, value_name = "NAME|FILE")]
     probes: String,
     /// Directory to write to
@@ -51,7 +51,7 @@ pub struct Args {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
     seed: Option<u64>,
-    /// How many frames to simulate at most [default: as the set-up says]
+    /// Largest number of frames to simulate [default: that of the probe configuration]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     frames: Option<u64>,
     #[command(flatten)]
@@ -59,7 +59,7 @@ pub struct Args {
     /// Format to write; may be repeated [default: all]
     #[arg(long, value_parser = words(choice::CAPTURE_FORMAT))]
     format: Vec<CaptureFormat>,
-    /// Leave out the CSV's row of radices, as Vivado before 2019.1
+    /// Omit the row of radices from the CSV, as Vivado before 2019.1
     #[arg(long)]
     legacy_csv: bool,
     /// End the simulation as soon as the buffer is full
@@ -79,19 +79,19 @@ struct Instead {
     /// Samples of the buffer, a power of two from 1024 to 131072
     #[arg(long, value_name = "N")]
     depth: Option<u64>,
-    /// Parts of the buffer with a trigger each
+    /// Number of windows of the buffer, with a trigger each
     #[arg(long, value_name = "N")]
     windows: Option<u64>,
     /// Samples of a window before its trigger
     #[arg(long, value_name = "N")]
     position: Option<u64>,
-    /// Condition that triggers
+    /// Trigger condition
     #[arg(long, value_name = "CONDITION")]
     trigger: Option<String>,
-    /// Condition that a sample has to fulfil to be stored
+    /// Condition under which a sample is stored
     #[arg(long, value_name = "CONDITION")]
     capture: Option<String>,
-    /// When to arm it, from power-up [us]
+    /// Time of arming, from power-up [us]
     #[arg(long, value_name = "T")]
     arm_at_us: Option<f64>,
     /// Registers before the probes, 0 to 6
@@ -115,12 +115,12 @@ impl Instead {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let mut set_up = AnalyserSetup::load(&args.probes)?;
     args.instead.lay_over(&mut set_up);
     let setup = simulated(args, &set_up)?;
     let mut notes = setup.notes()?;
-    talk.heed(&notes)?;
+    console.print_notes(&notes)?;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
     plan.stop_when_full = args.stop_when_full;
     let frames = args.frames.unwrap_or(set_up.file.frames);
@@ -135,10 +135,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     look_no_more();
     let capture = analyser.finish();
     if !full {
-        talk.note(format_args!("note: the run ended with {}", missing(&plan, &capture)));
+        console.note(format_args!("note: the run ended with {}", missing(&plan, &capture)));
     }
     if !args.stop_when_full {
-        talk.heed(&outcome.notes)?;
+        console.print_notes(&outcome.notes)?;
         notes.extend(outcome.notes);
     }
     let formats = if args.format.is_empty() { CaptureFormat::ALL } else { &args.format };
@@ -146,13 +146,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let files = export(&capture, stage.path(), &set_up.name, formats, !args.legacy_csv)?;
     // The map by which `tofsim compare` lays the capture over a waveform.
     let map = stage.path().join(format!("{}.map.toml", set_up.name));
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     write_bytes(&map, record.comment_line() + &SignalMap::of(&set_up).to_toml())?;
     // In the order of the formats.
     let names = files.iter().chain([&map]).filter_map(|file| file.file_name());
     let files: Vec<_> = names.map(|name| args.output.join(name)).collect();
     stage.commit()?;
-    files.iter().for_each(|file| talk.wrote(file));
+    files.iter().for_each(|file| console.wrote(file));
     let files = files.iter().map(|file| file.display().to_string()).collect();
     let findings = CaptureFindings {
         set_up: &set_up,
@@ -164,7 +164,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         end: outcome.end,
         files,
     };
-    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
+    Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)
 }
 
 fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {

@@ -11,18 +11,17 @@ use tofsim_captures::source::{Signal, SignalKind, Source, SourceFormat};
 
 use crate::choice::{self, words};
 use crate::text::table::{facts, grouped, table};
-use crate::verbs::terminal::{Talk, print};
+use crate::verbs::terminal::{Console, print};
 
-/// Say what a logic analyser's file holds
+/// Show the contents of a logic analyser's file
 ///
-/// Reads CSV (with or without a row of radices), VCD and .ila archives of Vivado's ILA, and what
-/// chipscopy writes; the contents decide which, not the name. What had to be read otherwise than it
-/// is written there, or taken from another part of an archive, is noted.
+/// Reads CSV (with or without a row of radices), VCD and .ila archives of Vivado's ILA, and what chipscopy writes;
+/// the contents decide which, not the name. Corrections, and values from other parts of an archive, are noted.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The file
     file: PathBuf,
-    /// Radix of the values in a CSV that does not say
+    /// Radix of the values in a CSV without radices
     #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
     /// Print one JSON object
@@ -31,7 +30,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let source = Source::file(&args.file, args.radix)?;
     if !source.is_capture() {
         let expected = format!(
@@ -44,7 +43,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if args.json {
         print(&format!("{:#}\n", as_json(&source, &survey)))
     } else {
-        talk.report(&as_text(&source, &survey))
+        console.report(&as_text(&source, &survey))
     }
 }
 

@@ -22,20 +22,20 @@ use crate::record::Record;
 use crate::report::writer::{Findings, Report};
 use crate::text::table::facts;
 use crate::verbs::compare::named_map;
-use crate::verbs::terminal::Talk;
+use crate::verbs::terminal::Console;
 
-/// Make a scenario of what a capture shows of the inputs, to simulate the board's own run
+/// Convert the inputs in a capture to a scenario that replays the board's run
 ///
 /// Codes of the TDC become photons that arrive within their bins, tdc_stop alone photons to half a
 /// sample, codes of the ROM a list of codes, the histogram's readout a preloaded histogram, and
 /// control signals a timeline. Signals are found by the firmware's names or by a map.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  \
+#[command(after_help = "Examples:\n  \
     tofsim ila replay board.ila --map my_ila.toml -o replay/scenario.toml")]
 pub struct Args {
-    /// An ILA's CSV, VCD or .ila archive
+    /// CSV, VCD or .ila archive of an ILA
     capture: PathBuf,
-    /// Scenario to write; the list goes beside it
+    /// Scenario to write, with its list of photons or codes in the same folder
     #[arg(short, long, value_name = "FILE.toml")]
     output: PathBuf,
     /// Match signals by a map file, or by a probe configuration of `ila capture` (name or path)
@@ -44,16 +44,16 @@ pub struct Args {
     /// The analyser's clock, clk_sys or clk_laser [default: the map's, or else clk_sys]
     #[arg(long, value_name = "CLOCK")]
     clock: Option<SampleClock>,
-    /// Not all samples were stored (a capture condition that the map does not have)
+    /// Samples are not contiguous: a capture condition, which the map does not state, selected them
     #[arg(long)]
     qualified: bool,
-    /// Replace the light by this part of the capture [default: the first of these that is probed]
+    /// Replace the photon source by this part of the capture [default: the first of these that is probed]
     #[arg(long = "as", value_name = "KIND", value_parser = words(choice::REPLAY))]
     kind: Option<ReplayKind>,
-    /// Radix of the values in a CSV that does not say
+    /// Radix of the values in a CSV without radices
     #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
-    /// Scenario for what the capture does not show
+    /// Scenario for everything that the capture does not show
     #[arg(long, value_name = "NAME|FILE", default_value = DEFAULT)]
     scenario: String,
     /// Set a scenario key, e.g. `target.distance_m=0.3`; may be repeated
@@ -65,7 +65,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(args: &Args, console: &Console) -> Result<()> {
     let place = ReplayFiles::new(&args.output)?;
     let base = load(&args.scenario, &args.set)?;
     let setup = Setup::new(base.clone())?;
@@ -80,7 +80,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let list = place.list(replay.kind);
     let _held = FolderLock::take(&place.folder)?;
     let stage = StagedFolder::new(&place.folder)?;
-    let record = Record::new(&setup, &talk.command);
+    let record = Record::new(&setup, &console.command);
     let staged = stage.path().join(&place.scenario);
     write_bytes(&stage.path().join(&list), record.comment_line() + &replay.list)?;
     let mut scenario = replayed(base, &replay, &list)?;
@@ -95,10 +95,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let files = [&place.scenario, &list].map(|name| place.folder.join(name));
     stage.commit()?;
-    files.iter().for_each(|file| talk.wrote(file));
+    files.iter().for_each(|file| console.wrote(file));
     let next = next(args, &options.map, &located);
     let findings = ReplayFindings { replay: &replay, located: &located, files: &files, next };
-    Report::new(findings, &setup, &notes, talk).deliver(None, args.json, talk)
+    Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)
 }
 
 fn note(text: &String) -> Note {

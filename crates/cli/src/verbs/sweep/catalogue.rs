@@ -19,9 +19,9 @@ use crate::choice::words;
 use crate::record::Record;
 use crate::report::writer::objects;
 use crate::text::table::{plain, table};
-use crate::verbs::terminal::{Talk, print, print_json};
+use crate::verbs::terminal::{Console, print, print_json};
 
-/// List the plans that come with the program
+/// List the built-in plans
 #[derive(Debug, clap::Args)]
 pub struct ListArgs {
     /// Print one JSON object instead of a table
@@ -29,17 +29,17 @@ pub struct ListArgs {
     json: bool,
 }
 
-/// Print a plan that comes with the program
+/// Print a built-in plan
 #[derive(Debug, clap::Args)]
 pub struct ShowArgs {
     /// Its name
     plan: String,
 }
 
-/// List the columns that a table can have
+/// List the available columns
 #[derive(Debug, clap::Args)]
 pub struct ColumnsArgs {
-    /// Estimators whose columns are listed
+    /// Estimators whose columns to list
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',', default_value = "network")]
     estimator: Vec<EstimatorKind>,
     /// Print one JSON object instead of a table
@@ -48,7 +48,7 @@ pub struct ColumnsArgs {
 }
 
 /// Lists the plans.
-pub fn list(args: &ListArgs, talk: &Talk) -> Result<()> {
+pub fn list(args: &ListArgs, console: &Console) -> Result<()> {
     let described = |(name, _): &(&str, &str)| {
         Ok([(*name).to_owned(), Plan::load(name, &[], None)?.file.description])
     };
@@ -57,13 +57,13 @@ pub fn list(args: &ListArgs, talk: &Talk) -> Result<()> {
         let plans = objects(["name", "description"], &plans);
         return print_json(&json!({ "schema": "tofsim.sweep-list/1", "plans": plans }));
     }
-    talk.report(&(plain(plans) + "\n"))
+    console.report(&(plain(plans) + "\n"))
 }
 
 /// Prints a plan.
 pub fn show(args: &ShowArgs) -> Result<()> {
     match plan(&args.plan) {
-        Some(text) => print(text),
+        Some((_, text)) => print(text),
         None => {
             let (hint, known) = hint(&args.plan, PLANS.iter().map(|(name, _)| *name));
             let expected = format!("no built-in plan{hint}; expected one of {known}");
@@ -73,23 +73,23 @@ pub fn show(args: &ShowArgs) -> Result<()> {
 }
 
 /// Lists the columns.
-pub fn columns(args: &ColumnsArgs, talk: &Talk) -> Result<()> {
+pub fn columns(args: &ColumnsArgs, console: &Console) -> Result<()> {
     let columns = columns::all(Fidelity::Histogram, &args.estimator);
     if args.json {
         return print_json(&json!({ "schema": "tofsim.sweep-columns/1", "columns": columns }));
     }
     let row =
         |column: &Column| [column.name.clone(), column.unit.to_owned(), column.meaning.to_owned()];
-    talk.report(&(table(["column", "unit", "what it is"], columns.iter().map(row), 9..) + "\n"))
+    console.report(&(table(["column", "unit", "meaning"], columns.iter().map(row), 9..) + "\n"))
 }
 
-/// Make one table of the shards of a sweep, when all are there
+/// Merge the shards of a sweep into one table
 #[derive(Debug, clap::Args)]
 pub struct MergeArgs {
-    /// The tables of the shards, or folders that have them
+    /// Tables of the shards, or folders that contain them
     #[arg(required = true, value_name = "FILE|DIR")]
     shards: Vec<PathBuf>,
-    /// Write sweep.parquet and sweep.csv there
+    /// Write sweep.parquet and sweep.csv into this folder
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Print one JSON object instead of nothing
@@ -98,13 +98,13 @@ pub struct MergeArgs {
 }
 
 /// Runs the verb.
-pub fn merge(args: &MergeArgs, talk: &Talk) -> Result<()> {
+pub fn merge(args: &MergeArgs, console: &Console) -> Result<()> {
     let files = files(&args.shards)?;
     let shards = Shards::open(&files)?;
     let record = record_of(&shards.about)?;
     create_directory(&args.output)?;
     let written = shards.write(&args.output, &record.comment_line())?;
-    written.iter().for_each(|path| talk.wrote(path));
+    written.iter().for_each(|path| console.wrote(path));
     if args.json {
         let names = |paths: &[PathBuf]| {
             paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>()

@@ -12,19 +12,18 @@ use tofsim_learn::training::recipe::Recipe;
 use crate::choice::{seed, threads};
 use crate::verbs::formats::Formats;
 
-/// Train a depth network on simulated histograms, within the thesis's number formats or others
+/// Train a depth network on simulated histograms, for the thesis's number formats or others
 ///
-/// Grid, recipe, neurons and formats of the scenario's table [training] hold where no option says
-/// otherwise.
+/// Options override grid, recipe, neurons and formats of the scenario's table [training].
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim train --profile uniform --seed 1 -o mine\n  \
     tofsim train --profile chain.toml -o mine       on your own chain\n  \
-    tofsim train --resume -o mine                   go on where it was stopped\n  \
-    tofsim train --with finish.blocks=10 -o mine    with a number of the recipe changed\n  \
-    tofsim train --grid target.distance_m=0.05..0.9:0.0025 --grid target.reflectance=0.05..0.9:0.05 -o far\n  \
-    tofsim train --data measured --profile chain.toml -o mine   on your own histograms\n  \
-    tofsim train --lut-bits 10 --format w1=12.19    in words that are not the thesis's\n  \
+    tofsim train --resume -o mine                   resume an interrupted run\n  \
+    tofsim train --with finish.blocks=10 -o mine    change a key of the recipe\n  \
+    tofsim train --grid target.distance_m=0.05..0.9:0.0025 -o far   your own range\n  \
+    tofsim train --data measured --profile chain.toml      your own histograms\n  \
+    tofsim train --lut-bits 10 --format w1=12.19    other number formats\n  \
     tofsim run -s estimator.network=mine/network.toml")]
 pub struct Args {
     /// Built-in scenario or scenario file: optics, detector and shots; its scene does not matter
@@ -53,7 +52,8 @@ pub struct Args {
     /// Train for a few seconds only (poor accuracy)
     #[arg(long)]
     pub(super) quick: bool,
-    /// Recipe: short (minutes), brief, quick (seconds), uniform-16, long, trainlm, or a TOML file; what it does not say is the default one's
+    /// Recipe: short (minutes), brief, quick (seconds), uniform-16, long, trainlm, or a TOML file; missing keys are
+    /// those of the default recipe
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) recipe: Option<PathBuf>,
     /// Set a key of the recipe, such as finish.blocks=10 or table_noise=0; may be repeated
@@ -64,22 +64,22 @@ pub struct Args {
     pub(super) neurons: Option<usize>,
     #[command(flatten)]
     pub(super) formats: Formats,
-    /// Starts that take part in the first stage
+    /// Number of starts in the first stage
     #[arg(long, value_name = "N")]
     pub(super) starts: Option<usize>,
-    /// Print the recipe as TOML, and train nothing
+    /// Print the recipe as TOML and exit
     #[arg(long)]
     pub(super) print_recipe: bool,
-    /// Go on from the checkpoint in the folder
+    /// Continue from the checkpoint in the output folder
     #[arg(long)]
     pub(super) resume: bool,
-    /// Stop after so many checkpoints, to go on later with --resume
+    /// Stop after N checkpoints; continue with --resume
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) checkpoints: Option<u64>,
     /// Threads; the network is the same for any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads())]
     pub(super) threads: Option<u16>,
-    /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there
+    /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint into this folder
     #[arg(short, long, value_name = "DIR", default_value = "training")]
     pub(super) output: PathBuf,
     /// Print one JSON object instead of a table

@@ -16,7 +16,7 @@ use tofsim_learn::training::tournament::Tournament;
 
 use crate::record::Record;
 use crate::report::training as report;
-use crate::verbs::terminal::Talk;
+use crate::verbs::terminal::Console;
 
 /// Origin of a network.
 pub struct TrainingOrigin<'a> {
@@ -38,12 +38,12 @@ pub fn write(
     recipe: &Recipe,
     tournament: &Tournament,
     made: TrainingOrigin,
-    talk: &Talk,
+    console: &Console,
 ) -> Result<(PathBuf, Vec<DistanceErrors>)> {
     let write = |name: &str, text: &str| -> Result<PathBuf> {
         let path = folder.join(name);
         write_bytes(&path, text)?;
-        talk.wrote(&path);
+        console.wrote(&path);
         Ok(path)
     };
     let points = &tournament.state.curve;
@@ -54,7 +54,7 @@ pub fn write(
     let rounded = float.round("trained network", &recipe.formats, Overflow::Saturate)?;
     if rounded.saturated > 0 {
         // The errors below are those with the saturated ones.
-        talk.note(format_args!(
+        console.note(format_args!(
             "note: weights that do not fit their words and are saturated: {} (expected none: train longer, \
              or with a larger limits.penalty)",
             rounded.saturated

@@ -105,7 +105,7 @@ impl ModelCheck<'_> {
             ),
             None if jitter_ps > 0.0 => {
                 let tap_0 = self.setup.params.tdc.delays.tap_0();
-                let text = "which of two jittered edges sees a hit there hangs on both";
+                let text = "either of two jittered edges may sample a hit there";
                 (self.setup.cycle().since(tap_0).fs() as f64 * 1e-3, text)
             }
             None => return None,
@@ -142,9 +142,9 @@ impl ModelCheck<'_> {
         let first_m = self.distance_m(bins.first_ps());
         let is_other = first_m != 0.0 && (offset_m - first_m).abs() > OTHER_SCALE * first_m.abs();
         let text = if scenario.laser.delay_ps > 0.0 {
-            "what it adds is not the distance of the first bin's begin less the laser's delay"
+            "its offset is not the distance of the start of the first bin minus that of the laser's delay"
         } else {
-            "what it adds is not the distance at which the first bin begins"
+            "its offset is not the distance at which the first bin starts"
         };
         is_other.then(|| self.note("estimator.centroid_offset_m", offset_m, about(first_m), text))
     }

@@ -67,7 +67,7 @@ fn what_is_no_checkpoint_of_this_training_is_refused_by_name() {
     assert!(
         error.ends_with(
             "settings.seed = 1: of another training: this one has 2; \
-             it was begun with --seed 1, here it is --seed 2"
+             it was started with --seed 1, here it is --seed 2"
         ),
         "{error}"
     );
@@ -117,7 +117,7 @@ fn options_that_differ_are_named_on_their_side() {
     let list = |options: &str| options.split_terminator(',').map(str::to_owned).collect::<Vec<_>>();
     let differing = |begun, now| differing(&list(begun), &list(now));
     let with = differing("--quick,--seed 1", "--seed 1");
-    assert_eq!(with, "; it was begun with --quick, which is missing here");
-    assert_eq!(differing("", "-s a=1,-s b=2"), "; it was begun without -s a=1 -s b=2");
+    assert_eq!(with, "; it was started with --quick, which is missing here");
+    assert_eq!(differing("", "-s a=1,-s b=2"), "; it was started without -s a=1 -s b=2");
     assert!(differing("--seed 1", "--seed 1").contains("a file that they name has changed"));
 }

@@ -85,7 +85,7 @@ const HISTOGRAM: Configuration = Configuration {
 const SHOTS: u32 = 8;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    if setting.as_told {
+    if setting.as_configured {
         return top::record(spec, setting, &mut |_| ());
     }
     if setting.setup.params.tdc_calibration.is_some() {

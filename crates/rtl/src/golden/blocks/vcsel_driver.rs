@@ -112,12 +112,12 @@ fn usable(p: &Params, codes: u64) -> Vec<u64> {
     (0..codes).filter(|&code| p.period(Rate::new(code)) <= shortest.max(LONG)).collect()
 }
 
-/// The rates of those codes as the registers tell them, each with its period.
+/// Returns the rates of those codes, each with its period.
 fn rates<'a>(p: &'a Params, usable: &'a [u64]) -> impl Iterator<Item = (u64, u64)> + Clone + 'a {
     let periods = p.periods.iter().zip(0..);
-    // Of equal periods the first is told.
-    let told = move |&(period, rate): &(&u64, usize)| !p.periods[..rate].contains(period);
-    let rates = periods.filter(told).map(|(&period, rate)| (rate as u64, period));
+    // Of equal periods the first is used.
+    let is_first = move |&(period, rate): &(&u64, usize)| !p.periods[..rate].contains(period);
+    let rates = periods.filter(is_first).map(|(&period, rate)| (rate as u64, period));
     rates.filter(move |(rate, _)| usable.contains(rate))
 }
 

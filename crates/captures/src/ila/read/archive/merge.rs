@@ -99,7 +99,7 @@ impl<'a> Merge<'a> {
         } else if count != self.buffer.samples {
             let samples = self.buffer.samples;
             let text = format!("waveform.csv has {count} samples, waveform.dmp {samples}");
-            self.notes.push(format!("{text}; the dump is believed"));
+            self.notes.push(format!("{text}; the dump has priority"));
         }
         self.disagreements();
         Ok(())
@@ -161,7 +161,7 @@ impl<'a> Merge<'a> {
                 let states = column.states.iter_mut().filter(|state| state.name == *word);
                 states.for_each(|state| state.bits = None);
                 self.notes.push(format!(
-                    "{head}: `{word}` stands for {first:#x} and {second:#x}, so that it has no value"
+                    "{head}: `{word}` represents both {first:#x} and {second:#x}, and is read as unknown"
                 ));
             }
             let count = *count;
@@ -169,7 +169,7 @@ impl<'a> Merge<'a> {
                 let text =
                     format!("{head}: {count} cells of waveform.csv, the first at sample {first}");
                 self.notes.push(format!(
-                    "{text}, are not the bits of the other parts, which are believed"
+                    "{text} differ from the bits of the other parts, which have priority"
                 ));
             }
         }

@@ -1,4 +1,4 @@
-//! The estimator of a variant: told what the variant's histograms are like, and with its own effects on or off.
+//! The estimator of a variant: configured for the variant's histograms, with its own effects on or off.
 
 use tofsim::error::Result;
 use tofsim::firmware::centroid_estimator::Params as CentroidParams;
@@ -17,12 +17,12 @@ use crate::quantize::likelihood::LikelihoodExplainer;
 use super::effect::Effect;
 use super::variant::Variant;
 
-/// The estimator of that kind.
+/// Creates the estimator of a kind, configured for a variant.
 ///
 /// # Errors
-/// When its model does not hold for the variant.
+/// When its model is invalid for the variant.
 pub fn estimator(kind: EstimatorKind, variant: &Variant) -> Result<Box<dyn Estimator>> {
-    let Variant { effects, setup, told_bins: bins, told_shots, .. } = variant;
+    let Variant { effects, setup, assumed_bins: bins, assumed_shots, .. } = variant;
     let is_fixed = effects.has(Effect::FixedPoint);
     kind.check(setup)?;
     Ok(match kind {
@@ -30,11 +30,11 @@ pub fn estimator(kind: EstimatorKind, variant: &Variant) -> Result<Box<dyn Estim
             network(variant, is_fixed, effects.has(Effect::Table))
         }
         EstimatorKind::LikelihoodEstimator if is_fixed => {
-            let params = setup.likelihood_of(*told_shots, bins, Params::new)?;
+            let params = setup.likelihood_of(*assumed_shots, bins, Params::new)?;
             Box::new(likelihood_estimator(params))
         }
         EstimatorKind::LikelihoodEstimator => {
-            let explainer = LikelihoodExplainer::of_bins(setup, *told_shots, bins)?;
+            let explainer = LikelihoodExplainer::of_bins(setup, *assumed_shots, bins)?;
             let estimate = move |histogram: &[u32]| match explainer.float(histogram) {
                 (depth_m, status) if status.is_empty() => Ok(depth_m),
                 (_, status) => Err(Failure::Rejected(status)),
@@ -48,7 +48,7 @@ pub fn estimator(kind: EstimatorKind, variant: &Variant) -> Result<Box<dyn Estim
         }
         kind => {
             // The threshold of peak detection is a part of the shots that there are.
-            let shots = if kind == EstimatorKind::Peak { setup.shots(1) } else { *told_shots };
+            let shots = if kind == EstimatorKind::Peak { setup.shots(1) } else { *assumed_shots };
             let acquisition = Acquisition { shots, ..variant.acquisition() };
             kind.estimator(&EstimatorInputs { acquisition, network: &setup.network, setup })?
         }

@@ -1,4 +1,4 @@
-//! Where the depths of the socket and second opinions part, over the frames of a run.
+//! Disagreements between the depths of the estimator slot and second opinions, over the frames of a run.
 
 use crate::note::{Note, NoteCode};
 
@@ -6,48 +6,48 @@ use super::estimates::Estimate;
 use super::frames::Frame;
 use super::second_opinion::{ESTIMATOR, SecondOpinion};
 
-/// What has been seen of some frames.
+/// Counts of disagreements, and the most significant ones.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Partings {
-    /// Frames of which there is an opinion.
+pub struct Disagreements {
+    /// Frames with a second opinion.
     pub frames: u64,
-    /// Frames whose depth is further from a believed opinion than allowed.
-    pub parted: u64,
-    /// Frames of which no depth is to be believed.
-    pub unbelieved: u64,
-    /// Name of what is numbered, if it is no frame of a run.
+    /// Frames whose depth differs from a valid second opinion by more than the tolerance.
+    pub disagreeing: u64,
+    /// Frames whose second opinion is invalid.
+    pub rejected: u64,
+    /// Name of the numbered items, if they are not the frames of a run.
     things: Option<&'static str>,
-    furthest: Option<Parting>,
-    first_unbelieved: Option<(u64, String)>,
+    largest: Option<Disagreement>,
+    first_rejected: Option<(u64, String)>,
 }
 
-/// Two depths of one frame.
+/// Two different depths of one frame.
 #[derive(Clone, Debug, PartialEq)]
-struct Parting {
+struct Disagreement {
     frame: u64,
     own_m: f64,
     other_m: f64,
     allowed_m: f64,
 }
 
-impl Parting {
-    fn apart_m(&self) -> f64 {
+impl Disagreement {
+    fn difference_m(&self) -> f64 {
         (self.own_m - self.other_m).abs()
     }
 }
 
-impl Partings {
-    /// Of histograms that are no frames of a run.
+impl Disagreements {
+    /// Creates counts for histograms that are not frames of a run.
     pub fn of_histograms() -> Self {
-        Partings { things: Some("histogram"), ..Partings::default() }
+        Disagreements { things: Some("histogram"), ..Disagreements::default() }
     }
 
-    /// Takes the next frame, and what `second` said of it.
+    /// Adds the next frame and its second opinion.
     pub fn add(&mut self, second: &SecondOpinion, frame: &Frame, opinion: &Estimate) {
         self.add_depth(second, (frame.index, frame.depth_m()), opinion);
     }
 
-    /// Takes the depth of the next histogram with its number, and what `second` said of it.
+    /// Adds the number and depth of the next histogram, and its second opinion.
     pub fn add_depth(
         &mut self,
         second: &SecondOpinion,
@@ -56,45 +56,45 @@ impl Partings {
     ) {
         self.frames += 1;
         let Some(other_m) = opinion.depth_m.filter(|_| opinion.valid) else {
-            self.unbelieved += 1;
-            self.first_unbelieved.get_or_insert_with(|| (frame, opinion.status.to_string()));
+            self.rejected += 1;
+            self.first_rejected.get_or_insert_with(|| (frame, opinion.status.to_string()));
             return;
         };
-        let parting = Parting { frame, own_m, other_m, allowed_m: second.allowed_m(opinion) };
-        if parting.apart_m() <= parting.allowed_m {
+        let found = Disagreement { frame, own_m, other_m, allowed_m: second.allowed_m(opinion) };
+        if found.difference_m() <= found.allowed_m {
             return;
         }
-        self.parted += 1;
-        if self.furthest.as_ref().is_none_or(|most| most.apart_m() < parting.apart_m()) {
-            self.furthest = Some(parting);
+        self.disagreeing += 1;
+        if self.largest.as_ref().is_none_or(|most| most.difference_m() < found.difference_m()) {
+            self.largest = Some(found);
         }
     }
 
-    /// What a user has to know of it.
+    /// Returns the notes on disagreements and rejected frames.
     pub fn notes(&self, second: &SecondOpinion) -> Vec<Note> {
         let note = |expected: String, text: String| {
-            let (key, socket) = ("estimator.kind", second.socket());
-            Note::new(NoteCode::SecondOpinion, key, socket, expected, text)
+            let (key, kind) = ("estimator.kind", second.socket());
+            Note::new(NoteCode::SecondOpinion, key, kind, expected, text)
         };
-        let parted = self.furthest.as_ref().map(|most| {
+        let disagreement = self.largest.as_ref().map(|most| {
             let text = format!(
-                "it says {:.4} m of {} and {ESTIMATOR} {:.4} m, {:.1} mm apart",
+                "it disagrees with {ESTIMATOR} in {}: {:.4} m against {:.4} m, a difference of {:.1} mm",
+                self.which(self.disagreeing, most.frame, "most in"),
                 most.own_m,
-                self.which(self.parted, most.frame, "furthest in"),
                 most.other_m,
-                1e3 * most.apart_m()
+                1e3 * most.difference_m()
             );
             note(format!("{:.1} mm at most", 1e3 * most.allowed_m), text)
         });
-        let unbelieved = self.first_unbelieved.as_ref().map(|(frame, why)| {
-            let which = self.which(self.unbelieved, *frame, "first");
-            let text = format!("{ESTIMATOR} believes no depth of {which}: {why}");
-            note("an echo that stands out by itself".to_owned(), text)
+        let rejection = self.first_rejected.as_ref().map(|(frame, why)| {
+            let which = self.which(self.rejected, *frame, "first:");
+            let text = format!("{ESTIMATOR} rejects {which}: {why}");
+            note("a single, distinct echo".to_owned(), text)
         });
-        parted.into_iter().chain(unbelieved).collect()
+        disagreement.into_iter().chain(rejection).collect()
     }
 
-    /// So many of the frames, of which one is shown.
+    /// Returns a text such as `3 of 20 frames (most in frame 7)`.
     fn which(&self, count: u64, shown: u64, how: &str) -> String {
         let one = self.things.unwrap_or("frame");
         match count {
@@ -117,11 +117,11 @@ mod tests {
         let second = SecondOpinion::new(&setup).unwrap();
         let frames = Run::new(&setup).stepping(Stepping::LeapShots).frames(count).unwrap();
         let opinions: Vec<_> = frames.iter().map(|frame| second.of(frame)).collect();
-        let mut partings = Partings::default();
+        let mut disagreements = Disagreements::default();
         for (frame, opinion) in frames.iter().zip(&opinions) {
-            opinion.iter().for_each(|opinion| partings.add(&second, frame, opinion));
+            opinion.iter().for_each(|opinion| disagreements.add(&second, frame, opinion));
         }
-        (opinions, partings.notes(&second))
+        (opinions, disagreements.notes(&second))
     }
 
     fn text(notes: &[Note]) -> String {
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn within_its_training_the_network_is_of_one_mind_with_it() {
+    fn within_its_training_the_network_agrees_with_it() {
         let (opinions, notes) = seen(3, &[]);
         assert!(notes.is_empty(), "{}", text(&notes));
         for opinion in opinions {
@@ -145,25 +145,25 @@ mod tests {
         let (opinions, notes) = seen(1, &["target.distance_m=0.8"]);
         assert!((opinions[0].as_ref().unwrap().depth_m.unwrap() - 0.8).abs() < 0.01);
         let said = text(&notes);
-        assert!(said.starts_with("note: estimator.kind = network: it says "), "{said}");
-        assert!(said.contains(" m of frame 0 and likelihood_estimator 0."), "{said}");
+        assert!(
+            said.starts_with(
+                "note: estimator.kind = network: it disagrees with likelihood_estimator in "
+            ),
+            "{said}"
+        );
+        assert!(said.contains(" in frame 0: ") && said.contains(" m against 0."), "{said}");
         assert!(said.contains("mm at most) [second-opinion]") && notes.len() == 1, "{said}");
         let (_, notes) = seen(3, &["target.distance_m=0.8"]);
-        assert!(
-            text(&notes).contains(" m of 3 of 3 frames (furthest in frame "),
-            "{}",
-            text(&notes)
-        );
+        assert!(text(&notes).contains(" in 3 of 3 frames (most in frame "), "{}", text(&notes));
     }
 
     #[test]
-    fn what_the_estimator_does_not_believe_parts_from_nothing() {
+    fn frames_that_the_estimator_rejects_do_not_disagree() {
         let (opinions, notes) = seen(2, &["firmware.laser_en=false"]);
         let opinion = opinions[1].as_ref().unwrap();
         assert!(opinion.status.contains(Status::NoEcho) && !opinion.valid);
         let said = text(&notes);
-        let expected =
-            "likelihood_estimator believes no depth of 2 of 2 frames (first frame 0): no echo";
+        let expected = "likelihood_estimator rejects 2 of 2 frames (first: frame 0): no echo";
         assert!(said.contains(expected) && notes.len() == 1, "{said}");
     }
 }
