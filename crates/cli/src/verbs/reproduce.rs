@@ -20,8 +20,9 @@ use super::draws::use_threads;
 use super::interrupt::look_no_more;
 use super::terminal::{Talk, print_json, stop_signal};
 
-/// Make the tables and figures of the thesis again, each with a verdict: same, differs, cannot be reproduced
+/// Make the tables and figures of the thesis again, each with a verdict
 ///
+/// Verdicts are same, differs, undecided (only with --quick), cannot be reproduced, and nothing to reproduce.
 /// Each number stands beside the thesis's, with its standard error; where something differs, the reason is said. With
 /// names of items only these are made, and their rows are printed.
 #[derive(Debug, clap::Args)]
