@@ -183,7 +183,7 @@ impl Cli {
             Verb::Dataset(args) => dataset::run(args, talk),
             Verb::Train(args) => train::run(args, talk),
             Verb::Scenario(args) => scenario::run(args, talk),
-            Verb::Completions(args) => completions::run(args, &mut Cli::without_help()),
+            Verb::Completions(args) => completions::run(args, Cli::without_help()),
             Verb::Man(args) => man::run(args, Cli::without_help(), talk),
         }?;
         Ok(ExitCode::SUCCESS)
