@@ -15,6 +15,8 @@ pub mod drift;
 #[doc(hidden)]
 pub mod effects;
 mod illuminance;
+#[doc(hidden)]
+pub mod keys;
 mod load;
 #[doc(hidden)]
 pub mod mesh;

@@ -6,6 +6,7 @@ mod conditions;
 mod depth;
 mod docs;
 mod effects;
+mod ends_of_range;
 mod fast_ways;
 mod histogram_file;
 mod layers;

@@ -14,11 +14,16 @@ use super::model::{Scenario, Stimulus, TdcCalibration};
 /// Greatest number of `..` with which a file name in a bundle may begin [1].
 const ABOVE: usize = 8;
 
+/// Folder of a bundle for files that the scenario names by absolute paths.
+const ABSOLUTE: &str = "absolute";
+
 /// File contents, keyed by their path relative to the scenario's folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bundle {
     /// Contents of each file, by its relative path.
     pub files: BTreeMap<String, Vec<u8>>,
+    /// Override for each key with an absolute path, which gives it the relative path.
+    pub set: Vec<String>,
 }
 
 impl Bundle {
@@ -34,7 +39,14 @@ impl Bundle {
             Source::BuiltIn => Path::new(""),
             Source::Folder(folder) => folder,
         };
-        for name in names(scenario) {
+        for (key, name) in names(scenario) {
+            let path = Path::new(name);
+            if path.is_absolute() && path.is_file() {
+                let below: PathBuf = path.components().skip(1).collect();
+                let name = Path::new(ABSOLUTE).join(below).display().to_string();
+                bundle.add_as(path, &name)?;
+                bundle.set.push(format!("{key}={}", toml::Value::from(name)));
+            }
             bundle.add(folder, name)?;
         }
         if *files == Source::BuiltIn && !bundle.files.is_empty() {
@@ -48,23 +60,32 @@ impl Bundle {
         Ok(bundle)
     }
 
-    /// Adds the file `name` of `folder`, if there is one. Absolute paths are not added: they must exist on the
-    /// machine that runs the scenario.
+    /// Adds the file `name` of `folder`, if there is one. A file with an absolute path has no name in a folder, and is
+    /// not added.
     ///
     /// # Errors
     /// If the file cannot be read.
     pub fn add(&mut self, folder: &Path, name: &str) -> Result<()> {
         let path = folder.join(name);
-        if Path::new(name).is_absolute() || !name.contains(['/', '.']) || !path.is_file() {
+        if Path::new(name).is_absolute() || !path.is_file() {
             return Ok(());
         }
-        let bytes = read_bytes(&path)?;
+        self.add_as(&path, name)
+    }
+
+    /// Adds the file at `path` under another name.
+    fn add_as(&mut self, path: &Path, name: &str) -> Result<()> {
+        let bytes = read_bytes(path)?;
         let chain = std::str::from_utf8(&bytes).ok().and_then(|text| toml::from_str(text).ok());
         self.files.insert(name.to_owned(), bytes);
         if let Some(Chain { delays_file, counts_file, .. }) = chain {
+            let folder = path.parent().unwrap_or(Path::new(""));
             let beside = Path::new(name).parent().unwrap_or(Path::new(""));
             for own in [delays_file, counts_file].into_iter().flatten() {
-                self.add(folder, &beside.join(own).display().to_string())?;
+                let (path, name) = (folder.join(&own), beside.join(&own));
+                if name.is_relative() && path.is_file() {
+                    self.add_as(&path, &name.display().to_string())?;
+                }
             }
         }
         Ok(())
@@ -91,29 +112,27 @@ impl Bundle {
     }
 }
 
-/// Returns the values of all keys that may name a file.
-pub fn names(scenario: &Scenario) -> impl Iterator<Item = &str> {
+/// Returns all keys that may name a file, with their values.
+pub fn names(scenario: &Scenario) -> impl Iterator<Item = (&'static str, &str)> {
     let Scenario { target, laser, spad, tdc, stimulus, training, estimator, .. } = scenario;
-    let given = [
-        &target.mesh_file,
-        &laser.pulse_file,
-        &spad.dark_file,
-        &tdc.conditions,
-        &stimulus.photons,
-        &stimulus.codes,
-        &stimulus.histogram,
-        &training.recipe,
-    ];
-    let always = [&estimator.network, &tdc.profile];
     let calibration = match &tdc.calibration {
         TdcCalibration::File(name) => Some(name.as_str()),
         TdcCalibration::True | TdcCalibration::Uniform => None,
     };
-    given
-        .into_iter()
-        .filter_map(Option::as_deref)
-        .chain(always.into_iter().map(String::as_str))
-        .chain(calibration)
+    let given = [
+        ("target.mesh_file", target.mesh_file.as_deref()),
+        ("laser.pulse_file", laser.pulse_file.as_deref()),
+        ("spad.dark_file", spad.dark_file.as_deref()),
+        ("tdc.conditions", tdc.conditions.as_deref()),
+        ("stimulus.photons", stimulus.photons.as_deref()),
+        ("stimulus.codes", stimulus.codes.as_deref()),
+        ("stimulus.histogram", stimulus.histogram.as_deref()),
+        ("training.recipe", training.recipe.as_deref()),
+        ("estimator.network", Some(&*estimator.network)),
+        ("tdc.profile", Some(&*tdc.profile)),
+        ("tdc.calibration", calibration),
+    ];
+    given.into_iter().filter_map(|(key, name)| Some((key, name?)))
 }
 
 #[cfg(test)]
@@ -140,5 +159,21 @@ mod tests {
         let read = |name| std::fs::read_to_string(unpacked.join(name)).unwrap();
         assert_eq!(read("../chains/own.toml"), chain);
         assert_eq!(read("../chains/taps.csv"), "tap,ps\n0,1\n");
+    }
+
+    #[test]
+    fn a_file_with_an_absolute_path_gets_a_relative_one() {
+        let here = tempfile::tempdir().unwrap();
+        let path = here.path().join("own");
+        let chain = "description = \"own\"\noffset_ps = 2230\ndelays_file = \"taps.csv\"\n";
+        std::fs::write(&path, chain).unwrap();
+        std::fs::write(here.path().join("taps.csv"), "tap,ps\n0,1\n").unwrap();
+        let mut loaded = load("kc705", &[]).unwrap();
+        loaded.scenario.tdc.profile = path.display().to_string();
+        let bundle = Bundle::of(&loaded.files, &loaded.scenario).unwrap();
+        let name = format!("{ABSOLUTE}{}", path.display());
+        assert_eq!(bundle.set, [format!("tdc.profile=\"{name}\"")]);
+        let taps = Path::new(&name).with_file_name("taps.csv").display().to_string();
+        assert_eq!(bundle.files.keys().collect::<Vec<_>>(), [&name, &taps]);
     }
 }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde_json::Value as Json;
 
+use super::keys::resolve;
 use super::model::Scenario;
 
 /// Returns the JSON Schema of a scenario.
@@ -64,15 +65,6 @@ struct Listing<'a> {
 }
 
 impl Listing<'_> {
-    fn resolve(&self, schema: &Json) -> Json {
-        match schema["$ref"].as_str() {
-            Some(path) => {
-                self.root.pointer(path.trim_start_matches('#')).cloned().unwrap_or(Json::Null)
-            }
-            None => schema.clone(),
-        }
-    }
-
     fn table(&self, text: &mut String, schema: &Json, values: &Json, path: &str, in_list: bool) {
         let empty = serde_json::Map::new();
         let keys = schema["properties"].as_object().unwrap_or(&empty);
@@ -81,7 +73,7 @@ impl Listing<'_> {
         for (key, schema) in plain.filter(|(key, _)| (self.wants)(&format!("{path}{key}"))) {
             // What may be left out is, where it says nothing.
             let Some(value) = values.get(key) else { continue };
-            let schema = with_description(schema, self.resolve(schema));
+            let schema = resolve(self.root, schema);
             match value {
                 Json::Null if in_list => {}
                 Json::Null => {
@@ -90,7 +82,7 @@ impl Listing<'_> {
                 Json::Array(elements) if elements.iter().all(Json::is_object) => {
                     for element in elements {
                         let _ = write!(text, "\n[[{path}{key}]]\n");
-                        let item = self.resolve(&schema["items"]);
+                        let item = resolve(self.root, &schema["items"]);
                         self.table(text, &item, element, &format!("{path}{key}."), true);
                     }
                 }
@@ -107,19 +99,12 @@ impl Listing<'_> {
         for (key, schema) in keys.iter().filter(|(key, _)| is_table(key)) {
             let mut inner = String::new();
             let inner_path = format!("{path}{key}.");
-            self.table(&mut inner, &self.resolve(schema), &values[key], &inner_path, false);
+            self.table(&mut inner, &resolve(self.root, schema), &values[key], &inner_path, false);
             if !inner.is_empty() || (self.wants)(&inner_path) {
                 let _ = write!(text, "\n# {}\n[{path}{key}]\n{inner}", comment(schema));
             }
         }
     }
-}
-
-fn with_description(outer: &Json, mut inner: Json) -> Json {
-    if let (Some(description), Some(inner)) = (outer.get("description"), inner.as_object_mut()) {
-        inner.insert("description".into(), description.clone());
-    }
-    inner
 }
 
 fn comment(schema: &Json) -> String {

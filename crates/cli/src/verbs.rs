@@ -183,7 +183,7 @@ impl Cli {
             Verb::Dataset(args) => dataset::run(args, console),
             Verb::Train(args) => train::run(args, console),
             Verb::Scenario(args) => scenario::run(args, console),
-            Verb::Completions(args) => completions::run(args, &mut Cli::without_help()),
+            Verb::Completions(args) => completions::run(args, Cli::without_help()),
             Verb::Man(args) => man::run(args, Cli::without_help(), console),
         }?;
         Ok(ExitCode::SUCCESS)

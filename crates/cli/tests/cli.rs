@@ -198,6 +198,29 @@ fn completions_and_manual_pages_are_made() {
     for shell in ["bash", "zsh", "fish"] {
         assert!(stdout(folder.path(), &["completions", shell]).contains("tofsim"));
     }
+    let script = stdout(folder.path(), &["completions", "bash"]);
+    fs::write(folder.path().join("tofsim.bash"), script).unwrap();
+    for (words, expected) in [
+        ("run kc", "kc705"),
+        ("run kc705 -s target.dist", "target.distance_m="),
+        ("run --set tdc.prof", "tdc.profile="),
+        ("sweep fig-4-4", "fig-4-4a fig-4-4b fig-4-4c fig-4-4d"),
+        ("verify --block frame", "frame_ctrl"),
+        ("vectors coarse", "coarse_counter"),
+        ("build ec", "ecp5"),
+        ("estimate --network uniform-", "uniform-16"),
+        ("train --profile kin", "kintex7"),
+        ("reproduce fig-6.21", "fig-6.21"),
+    ] {
+        let script = format!(
+            "compopt() {{ :; }}; . ./tofsim.bash; COMP_WORDS=(tofsim {words}); \
+             COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); cur=${{COMP_WORDS[COMP_CWORD]}}; \
+             _tofsim_with_keys tofsim \"$cur\" \"${{COMP_WORDS[COMP_CWORD-1]}}\"; echo \"${{COMPREPLY[@]}}\""
+        );
+        let mut bash = std::process::Command::new("bash");
+        let output = bash.args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+        assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), expected, "{words}");
+    }
     assert!(stdout(folder.path(), &["man"]).contains(".TH tofsim"));
     stdout(folder.path(), &["man", "-o", "man1"]);
     assert!(files(&folder.path().join("man1")).contains(&"tofsim-run.1".to_owned()));

@@ -26,6 +26,10 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     Quick { overview, object, page: read("reproduce.html") }
 });
 
+/// Verdicts in JSON.
+const VERDICTS: [&str; 5] =
+    ["same", "differs", "undecided", "cannot_be_reproduced", "nothing_to_reproduce"];
+
 fn item<'a>(all: &'a Value, id: &str) -> &'a Value {
     all["items"].as_array().unwrap().iter().find(|item| item["id"] == id).unwrap()
 }
@@ -47,12 +51,17 @@ fn every_item_has_a_verdict_and_what_is_not_the_same_has_a_reason() {
     for item in items {
         let id = item["id"].as_str().unwrap();
         let verdict = item["verdict"].as_str().unwrap();
-        assert!(["same", "differs", "cannot_be_reproduced"].contains(&verdict), "{id}");
-        assert!(verdict == "same" || item["reason"] != "", "{id} has no reason");
+        assert!(VERDICTS.contains(&verdict), "{id}");
+        assert!(
+            ["same", "undecided"].contains(&verdict) || item["reason"] != "",
+            "{id} has no reason"
+        );
         assert!(item["command"].as_str().unwrap().contains(id), "{id}");
         let rows = item["rows"].as_array().unwrap();
         assert!(
-            verdict == "cannot_be_reproduced" || rows.iter().any(|row| !row["verdict"].is_null()),
+            verdict.ends_with("reproduce")
+                || verdict.ends_with("reproduced")
+                || rows.iter().any(|row| !row["verdict"].is_null()),
             "{id}"
         );
         let differs = rows.iter().any(|row| row["verdict"] == "differs");
@@ -63,7 +72,11 @@ fn every_item_has_a_verdict_and_what_is_not_the_same_has_a_reason() {
             "{item}"
         );
     }
-    let counts = ["same", "differs", "cannot_be_reproduced"].map(|key| all[key].as_u64().unwrap());
+    let counts = VERDICTS.map(|key| all[key].as_u64().unwrap());
+    assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
+    // With a tenth of the histograms, 401 failures at 0.5 m would pass for the thesis's 332.
+    assert_eq!(item(all, "table-4.3")["verdict"], "undecided");
+    assert_eq!(item(all, "fig-6.15")["verdict"], "nothing_to_reproduce");
     assert_eq!(counts.iter().sum::<u64>(), items.len() as u64);
 }
 

@@ -37,8 +37,10 @@ int tofsim_port(void *handle,
 // without reset, once its registers have taken their first values.
 void tofsim_from_power_up(void *handle);
 
-// Reports a change of `tdc_stop` to `level`.
-void tofsim_stop(void *handle, long long time_fs, int level);
+// Reports a change of `tdc_stop` to `level`. Time does not go back, here and in `tofsim_step` and `tofsim_outputs`.
+void tofsim_stop(void *handle,
+                 long long time_fs,
+                 int level);
 
 // Sets the mask of output bits of the next `tofsim_step` that are neither 0 nor 1, which differ from any value. A
 // two-state simulator need not call it.
@@ -76,7 +78,7 @@ long long tofsim_get_num_compared(const char *block);
 int tofsim_outputs(void *handle, long long time_fs, const uint32_t *inputs, uint32_t *outputs);
 
 // Returns the number of errors of a handle since the last `tofsim_clear_errors`; for null, the number of errors in
-// creating objects.
+// creating objects. Of many errors the first 1000 are kept, and one that says so.
 int tofsim_get_num_errors(void *handle);
 
 // Returns the text of an error, numbered from 0; empty if there are fewer errors. The text is valid until the errors

@@ -37,10 +37,20 @@ pub fn edge(number: i32) -> Result<Option<Edge>, String> {
     }
 }
 
-/// Converts a time of the bench [fs].
-pub fn instant(time_fs: i64) -> Result<Time, String> {
-    match u64::try_from(time_fs) {
-        Ok(fs) if fs < u64::MAX / 2 => Ok(Time::from_fs(fs)),
-        _ => Err(format!("time {time_fs} fs: expected 0 or more")),
+/// The bench's time, which does not go back.
+#[derive(Default)]
+pub struct BenchTime(Time);
+
+impl BenchTime {
+    /// Converts a time of the bench [fs].
+    pub fn at(&mut self, time_fs: i64) -> Result<Time, String> {
+        let Self(last) = self;
+        match u64::try_from(time_fs).map(Time::from_fs) {
+            Ok(now) if now >= *last && now.fs() < u64::MAX / 2 => {
+                *last = now;
+                Ok(now)
+            }
+            _ => Err(format!("time {time_fs} fs: expected {} fs or later", last.fs())),
+        }
     }
 }

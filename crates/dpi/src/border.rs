@@ -6,7 +6,7 @@ use std::ffi::{CStr, c_char, c_int, c_longlong, c_void};
 
 use tofsim::sim::photons::Shown;
 
-use crate::arguments::{self, check_version};
+use crate::arguments::check_version;
 use crate::checker::Checker;
 use crate::objects::{ObjectKind, compared, delete, errors, make, with};
 use crate::photons::Source;
@@ -93,14 +93,10 @@ pub extern "C" fn tofsim_from_power_up(handle: *mut c_void) {
     });
 }
 
-/// Reports a change of `tdc_stop` to `level`.
+/// Reports a change of `tdc_stop` to `level`. Time does not go back, here and in `tofsim_step` and `tofsim_outputs`.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_stop(handle: *mut c_void, time_fs: c_longlong, level: c_int) {
-    with("tofsim_stop", handle as usize, (), |object| {
-        let now = arguments::instant(time_fs)?;
-        object.checker()?.block.stop(now, level != 0);
-        Ok(())
-    });
+    with("tofsim_stop", handle as usize, (), |object| object.checker()?.stop(time_fs, level != 0));
 }
 
 /// Sets the mask of output bits of the next `tofsim_step` that are neither 0 nor 1, which differ from any value. A
@@ -171,15 +167,14 @@ pub unsafe extern "C" fn tofsim_outputs(
     outputs: *mut u32,
 ) -> c_int {
     with("tofsim_outputs", handle as usize, 0, |object| {
-        let block = &mut object.checker()?.block;
-        let [in_words, out_words] = block.layouts().map(|layout| layout.words());
+        let checker = object.checker()?;
+        let [in_words, out_words] = checker.block.layouts().map(|layout| layout.words());
         // SAFETY: as of this function.
         let inputs = unsafe { vector("inputs", inputs, in_words)? };
-        let now = arguments::instant(time_fs)?;
-        let words = block.outputs(now, inputs).map_err(|error| error.to_string())?;
         if outputs.is_null() {
             return Err("outputs are null".to_owned());
         }
+        let words = checker.outputs(time_fs, inputs)?;
         // SAFETY: as of this function.
         unsafe { std::ptr::copy_nonoverlapping(words.as_ptr(), outputs, out_words) };
         Ok(1)
@@ -187,7 +182,7 @@ pub unsafe extern "C" fn tofsim_outputs(
 }
 
 /// Returns the number of errors of a handle since the last `tofsim_clear_errors`; for null, the number of errors in
-/// creating objects.
+/// creating objects. Of many errors the first 1000 are kept, and one that says so.
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_get_num_errors(handle: *mut c_void) -> c_int {
     errors(handle as usize, |errors| c_int::try_from(errors.len()).unwrap_or(c_int::MAX))

@@ -2,7 +2,7 @@
 
 use tofsim_rtl::block::{Block, Mismatch};
 
-use crate::arguments;
+use crate::arguments::{self, BenchTime};
 
 pub struct Checker {
     pub block: Block,
@@ -10,13 +10,14 @@ pub struct Checker {
     pub unknown: Vec<u32>,
     /// Comparisons so far.
     pub compared: u64,
+    time: BenchTime,
 }
 
 impl Checker {
     pub fn new(scenario: &str, block: &str) -> Result<Self, String> {
         let block =
             Block::new(arguments::setup(scenario)?, block).map_err(|error| error.to_string())?;
-        Ok(Checker { block, unknown: Vec::new(), compared: 0 })
+        Ok(Checker { block, unknown: Vec::new(), compared: 0, time: BenchTime::default() })
     }
 
     /// Checks that the bench's port has the width of the model's.
@@ -33,6 +34,18 @@ impl Checker {
         }
     }
 
+    /// Takes a change of `tdc_stop`.
+    pub fn stop(&mut self, time_fs: i64, level: bool) -> Result<(), String> {
+        self.block.stop(self.time.at(time_fs)?, level);
+        Ok(())
+    }
+
+    /// Returns the model's outputs just before an edge.
+    pub fn outputs(&mut self, time_fs: i64, inputs: &[u32]) -> Result<&[u32], String> {
+        let now = self.time.at(time_fs)?;
+        self.block.outputs(now, inputs).map_err(|error| error.to_string())
+    }
+
     /// Compares outputs just before an edge, processes the edge, and returns a message for each output that differs.
     pub fn step(
         &mut self,
@@ -41,7 +54,7 @@ impl Checker {
         [inputs, outputs]: [&[u32]; 2],
     ) -> Result<Vec<String>, String> {
         let (edge, now, cycle) =
-            (arguments::edge(edge)?, arguments::instant(time_fs)?, self.block.cycle());
+            (arguments::edge(edge)?, self.time.at(time_fs)?, self.block.cycle());
         let text = |error: tofsim::error::Error| error.to_string();
         self.block.outputs(now, inputs).map_err(text)?;
         let found = if self.block.is_settled() {

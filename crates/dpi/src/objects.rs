@@ -8,7 +8,10 @@ use std::sync::{Mutex, PoisonError};
 use crate::checker::Checker;
 use crate::photons::Source;
 
-/// Objects objects, by handle; 0 has the errors of objects that could not be created.
+/// Largest number of errors that a handle keeps.
+const MOST_ERRORS: usize = 1000;
+
+/// Objects, by handle; 0 has the errors of objects that could not be created.
 static OBJECTS: Mutex<Objects> = Mutex::new(Objects { last: 0, by_handle: BTreeMap::new() });
 
 struct Objects {
@@ -33,9 +36,15 @@ pub enum ObjectKind {
 }
 
 impl Object {
-    /// Records an error. Zeros in its text, which would end a C string, are replaced.
+    /// Records an error, if there are not too many. Zeros in its text, which would end a C string, are replaced.
     pub fn record(&mut self, error: impl ToString) {
-        let text = error.to_string().replace('\0', " ");
+        let text = match self.errors.len() {
+            0..MOST_ERRORS => error.to_string().replace('\0', " "),
+            MOST_ERRORS => {
+                format!("there are more than {MOST_ERRORS} errors: call tofsim_clear_errors")
+            }
+            _ => return,
+        };
         self.errors.extend(CString::new(text));
     }
 

@@ -2,19 +2,20 @@
 
 use tofsim::sim::photons::{Photons, Shown};
 
-use crate::arguments::{instant, setup};
+use crate::arguments::{BenchTime, setup};
 
 pub struct Source {
     photons: Photons,
+    time: BenchTime,
 }
 
 impl Source {
     pub fn new(scenario: &str) -> Result<Self, String> {
-        Ok(Source { photons: Photons::new(&*setup(scenario)?) })
+        Ok(Source { photons: Photons::new(&*setup(scenario)?), time: BenchTime::default() })
     }
 
     pub fn edge(&mut self, time_fs: i64, shown: Shown) -> Result<(), String> {
-        self.photons.edge(instant(time_fs)?, shown);
+        self.photons.edge(self.time.at(time_fs)?, shown);
         Ok(())
     }
 

@@ -62,6 +62,9 @@ fn what_cannot_be_made_is_null_and_says_why() {
     tofsim_delete(handle);
     assert_eq!(unsafe { tofsim_step(handle, 1, 0, null(), null()) }, 0);
     assert!(error(null_mut()).contains("no such handle"), "{}", error(null_mut()));
+    (0..3000).for_each(|_| tofsim_stop(handle, 0, 1));
+    assert_eq!(tofsim_get_num_errors(null_mut()), 1001);
+    assert_eq!(error(null_mut()), "there are more than 1000 errors: call tofsim_clear_errors");
     tofsim_clear_errors(null_mut());
     assert_eq!(tofsim_get_num_errors(null_mut()), 0);
     assert_eq!(error(null_mut()), "");
@@ -131,6 +134,32 @@ fn a_block_steps_and_what_differs_is_named() {
     assert_eq!(tofsim_photons_next(handle), -1);
     assert_eq!(error(handle), "tofsim_photons_next: this handle is of no photons");
     tofsim_delete(handle);
+}
+
+#[test]
+fn time_that_goes_back_is_refused() {
+    let handle = new(VERSION, "kc705", "tdc_latch");
+    tofsim_stop(handle, 50_000_000, 1);
+    let inputs = [0u32; 64];
+    assert_eq!(unsafe { tofsim_step(handle, 1, 48_000_000, inputs.as_ptr(), inputs.as_ptr()) }, 0);
+    assert_eq!(error(handle), "tofsim_step: time 48000000 fs: expected 50000000 fs or later");
+    let mut outputs = [0u32; 64];
+    let (now, words) = (49_000_000, outputs.as_mut_ptr());
+    assert_eq!(unsafe { tofsim_outputs(handle, now, inputs.as_ptr(), words) }, 0);
+    assert_eq!(error(handle), "tofsim_outputs: time 49000000 fs: expected 50000000 fs or later");
+    assert_eq!(unsafe { tofsim_outputs(handle, 56_000_000, inputs.as_ptr(), words) }, 1);
+    tofsim_stop(handle, 51_000_000, 0);
+    assert_eq!(error(handle), "tofsim_stop: time 51000000 fs: expected 56000000 fs or later");
+    tofsim_delete(handle);
+    let photons = unsafe { tofsim_photons_new(VERSION.as_ptr(), c"kc705".as_ptr()) };
+    for time in [1_016_000_000, 1_008_000_000] {
+        tofsim_photons_edge(photons, time, 0, 0, 1, 0, 0, 0);
+    }
+    assert_eq!(
+        error(photons),
+        "tofsim_photons_edge: time 1008000000 fs: expected 1016000000 fs or later"
+    );
+    tofsim_delete(photons);
 }
 
 #[test]

@@ -41,13 +41,16 @@ impl Columns {
         let (bins, count) = (setup.params.histogram.bins, count as usize);
         let columns = if is_by_cause { 1 + CAUSES.len() } else { 1 };
         let words = bins.saturating_mul(columns).saturating_mul(count);
-        if Vec::<u32>::new().try_reserve_exact(words).is_err() {
+        let mut histograms = Vec::new();
+        if histograms.try_reserve_exact(words).is_err() {
             let expected = format!("expected fewer: the memory does not hold {words} counts");
             return Err(Input::new("frames", expected).value(count).into());
         }
+        // Causes have vectors of their own.
+        histograms.shrink_to(bins * count);
         let none = || -> Causes { std::array::from_fn(|_| vec![0; bins]) };
         Ok(Columns {
-            histograms: Vec::with_capacity(bins * count.min(1 << 16)),
+            histograms,
             words: Vec::new(),
             numbers: Default::default(),
             laser_en: Vec::new(),

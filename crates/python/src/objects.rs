@@ -1,9 +1,12 @@
 //! Python's dictionaries and lists from JSON, and `key=value` overrides from Python's dictionaries.
 
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyList, PyString};
 use serde_json::Value;
+
+/// Deepest nesting of a dictionary of tables, more than any key has.
+const DEEPEST: usize = 16;
 
 /// A JSON value as Python has it.
 pub fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
@@ -32,24 +35,45 @@ pub fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>
 /// An override for each value of a dictionary of tables, as `-s` of the command line has it.
 pub fn assignments(tables: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     let mut found = Vec::new();
-    collect(tables, "", &mut found)?;
+    collect(tables, "", DEEPEST, &mut found)?;
     Ok(found)
 }
 
-fn collect(table: &Bound<'_, PyDict>, above: &str, found: &mut Vec<String>) -> PyResult<()> {
+/// Appends the overrides of a table, whose values are nested to `depth` levels at most.
+fn collect(
+    table: &Bound<'_, PyDict>,
+    above: &str,
+    depth: usize,
+    found: &mut Vec<String>,
+) -> PyResult<()> {
+    let depth = less_deep(depth)?;
     for (key, value) in table.iter() {
         let key: String = key.extract()?;
         let key = format!("{above}{key}");
         match value.cast::<PyDict>() {
-            Ok(below) => collect(below, &format!("{key}."), found)?,
-            Err(_) => found.push(format!("{key}={}", toml(&value)?)),
+            Ok(below) => collect(below, &format!("{key}."), depth, found)?,
+            Err(_) => found.push(format!("{key}={}", toml(&value, depth)?)),
         }
     }
     Ok(())
 }
 
-/// A value as TOML has it.
-fn toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
+/// Returns the depth that is left below a table or a list.
+///
+/// # Errors
+/// If none is left, as within one that contains itself.
+fn less_deep(depth: usize) -> PyResult<usize> {
+    let fault = || {
+        let text = format!(
+            "expected dicts and lists nested to {DEEPEST} levels at most, none within itself"
+        );
+        PyValueError::new_err(text)
+    };
+    depth.checked_sub(1).ok_or_else(fault)
+}
+
+/// A value as TOML has it, nested to `depth` levels at most.
+fn toml(value: &Bound<'_, PyAny>, depth: usize) -> PyResult<String> {
     if let Ok(truth) = value.cast::<PyBool>() {
         return Ok(truth.is_true().to_string());
     }
@@ -57,8 +81,9 @@ fn toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
         return Ok(Value::from(text.to_str()?).to_string());
     }
     if let Ok(table) = value.cast::<PyDict>() {
+        let depth = less_deep(depth)?;
         let pair = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-            Ok(format!("{} = {}", key.extract::<String>()?, toml(&value)?))
+            Ok(format!("{} = {}", key.extract::<String>()?, toml(&value, depth)?))
         };
         let pairs: PyResult<Vec<_>> = table.iter().map(pair).collect();
         return Ok(format!("{{ {} }}", pairs?.join(", ")));
@@ -70,7 +95,9 @@ fn toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
         }
     }
     if value.hasattr("__iter__")? {
-        let elements: PyResult<Vec<_>> = value.try_iter()?.map(|each| toml(&each?)).collect();
+        let depth = less_deep(depth)?;
+        let elements: PyResult<Vec<_>> =
+            value.try_iter()?.map(|each| toml(&each?, depth)).collect();
         return Ok(format!("[{}]", elements?.join(", ")));
     }
     let name = value.get_type().name()?;

@@ -143,8 +143,8 @@ impl Plan {
         }
         let make = py.get_type::<Plan>().getattr("_travelled")?;
         let (set, seed) = plan.given.clone();
-        let parts =
-            (&plan.plan.name, &plan.source, &plan.plan.text, scenario, files.files, set, seed);
+        let (text, set) = (&plan.plan.text, [set, files.set].concat());
+        let parts = (&plan.plan.name, &plan.source, text, scenario, files.files, set, seed);
         Ok((make, parts.into_pyobject(py)?))
     }
 
@@ -158,7 +158,7 @@ impl Plan {
         set: Vec<String>,
         seed: Option<u64>,
     ) -> Result<Self> {
-        let (home, folder) = Bundle { files }.unpack()?;
+        let (home, folder) = Bundle { files, ..Bundle::default() }.unpack()?;
         let label = if builtin::plan(name).is_some_and(|(_, known)| known == text) {
             format!("plan {name}")
         } else {

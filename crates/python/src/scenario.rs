@@ -92,7 +92,7 @@ impl Scenario {
     fn with_files(&self, more: Files, set: Vec<String>) -> Result<Self> {
         let mut bundle = Bundle::of(&self.loaded.files, &self.loaded.scenario)?;
         bundle.files.extend(more);
-        let set: Vec<_> = self.loaded.set.iter().cloned().chain(set).collect();
+        let set = [self.loaded.set.clone(), bundle.set, set].concat();
         Self::_travelled(&self.loaded.name, &self.source, &self.text, set, Some(bundle.files))
     }
 
@@ -251,11 +251,11 @@ impl Scenario {
 
     /// Travels as its text, with the files that it names.
     fn __reduce__<'py>(&self, py: Python<'py>) -> Result<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let files = Bundle::of(&self.loaded.files, &self.loaded.scenario)?.files;
+        let Bundle { files, set } = Bundle::of(&self.loaded.files, &self.loaded.scenario)?;
         let files = (self.loaded.files != Source::BuiltIn || !files.is_empty()).then_some(files);
         let make = py.get_type::<Scenario>().getattr("_travelled")?;
-        let Loaded { name, set, .. } = &self.loaded;
-        let parts = (name, &self.source, &self.text, set.clone(), files);
+        let set = [self.loaded.set.clone(), set].concat();
+        let parts = (&self.loaded.name, &self.source, &self.text, set, files);
         Ok((make, parts.into_pyobject(py)?))
     }
 
@@ -270,7 +270,7 @@ impl Scenario {
         let Some(files) = files else {
             return Scenario::parsed(name, source, text, Source::BuiltIn, &set);
         };
-        let (home, folder) = Bundle { files }.unpack()?;
+        let (home, folder) = Bundle { files, ..Bundle::default() }.unpack()?;
         let parsed = Scenario::parsed(name, source, text, Source::Folder(folder), &set)?;
         Ok(Scenario { _home: Some(Arc::new(home)), ..parsed })
     }

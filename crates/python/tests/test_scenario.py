@@ -95,6 +95,37 @@ def test_a_scenario_travels_as_text_with_its_files(tmp_path: Path) -> None:
     assert pickle.loads(pickle.dumps(arrived)) == scenario
 
 
+def test_files_with_absolute_paths_and_without_an_ending_travel_too(tmp_path: Path) -> None:
+    (tmp_path / "net").write_text(tofsim.Network("ideal").to_toml())
+    (tmp_path / "chain.toml").write_text('description = "own"\noffset_ps = 2230\ntap_ps = 12.0\n')
+    network, profile = str(tmp_path / "net"), str(tmp_path / "chain.toml")
+    scenario = tofsim.Scenario({"estimator": {"network": network}, "tdc": {"profile": profile}})
+    expected = tofsim.simulate(scenario, 2, "shot")
+    packed = pickle.dumps(scenario)
+    for file in tmp_path.iterdir():
+        file.unlink()
+    arrived = pickle.loads(pickle.dumps(pickle.loads(packed)))
+    found = tofsim.simulate(arrived, 2, "shot")
+    assert found.depth_raw.tobytes() == expected.depth_raw.tobytes()
+
+
+def test_tables_in_themselves_or_too_deep_are_refused() -> None:
+    itself: dict[str, object] = {}
+    itself["target"] = itself
+    array: list[object] = []
+    array.append(array)
+    deep: dict[str, object] = {}
+    for _ in range(100_000):
+        deep = {"target": deep}
+    inline: dict[str, object] = {"control": [itself]}
+    windows: dict[str, object] = {"report": {"windows": array}}
+    for tables in [itself, windows, deep, inline]:
+        with pytest.raises(ValueError, match="nested to 16 levels at most, none within itself"):
+            tofsim.Scenario(tables)
+        with pytest.raises(ValueError, match="nested to 16 levels at most, none within itself"):
+            tofsim.Scenario().with_(tables)
+
+
 def test_another_network_may_stand_in_the_estimator() -> None:
     network = tofsim.Network("uniform-16")
     scenario = tofsim.Scenario("kc705").with_network(network)

@@ -24,9 +24,11 @@ export function setUp() {
 }
 
 function key(event) {
-  const field = event.target.closest("input, select, textarea, dialog, [data-keys]");
+  const field = event.target.closest("input:not([type=range]), textarea, dialog, [data-keys]");
   if (!state || field || event.ctrlKey || event.metaKey || event.altKey) return;
   const is = event.key.toLowerCase();
+  // A list takes digits itself.
+  if (/[0-9]/.test(is) && event.target.closest("select")) return;
   // A pressed button takes the space bar itself.
   if (is === " " && event.target.closest("button, a, summary")) return;
   const rate = Number(is) - 1;

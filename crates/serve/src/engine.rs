@@ -10,7 +10,7 @@ use tokio::sync::{oneshot, watch};
 use tofsim::error::{Error, Input, Result};
 
 use crate::options::Options;
-use crate::session::request::Request;
+use crate::session::request::{Request, RunRequest};
 use crate::session::{Reply, Session};
 
 /// Capacity of the request queue.
@@ -54,7 +54,7 @@ impl Engine {
         let mut session = Session::new(options)?;
         let (show, states) = watch::channel(session.state());
         let (asked, requests) = sync_channel(WAITING);
-        let run = move || Thread { session, requests, show, pause }.run();
+        let run = move || Thread { session, requests, show, pause, waiting: None }.run();
         let thread = thread::Builder::new().name("simulation".to_owned()).spawn(run);
         thread.map_err(|error| Input::new("simulation", error))?;
         Ok(Engine { asked, states })
@@ -86,6 +86,8 @@ struct Thread {
     show: watch::Sender<Arc<str>>,
     /// Shortest time between the starts of two frames.
     pause: Duration,
+    /// Request that waits for frames.
+    waiting: Option<oneshot::Sender<Result<Reply>>>,
 }
 
 impl Thread {
@@ -100,16 +102,22 @@ impl Thread {
                 continue;
             }
             let ended = self.session.advance(CYCLES);
-            if ended || shown.elapsed() >= SHOWN_EVERY {
+            self.answer_waiting();
+            let is_counting = self.session.has_batch();
+            if ended && !is_counting || shown.elapsed() >= SHOWN_EVERY {
                 self.show.send_replace(self.session.state());
                 shown = Instant::now();
             }
-            // The pause is spread over the frame, so that requests meet any part of it.
-            let until = match (ended, self.session.is_held()) {
-                (true, _) => begun + self.pause,
+            let until = if is_counting {
+                Instant::now()
+            } else if ended {
+                begun + self.pause
+            } else if self.session.is_held() {
                 // There is nothing to see but time.
-                (false, true) => Instant::now() + SHOWN_EVERY,
-                (false, false) => begun + self.pause.mul_f64(self.session.part_of_frame()),
+                Instant::now() + SHOWN_EVERY
+            } else {
+                // The pause is spread over the frame, so that requests meet any part of it.
+                begun + self.pause.mul_f64(self.session.part_of_frame())
             };
             if self.answer_until(until).is_err() {
                 return;
@@ -136,12 +144,28 @@ impl Thread {
     }
 
     fn answer(&mut self, Queued { request, answer }: Queued) {
+        let waits = matches!(request, Request::Run(RunRequest { frames: Some(_), .. }));
         let reply = self.session.answer(request);
+        self.answer_waiting();
         if let Ok(Reply::State(state)) = &reply {
             self.show.send_replace(Arc::clone(state));
         }
-        // A browser that has gone away needs no answer.
-        drop(answer.send(reply));
+        if waits && reply.is_ok() {
+            self.waiting = Some(answer);
+        } else {
+            // A browser that has gone away needs no answer.
+            drop(answer.send(reply));
+        }
+    }
+
+    /// Answers the request that waits for frames, if they have ended.
+    fn answer_waiting(&mut self) {
+        let Some(outcome) = self.session.take_batch_end() else { return };
+        let state = self.session.state();
+        self.show.send_replace(Arc::clone(&state));
+        if let Some(answer) = self.waiting.take() {
+            drop(answer.send(outcome.map(|()| Reply::State(state))));
+        }
     }
 }
 

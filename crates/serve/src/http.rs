@@ -2,6 +2,7 @@
 
 mod answers;
 mod assets;
+mod connections;
 mod files;
 mod guard;
 mod requests;
@@ -62,13 +63,9 @@ impl Server {
     }
 
     /// Serves the page until the program ends.
-    ///
-    /// # Errors
-    /// If the system reports an error.
-    pub async fn run(self) -> Result<()> {
+    pub async fn run(self) -> ! {
         let app = router(self.engine, &self.guard);
-        let served = axum::serve(self.listener, app).await;
-        served.map_err(|error| Input::new("server", error).into())
+        connections::serve(self.listener, app).await
     }
 }
 

@@ -48,7 +48,7 @@ fn serve(options: &Options) -> Result<()> {
         let server = Server::bind(engine, options.port).await?;
         say(options, &setup, &server.url())?;
         tokio::select! {
-            served = server.run() => served,
+            never = server.run() => never,
             _ = interrupt.recv() => Err(Error::Interrupted),
             _ = terminate.recv() => Err(Error::Interrupted),
         }

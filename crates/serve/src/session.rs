@@ -2,6 +2,7 @@
 
 mod actions;
 mod analyser;
+mod batch;
 mod causes;
 mod clock;
 mod instrument;
@@ -27,6 +28,7 @@ use tofsim::{Shot, WaveFormat};
 
 use crate::options::{Fidelity, Options};
 use analyser::{Ila, SetUpView, set_ups};
+use batch::Batch;
 use causes::{Causes, expected};
 use clock::Clock;
 use instrument::Instrument;
@@ -82,6 +84,10 @@ pub struct Session {
     clock: Clock,
     rates: Vec<RateView>,
     running: bool,
+    /// Frames that a request waits for while the run is running.
+    batch: Option<Batch>,
+    /// Outcome of the last batch, until the request has its answer.
+    batch_end: Option<Result<()>>,
     fault: Option<String>,
     version: u64,
 }
@@ -121,6 +127,8 @@ impl Session {
             clock: Clock::default(),
             rates: setup.params.vcsel_driver.periods.iter().map(rate).collect(),
             origin: setup,
+            batch: None,
+            batch_end: None,
             fault: None,
             version: 0,
             base,
@@ -173,9 +181,14 @@ impl Session {
         let ended = self.step(cycles);
         self.clock.busy += began.elapsed();
         match ended {
-            Ok(ended) => ended,
+            Ok(ended) => {
+                self.count(ended);
+                ended
+            }
             Err(error) => {
-                self.fault = Some(error.to_string());
+                let fault = error.to_string();
+                self.end_batch(Err(Input::new("run", &fault).into()));
+                self.fault = Some(fault);
                 self.stop();
                 true
             }

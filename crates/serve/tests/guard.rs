@@ -1,5 +1,10 @@
 //! Tests of access control.
 
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::process::Command;
+use std::time::Duration;
+
 use super::common::Server;
 
 #[test]
@@ -31,6 +36,27 @@ fn foreign_hosts_origins_and_tokens_are_refused() {
         assert_eq!(ask("POST", path, &host), 403, "{path}");
     }
     assert_eq!(server.state()["running"], false, "nothing has happened");
+}
+
+#[test]
+fn connections_without_the_token_neither_lock_the_page_out_nor_stay() {
+    let server = Server::small(&[]);
+    let few = ["--pid", &server.id().to_string(), "--nofile=40"];
+    assert!(Command::new("prlimit").args(few).status().unwrap().success());
+    let host = server.host().to_owned();
+    let silent: Vec<_> = (0..70).map(|_| TcpStream::connect(&host).unwrap()).collect();
+    let begun = silent.iter().step_by(2).map(|mut stream| stream.write_all(b"GET / HTTP/1.1\r\n"));
+    begun.for_each(drop);
+    assert_eq!(server.frames(1)["index"], 0, "the page's requests are answered");
+    let refused = TcpStream::connect(&host).unwrap();
+    let request = format!("GET /state HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    (&refused).write_all(request.as_bytes()).unwrap();
+    for mut stream in silent.into_iter().chain([refused]) {
+        stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        let end = stream.read_to_end(&mut Vec::new()).map_err(|error| error.kind());
+        assert!(end.is_ok() || end == Err(std::io::ErrorKind::ConnectionReset), "{end:?}");
+    }
+    assert_eq!(server.frames(1)["index"], 1);
 }
 
 #[test]

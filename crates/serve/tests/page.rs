@@ -54,6 +54,19 @@ fn what_is_pressed_acts_on_the_run_and_shows() {
     browser.wait("document.querySelectorAll('#ila-waves .name').length > 10");
     browser.press("w");
     browser.wait("document.querySelectorAll('#shot-waves .name').length > 10");
+    browser.wait("document.getElementById('run-state').textContent === 'stopped'");
+    for focused in ["slider-target.distance_m", "laser_freq"] {
+        browser.value(&format!("document.getElementById('{focused}').focus()"));
+        for (key, state) in [(" ", "running"), (" ", "stopped"), ("l", "stopped")] {
+            browser.press(key);
+            browser
+                .wait(&format!("document.getElementById('run-state').textContent === '{state}'"));
+        }
+        let frames = "document.getElementById('time-frames').textContent";
+        let before = browser.value(frames);
+        browser.press("n");
+        browser.wait(&format!("{frames} !== {before}"));
+    }
     assert_eq!(browser.complaints, Vec::<String>::new());
     assert_eq!(second.complaints, Vec::<String>::new());
 }

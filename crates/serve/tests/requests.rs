@@ -87,6 +87,32 @@ fn a_scenario_s_file_that_changes_under_the_run_is_not_mixed_with_it() {
 }
 
 #[test]
+fn frames_under_way_are_seen_changed_and_stopped() {
+    let server = Server::start(&["--stopped"]);
+    std::thread::scope(|scope| {
+        let frames = scope.spawn(|| server.post("run", "{\"frames\":1000}"));
+        let state = server.wait(|state| state["time"]["frames"].as_u64() > Some(0));
+        assert_eq!(state["running"], true);
+        server.act("control", "{\"laser_en\":false}");
+        server.wait(|state| state["frame"]["laser_en"] == false);
+        let stopped = server.act("run", "{\"running\":false}");
+        let frames = frames.join().unwrap().fault();
+        let done = &stopped["time"]["frames"];
+        assert_eq!(frames, format!("run: stopped by another request after {done} of 1000 frames"));
+        assert_eq!(server.state()["time"]["frames"], *done);
+        assert_eq!(stopped["running"], false);
+    });
+    // Frames replace frames.
+    let replaced = std::thread::scope(|scope| {
+        let frames = scope.spawn(|| server.post("run", "{\"frames\":1000}"));
+        server.wait(|state| state["running"] == true);
+        assert_eq!(server.act("run", "{\"frames\":2}")["running"], false);
+        frames.join().unwrap()
+    });
+    assert!(replaced.fault().contains("stopped by another request"), "{}", replaced.fault());
+}
+
+#[test]
 fn every_built_in_scenario_has_a_page() {
     for (name, _) in tofsim::scenario::builtin::scenarios() {
         let server = Server::start(&["--stopped", "--fidelity", "shot", name]);

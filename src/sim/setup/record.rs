@@ -91,7 +91,7 @@ impl Setup {
         let pulse = &self.budget.pulse;
         let (dark, mesh) = (&self.dark, &self.mesh);
         let mut keys = format!("{scenario:?}");
-        for name in names(scenario).filter(|name| Path::new(name).is_absolute()) {
+        for (_, name) in names(scenario).filter(|(_, name)| Path::new(name).is_absolute()) {
             let short = Path::new(name).file_name().unwrap_or_default().to_string_lossy();
             keys = keys.replace(&format!("{name:?}"), &format!("{short:?}"));
         }

@@ -58,12 +58,16 @@ impl Finding {
     /// # Errors
     /// When it names what there is not, a scenario is refused, or the study is stopped.
     pub fn new(item: &Item, study: &Study) -> Result<Self> {
+        study.begin_item();
         let measured = measure(&item.id).map(|measure| measure(study)).transpose()?;
         let Measured { values, drawings } = measured.unwrap_or_default();
         let sweeps = Sweeps::new(study, &item.plans)?;
         let mut rows = Rows { values: &values, sweeps: &sweeps, rows: Vec::new() };
         item.rows.iter().try_for_each(|spec| rows.add(spec))?;
-        let rows = rows.rows;
+        let mut rows = rows.rows;
+        if study.is_reduced() {
+            rows.iter_mut().for_each(Row::leave_open);
+        }
         let commands = item.commands.iter().map(|command| values.fill(command));
         let mut commands = commands.collect::<Result<Vec<_>>>()?;
         commands.extend(sweeps.commands());
@@ -115,19 +119,14 @@ impl Finding {
 
 /// The verdict of rows: the same if all are, of which there is one at least.
 fn of(rows: &[Row]) -> Verdict {
-    let mut judged = rows.iter().filter_map(|row| row.verdict).peekable();
-    if judged.peek().is_none() {
-        Verdict::CannotBeReproduced
-    } else if judged.all(|verdict| verdict == Verdict::Same) {
-        Verdict::Same
-    } else {
-        Verdict::Differs
-    }
+    let has = |verdict| rows.iter().any(|row| row.verdict == Some(verdict));
+    let verdicts = [Verdict::Differs, Verdict::Undecided, Verdict::Same];
+    verdicts.into_iter().find(|&verdict| has(verdict)).unwrap_or(Verdict::NothingToReproduce)
 }
 
 /// Returns how many items have each verdict.
-pub fn tally(findings: &[Finding]) -> [(Verdict, usize); 3] {
-    [Verdict::Same, Verdict::Differs, Verdict::CannotBeReproduced].map(|verdict| {
+pub fn tally(findings: &[Finding]) -> [(Verdict, usize); Verdict::ALL.len()] {
+    Verdict::ALL.map(|verdict| {
         (verdict, findings.iter().filter(|finding| finding.verdict == verdict).count())
     })
 }
@@ -215,14 +214,17 @@ fn row(spec: &RowSpec, values: &Values) -> Result<Row> {
 
 /// Returns the object, without the record.
 pub fn json(findings: &[Finding], quick: bool) -> serde_json::Value {
-    let [same, differs, none] = tally(findings).map(|(_, count)| count);
+    let [same, differs, undecided, cannot_be_reproduced, nothing_to_reproduce] =
+        tally(findings).map(|(_, count)| count);
     json!({
         "schema": "tofsim.reproduce/1",
         "quick": quick,
         "rule": RULE,
         "same": same,
         "differs": differs,
-        "cannot_be_reproduced": none,
+        "undecided": undecided,
+        "cannot_be_reproduced": cannot_be_reproduced,
+        "nothing_to_reproduce": nothing_to_reproduce,
         "items": findings,
     })
 }
@@ -276,7 +278,10 @@ mod tests {
         let (same, other) = (made("ours = 'n'\nthesis = '7'"), made("ours = 'n'\nthesis = '8'"));
         let beside = made("ours = 'n'");
         assert_eq!(of(&[same.clone(), beside.clone()]), Verdict::Same);
-        assert_eq!(of(&[same, other, beside.clone()]), Verdict::Differs);
-        assert_eq!(of(&[beside]), Verdict::CannotBeReproduced);
+        let mut open = same.clone();
+        open.leave_open();
+        assert_eq!(of(&[same.clone(), open.clone(), beside.clone()]), Verdict::Undecided);
+        assert_eq!(of(&[same, other, open, beside.clone()]), Verdict::Differs);
+        assert_eq!(of(&[beside]), Verdict::NothingToReproduce);
     }
 }

@@ -1,6 +1,6 @@
 //! State shared by all items: seed, size, the thesis's instrument, and common intermediate results.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -30,18 +30,37 @@ pub struct Study {
     /// Few histograms instead of as many as the thesis has.
     pub quick: bool,
     pub stop: Option<Arc<AtomicBool>>,
+    /// Whether the present item has fewer histograms than in a full run.
+    is_reduced: Cell<bool>,
     peaks: RefCell<Option<Rc<Peaks>>>,
     networks: RefCell<Option<Rc<Networks>>>,
 }
 
 impl Study {
     pub fn new(seed: u64, quick: bool, stop: Option<Arc<AtomicBool>>) -> Self {
-        Study { seed, quick, stop, peaks: RefCell::new(None), networks: RefCell::new(None) }
+        let (peaks, networks) = (RefCell::new(None), RefCell::new(None));
+        Study { seed, quick, stop, is_reduced: Cell::new(false), peaks, networks }
+    }
+
+    /// Begins an item.
+    pub fn begin_item(&self) {
+        self.is_reduced.set(false);
+    }
+
+    /// Returns whether the present item has fewer histograms than in a full run.
+    pub fn is_reduced(&self) -> bool {
+        self.is_reduced.get()
+    }
+
+    /// Returns whether to take fewer histograms.
+    pub fn reduces(&self) -> bool {
+        self.is_reduced.set(self.is_reduced.get() || self.quick);
+        self.quick
     }
 
     /// One of two sizes.
     pub fn size(&self, full: u64, quick: u64) -> u64 {
-        if self.quick { quick } else { full }
+        if self.reduces() { quick } else { full }
     }
 
     /// Looked at between blocks of work.
@@ -131,8 +150,8 @@ impl Study {
     /// # Errors
     /// When it is stopped.
     pub fn peaks(&self) -> Result<Rc<Peaks>> {
-        let made = || Peaks::measure(&self.source()?, self.size(100, 10), self.seed, self.stop());
-        once(&self.peaks, made)
+        let size = self.size(100, 10);
+        once(&self.peaks, || Peaks::measure(&self.source()?, size, self.seed, self.stop()))
     }
 
     /// The networks over the thesis's test grid; worked out once.
@@ -140,7 +159,8 @@ impl Study {
     /// # Errors
     /// When it is stopped.
     pub fn networks(&self) -> Result<Rc<Networks>> {
-        once(&self.networks, || Networks::measure(&self.ideal()?, self.quick, self.stop()))
+        let quick = self.reduces();
+        once(&self.networks, || Networks::measure(&self.ideal()?, quick, self.stop()))
     }
 }
 

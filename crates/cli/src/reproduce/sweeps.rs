@@ -34,7 +34,7 @@ impl Sweeps {
     pub fn new(study: &Study, names: &[String]) -> Result<Self> {
         let evaluate = |name: &String| {
             let mut plan = Plan::load(name, &[], Some(study.seed))?;
-            if study.quick {
+            if study.reduces() {
                 plan.file.repeats = 1;
                 plan.file.frames = plan.file.frames.min(QUICK_FRAMES);
             }

@@ -9,11 +9,24 @@ pub enum Verdict {
     /// Equal, or no further apart than the thesis rounds and chance explains.
     Same,
     Differs,
-    /// There is nothing that could be made again.
+    /// Nothing differs, but a quick run has too few histograms to be sure.
+    Undecided,
+    /// The thesis says too little to make it again.
     CannotBeReproduced,
+    /// It has no values, as a drawing.
+    NothingToReproduce,
 }
 
 impl Verdict {
+    /// All verdicts.
+    pub const ALL: [Verdict; 5] = [
+        Verdict::Same,
+        Verdict::Differs,
+        Verdict::Undecided,
+        Verdict::CannotBeReproduced,
+        Verdict::NothingToReproduce,
+    ];
+
     fn of(is_same: bool) -> Self {
         if is_same { Verdict::Same } else { Verdict::Differs }
     }
@@ -23,7 +36,9 @@ impl Verdict {
         match self {
             Verdict::Same => "same",
             Verdict::Differs => "differs",
+            Verdict::Undecided => "undecided",
             Verdict::CannotBeReproduced => "cannot be reproduced",
+            Verdict::NothingToReproduce => "nothing to reproduce",
         }
     }
 
@@ -32,7 +47,9 @@ impl Verdict {
         match self {
             Verdict::Same => "same",
             Verdict::Differs => "differs",
-            Verdict::CannotBeReproduced => "irreproducible",
+            Verdict::Undecided | Verdict::CannotBeReproduced | Verdict::NothingToReproduce => {
+                "irreproducible"
+            }
         }
     }
 }
@@ -106,6 +123,14 @@ impl Row {
             _ => *thesis == ours,
         });
         Row { what, unit: unit.to_owned(), thesis, ours, verdict: is_same.map(Verdict::of) }
+    }
+
+    /// Withdraws the verdict that both sides are the same, because fewer histograms are kinder.
+    pub fn leave_open(&mut self) {
+        self.verdict = self.verdict.map(|verdict| match verdict {
+            Verdict::Same => Verdict::Undecided,
+            other => other,
+        });
     }
 
     /// Returns what is compared, with its unit, and both sides as they are written.

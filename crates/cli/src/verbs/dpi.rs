@@ -95,7 +95,7 @@ fn configuration(args: &Args, loaded: &Loaded) -> Result<String> {
         let path = path.canonicalize().map_err(Error::io(path, "read"))?;
         Ok(path.display().to_string())
     };
-    let named: Vec<_> = bundle::names(&loaded.scenario).collect();
+    let named: Vec<_> = bundle::names(&loaded.scenario).map(|(_, name)| name).collect();
     // From a file's scenario, files are seen from its folder.
     let is_file_from_here = |value: &str| {
         let is_path = value.contains(['/', '.']) && named.contains(&value);

@@ -21,10 +21,11 @@ use super::draws::use_threads;
 use super::interrupt::look_no_more;
 use super::terminal::{Console, print_json, stop_signal};
 
-/// Reproduce the tables and figures of the thesis, each with a verdict: same, differs, cannot be reproduced
+/// Reproduce the tables and figures of the thesis, each with a verdict
 ///
-/// Each number is compared with that of the thesis, with its standard error, and each difference has a reason. With
-/// ITEMs, only those are reproduced, and their rows are printed.
+/// Verdicts are same, differs, undecided (only with --quick), cannot be reproduced, and nothing to reproduce. Each number
+/// is compared with that of the thesis, with its standard error, and each difference has a reason. With ITEMs, only
+/// those are reproduced, and their rows are printed.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim reproduce -o thesis\n  \

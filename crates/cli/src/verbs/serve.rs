@@ -2,7 +2,7 @@
 //!
 //! The server is a program of its own, so that nobody who wants a depth compiles one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 use tofsim::error::{Error, Input, Result, tell};
@@ -70,10 +70,7 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     console.print_notes(&setup.notes()?)?;
     let program = program()?;
     if !program.is_file() {
-        tell(format_args!(
-            "tofsim: {} is missing: build it with `cargo build --release -p {PROGRAM}`",
-            program.display()
-        ));
+        tell(format_args!("tofsim: {} is missing: {}", program.display(), advice(&program)));
         return Ok(ExitCode::FAILURE);
     }
     become_program(Command::new(&program).args(args.words(console)))
@@ -111,6 +108,27 @@ fn program() -> Result<PathBuf> {
     Ok(own.with_file_name(format!("{PROGRAM}{}", std::env::consts::EXE_SUFFIX)))
 }
 
+/// Returns how to get the program where it is missing, in the repository.
+fn advice(program: &Path) -> String {
+    let folder = program.parent().unwrap_or(Path::new(""));
+    let is = |folder: &Path, name: &str| folder.file_name().is_some_and(|own| own == name);
+    let build = format!("build it with `cargo build --release -p {PROGRAM}`");
+    match folder.parent() {
+        Some(root) if is(folder, "bin") => {
+            let root = root.display();
+            format!("install it with `cargo install --path crates/serve --root {root}`")
+        }
+        Some(_) if folder.ancestors().any(|above| is(above, "target")) => {
+            if is(folder, "debug") {
+                build.replace(" --release", "")
+            } else {
+                build
+            }
+        }
+        _ => format!("{build} and copy it there"),
+    }
+}
+
 /// Goes on as another program, which has the terminal and its signals.
 #[cfg(unix)]
 fn become_program(command: &mut Command) -> std::io::Result<ExitCode> {
@@ -123,4 +141,21 @@ fn become_program(command: &mut Command) -> std::io::Result<ExitCode> {
 fn become_program(command: &mut Command) -> std::io::Result<ExitCode> {
     let status = command.status()?;
     Ok(ExitCode::from(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_said_leads_to_a_program_beside_this_one() {
+        let advice = |program: &str| advice(Path::new(program));
+        let build = "build it with `cargo build --release -p tofsim-serve`";
+        assert_eq!(advice("/home/me/tofsim/target/release/tofsim-serve"), build);
+        let debug = "build it with `cargo build -p tofsim-serve`";
+        assert_eq!(advice("target/debug/tofsim-serve"), debug);
+        let install = "install it with `cargo install --path crates/serve --root /home/me/.cargo`";
+        assert_eq!(advice("/home/me/.cargo/bin/tofsim-serve"), install);
+        assert_eq!(advice("/opt/tofsim/tofsim-serve"), format!("{build} and copy it there"));
+    }
 }

@@ -8,10 +8,12 @@ use std::sync::Arc;
 
 use axum::body::Body;
 use axum::extract::State;
-use axum::http::header::{HOST, HeaderName, HeaderValue, ORIGIN};
+use axum::http::header::{CONNECTION, HOST, HeaderName, HeaderValue, ORIGIN};
 use axum::http::{HeaderMap, Request, StatusCode};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
+
+use super::connections::Admission;
 
 /// Length of the token [bytes].
 const LENGTH: usize = 16;
@@ -88,15 +90,22 @@ fn same(one: &str, other: &str) -> bool {
     one.len() == other.len() && differences == 0
 }
 
-/// Admits a request, or answers it with 403.
+/// Admits a request and its connection, or answers it with 403 and closes the connection.
 pub async fn check(
     State(guard): State<Arc<Guard>>,
     request: Request<Body>,
     next: Next,
 ) -> Response {
     let mut response = match guard.refusal(request.headers(), request.uri().path()) {
-        Some(why) => (StatusCode::FORBIDDEN, format!("{why}\n")).into_response(),
-        None => next.run(request).await,
+        Some(why) => {
+            (StatusCode::FORBIDDEN, [(CONNECTION, "close")], format!("{why}\n")).into_response()
+        }
+        None => {
+            if let Some(admission) = request.extensions().get::<Admission>() {
+                admission.admit();
+            }
+            next.run(request).await
+        }
     };
     for (name, value) in HEADERS {
         let (name, value) = (HeaderName::from_static(name), HeaderValue::from_static(value));

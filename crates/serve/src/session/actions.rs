@@ -25,6 +25,7 @@ const LAST_US: f64 = 1e9;
 impl Session {
     pub(super) fn run(&mut self, request: &RunRequest) -> Result<()> {
         request.check()?;
+        self.interrupt_batch();
         if request.power_up {
             self.power_up()?;
         }
@@ -34,7 +35,7 @@ impl Session {
         }
         if let Some(frames) = request.frames {
             self.stop();
-            self.go(frames)?;
+            self.begin_batch(frames)?;
         }
         Ok(())
     }
@@ -42,24 +43,6 @@ impl Session {
     pub(super) fn stop(&mut self) {
         self.running = false;
         self.clock.stop();
-    }
-
-    /// Runs a number of frames.
-    fn go(&mut self, frames: u32) -> Result<()> {
-        for _ in 0..frames {
-            let begun = self.live.device().cycle();
-            let longest = self.live.setup().longest_run(1);
-            while !self.advance(1 << 16) {
-                if self.live.device().cycle() - begun > longest {
-                    let held = self.held().unwrap_or("the control signals keep it from ending");
-                    return Err(Input::new("run", format!("the frame does not end: {held}")).into());
-                }
-            }
-            if let Some(fault) = &self.fault {
-                return Err(Input::new("run", fault).into());
-            }
-        }
-        Ok(())
     }
 
     fn power_up(&mut self) -> Result<()> {

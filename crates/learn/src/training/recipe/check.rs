@@ -18,6 +18,8 @@ const MOST_KNOTS: usize = 1031;
 const MOST_CANDIDATES: usize = 1 << 16;
 /// Distances of the training grid; below that, some would be left out.
 const LEAST_SAMPLES: u64 = 201;
+/// Most histograms of a stage or of the validation, which are in memory together.
+const MOST_SAMPLES: u64 = 1 << 24;
 
 impl Recipe {
     /// Checks that every number is valid.
@@ -31,7 +33,7 @@ impl Recipe {
         ensure(*neurons <= MOST_NEURONS, "neurons", neurons, most)?;
         at_least("checkpoint_epochs", self.checkpoint_epochs, 1)?;
         if *validation > 0 {
-            at_least("validation", *validation, LEAST_SAMPLES)?;
+            check_samples("validation", *validation)?;
             at_least("optimiser.max_fail", optimiser.max_fail.into(), 1)?;
         }
         let knots = self.knots.unwrap_or(LEAST_KNOTS);
@@ -82,13 +84,18 @@ impl Recipe {
             let expected = format!("expected {MOST_CANDIDATES} at most");
             ensure(candidates <= MOST_CANDIDATES, &field, candidates, expected)?;
             at_least(&format!("{name}.epochs"), epochs, 1)?;
-            at_least(&format!("{name}.samples"), samples, LEAST_SAMPLES)?;
+            check_samples(&format!("{name}.samples"), samples)?;
             let expected = format!("expected {before} at most, as in the stage before");
             ensure(candidates <= before, &field, candidates, expected)?;
             before = candidates;
         }
         Ok(())
     }
+}
+
+fn check_samples(field: &str, samples: u64) -> Result<(), Input> {
+    at_least(field, samples, LEAST_SAMPLES)?;
+    ensure(samples <= MOST_SAMPLES, field, samples, format!("expected {MOST_SAMPLES} at most"))
 }
 
 fn at_least(field: &str, value: u64, least: u64) -> Result<(), Input> {
@@ -123,6 +130,9 @@ mod tests {
         );
         assert!(fault("", &["neurons"]).contains("expected key=value"));
         assert!(fault("", &["knots=72"]).contains("knots = 72: expected 15, 23, 31"));
+        assert!(fault("", &["validation=20000000"]).contains("expected 16777216 at most"));
+        let stage = "stages = [{ candidates = 2, epochs = 1, samples = 1000000000000 }]";
+        assert!(fault(stage, &[]).contains("samples = 1000000000000: expected 16777216 at most"));
         assert!(fault("", &["neurons=0"]).contains("neurons = 0: expected 1 or more"));
         assert!(fault("", &["finish.choice=6"]).contains("finish.choice = 6: expected 1 to 5"));
         assert!(fault("", &["finish.samples=5"]).contains("finish.samples = 5: expected 201"));
