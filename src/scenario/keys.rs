@@ -4,7 +4,12 @@ use std::borrow::Cow;
 
 use serde_json::Value as Json;
 
-use super::show::schema;
+use super::model::Scenario;
+
+/// Returns the JSON Schema of a scenario.
+pub fn schema() -> Json {
+    schemars::schema_for!(Scenario).to_value()
+}
 
 /// Returns the path of each key, such as `target.distance_m`, with its schema, in the order of the schema. A list is one
 /// key.
@@ -38,14 +43,16 @@ pub(super) fn resolve<'a>(root: &'a Json, schema: &'a Json) -> Cow<'a, Json> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::Scenario;
 
     #[test]
     fn every_key_of_a_scenario_is_found() {
         let values = serde_json::to_value(Scenario::default()).unwrap();
         let all = keys();
         for (key, schema) in &all {
-            let value = key.split('.').try_fold(&values, |table, part| table.get(part));
+            let value = key.split('.').try_fold(&values, |table, part| match table {
+                Json::Null => Some(table),
+                table => table.get(part),
+            });
             assert!(value.is_some() && schema["description"].is_string(), "{key}: {schema}");
         }
         for key in ["seed", "target.distance_m", "pll.multiply", "laser.pulse_file", "control"] {

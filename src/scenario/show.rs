@@ -4,13 +4,8 @@ use std::fmt::Write;
 
 use serde_json::Value as Json;
 
-use super::keys::resolve;
+use super::keys::{resolve, schema};
 use super::model::Scenario;
-
-/// Returns the JSON Schema of a scenario.
-pub fn schema() -> Json {
-    schemars::schema_for!(Scenario).to_value()
-}
 
 /// The keys that most people change, in a starter scenario.
 const STARTER: [&str; 20] = [

@@ -11,6 +11,7 @@ mod scene;
 mod shot;
 mod strip;
 pub mod view;
+mod waiting;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

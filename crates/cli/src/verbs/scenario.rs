@@ -4,7 +4,7 @@ use clap::Subcommand;
 use serde_json::json;
 
 use tofsim::error::Result;
-use tofsim::scenario::{self, builtin, show};
+use tofsim::scenario::{self, builtin, keys, show};
 use tofsim::sim::setup::Setup;
 
 use crate::report::writer::print_list;
@@ -70,7 +70,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
                 console.report(&format!("{}: ok\n", setup.name))
             }
         }
-        What::Schema => print(&format!("{:#}\n", show::schema())),
+        What::Schema => print(&format!("{:#}\n", keys::schema())),
     }
 }
 

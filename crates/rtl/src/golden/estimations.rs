@@ -99,7 +99,9 @@ impl Estimations {
             1 => part.start,
             cycles => part.start + draw.below(cycles),
         });
-        let cut = (self.begun / CUT) as usize % (PARTS + 1);
+        // A reset that comes with the result stops a slower estimator, but not the result that is compared with.
+        let cuts = if self.slack == 0 { PARTS + 1 } else { PARTS };
+        let cut = (self.begun / CUT) as usize % cuts;
         let place = places.get(cut).copied().unwrap_or(self.parts[PARTS - 1].end);
         self.cut = self.begun.is_multiple_of(CUT).then_some(place);
     }

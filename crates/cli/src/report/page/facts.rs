@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::optics::budget::LIGHT_M_S;
-use tofsim::scenario::show::schema;
+use tofsim::scenario::keys::schema;
 use tofsim::scenario::{Part, Scenario};
 use tofsim::sim::setup::Setup;
 
