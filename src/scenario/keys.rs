@@ -49,11 +49,10 @@ mod tests {
         let values = serde_json::to_value(Scenario::default()).unwrap();
         let all = keys();
         for (key, schema) in &all {
-            let value = key.split('.').try_fold(&values, |table, part| match table {
-                Json::Null => Some(table),
-                table => table.get(part),
-            });
-            assert!(value.is_some() && schema["description"].is_string(), "{key}: {schema}");
+            let value = key.split('.').try_fold(&values, |table, part| table.get(part));
+            // Of all tables this one alone may be left out.
+            let is_found = value.is_some() || key.starts_with("training.");
+            assert!(is_found && schema["description"].is_string(), "{key}: {schema}");
         }
         for key in ["seed", "target.distance_m", "pll.multiply", "laser.pulse_file", "control"] {
             assert!(all.iter().any(|(known, _)| known == key), "{key}");
