@@ -45,7 +45,7 @@ fn what_is_pressed_acts_on_the_run_and_shows() {
     browser.press(" ");
     browser.wait("document.getElementById('run-state').textContent === 'stopped'");
     browser.press("a");
-    browser.wait("document.getElementById('ila-status').textContent.includes('stands still')");
+    browser.wait("document.getElementById('ila-status').textContent.includes('is stopped')");
     // The first only ends the frame in which the run stopped, of which too little may be left for a window.
     browser.press_until(
         "n",
