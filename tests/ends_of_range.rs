@@ -62,8 +62,9 @@ fn fault(set: &[&Assignment]) -> Option<String> {
         Err(error) => {
             let error = error.to_string();
             // A value may make another key's one impossible, or the chain's length.
-            let is_named = keys().iter().any(|(key, _)| error.contains(key.as_str()))
-                || error.contains("tap_ps = ");
+            let others = keys().into_iter().map(|(key, _)| key).filter(|key| key.contains('.'));
+            let mut named = set.iter().map(|(key, _)| key.clone()).chain(others);
+            let is_named = named.any(|key| error.contains(&key)) || error.contains("tap_ps = ");
             if is_named { Ok(()) } else { Err(format!("refused without a key: {error}")) }
         }
     }));

@@ -15,6 +15,11 @@ pub const HAZARD_FRACTION: u32 = 22;
 pub const RESIDUAL_FRACTION: u32 = 4;
 /// Fraction bits of a weight w [counts].
 pub const WEIGHT_FRACTION: u32 = 6;
+/// Ridge of the information on log S, and half of that on mu: a 16th of a count, with the fraction bits of a weight.
+pub const RIDGE: i64 = (1 << WEIGHT_FRACTION) / 16;
+/// Ridge of the information on log b: a quarter of a count, with the fraction bits of a weight. Where ambient light is
+/// hardly seen, a larger one would claim that it is known.
+pub const AMBIENT_RIDGE: i64 = (1 << WEIGHT_FRACTION) / 4;
 /// Fraction bits of quotients and steps [1].
 pub const QUOTIENT_FRACTION: u32 = 14;
 /// Fraction bits of depth and deviation [m].

@@ -11,7 +11,7 @@ use super::{LOW_BITS, Registers};
 /// Limits of a step in log b: b falls to a half at most, and grows by three times.
 const GROWTH: [i64; 2] = [-(1 << 13), 3 << 14];
 /// The same while little is known of log b, or the step is shortened: b does not fall then.
-const HELD_GROWTH: [i64; 2] = [0, 3 << 14];
+const HELD_GROWTH: [i64; 2] = [0, GROWTH[1]];
 
 impl Registers {
     /// The product.

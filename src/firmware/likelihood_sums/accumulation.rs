@@ -1,16 +1,17 @@
 //! The sums: where they begin, and what a bin adds to them.
 
+use crate::firmware::likelihood_estimator::words::{AMBIENT_RIDGE, RIDGE};
 use crate::kernel::{S, U};
 
-use super::{COUNT, In, LikelihoodSums};
+use super::{In, LikelihoodSums};
 
 impl LikelihoodSums {
-    /// Sums begin with a ridge of a quarter of a count for log b, and of a 16th of one for the others.
+    /// Sets the sums to their ridges.
     pub(super) fn clear(&mut self, check: bool) {
-        self.last_sum = S::new(if check { 0 } else { COUNT >> 2 });
-        self.sum_11 = S::new(COUNT >> 4 << 1);
+        self.last_sum = S::new(if check { 0 } else { AMBIENT_RIDGE });
+        self.sum_11 = S::new(2 * RIDGE);
         (self.sum_12, self.sum_13) = (S::new(0), S::new(0));
-        (self.sum_22, self.sum_23) = (S::new(COUNT >> 4), S::new(0));
+        (self.sum_22, self.sum_23) = (S::new(RIDGE), S::new(0));
         (self.score_1, self.score_2, self.score_3) = (S::new(0), S::new(0), S::new(0));
         (self.far, self.changed) = (false, false);
         // What is on the way from a pass that was no check is no square.

@@ -1,12 +1,11 @@
 //! Sums over the bins of a fit.
 
-use crate::firmware::likelihood_estimator::words::{RESIDUAL_FRACTION, WEIGHT_FRACTION};
+use crate::firmware::likelihood_estimator::words::{
+    AMBIENT_RIDGE, RESIDUAL_FRACTION, RIDGE, WEIGHT_FRACTION,
+};
 
 use super::number::Number;
 use super::terms::Terms;
-
-/// One count as weights have it.
-const COUNT: i64 = 1 << WEIGHT_FRACTION;
 
 /// Information of (mu, log S, log b), and the score.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,9 +31,9 @@ pub struct Sums<N> {
 }
 
 impl<N: Number> Sums<N> {
-    /// With a ridge of a quarter of a count for log b and of a 16th for the others.
+    /// Adds the terms up, from the ridges on.
     pub fn new(terms: &[(Terms<N>, N)]) -> Self {
-        let [a11, a22, a33] = [COUNT >> 4 << 1, COUNT >> 4, COUNT >> 2].map(N::whole);
+        let [a11, a22, a33] = [2 * RIDGE, RIDGE, AMBIENT_RIDGE].map(N::whole);
         let mut sums = Sums { a11, a22, a33, ..Sums::default() };
         for &(Terms { residual, weight, share, .. }, z) in terms {
             let of = |value: N| (value * share).shifted(12);

@@ -196,7 +196,7 @@ fn sigma_is_right_where_the_echo_ends_all_shots() {
 
 #[test]
 #[ignore = "long: ./check --full"]
-fn it_reaches_the_bound_in_two_hundred_thousand_histograms() {
+fn it_reaches_the_bound_in_250_000_histograms() {
     everywhere(250_000);
 }
 
