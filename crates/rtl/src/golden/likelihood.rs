@@ -31,7 +31,11 @@ const WHOLE: u64 = 2;
 const TRIES: u64 = 100;
 /// Score or shots from a limit, so near to which a histogram is changed and no longer drawn anew; and changes tried.
 const NEAR: u64 = 50;
-const NUDGES: u64 = 2000;
+const NUDGES: u64 = 250;
+/// So often it is begun anew.
+const STARTS: u64 = 8;
+/// Changes that make an even histogram uneven.
+const SHAKES: u64 = 300;
 /// Kinds of extreme histograms.
 const EXTREMES: u64 = 8;
 
@@ -50,6 +54,7 @@ pub struct Estimations<'a> {
     resets: Cover,
     seen: Cover,
     modes: Cover,
+    limits: Cover,
 }
 
 impl<'a> Estimations<'a> {
@@ -71,6 +76,7 @@ impl<'a> Estimations<'a> {
             resets: Cover::new("reset in state but idle", states.skip(1)),
             modes: Cover::new("shots armed and not", if cuts { 0..2 } else { 0..0 }),
             seen: Cover::new("depths without and with a status", if cuts { 0..2 } else { 0..0 }),
+            limits: Cover::new("sides of a limit", if cuts { 2 * LEAST..2 * KINDS } else { 0..0 }),
         }
     }
 
@@ -126,7 +132,7 @@ impl<'a> Estimations<'a> {
     }
 
     /// Draws histograms until one is of its kind.
-    fn of_kind(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
+    fn of_kind(&mut self, kind: u64, draw: &mut Draw) -> Vec<u32> {
         if kind >= LEAST {
             return self.at_limit(kind, draw);
         }
@@ -135,10 +141,24 @@ impl<'a> Estimations<'a> {
         found.unwrap_or_else(drawn)
     }
 
-    /// Draws histograms until one is near a limit, and moves the nearest there hit by hit: this side of it, or the
-    /// other the next time.
-    fn at_limit(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
+    /// Changes histograms that are near a limit, one after the other, until one is there: this side of it, or the other
+    /// the next time.
+    fn at_limit(&mut self, kind: u64, draw: &mut Draw) -> Vec<u32> {
         let far = self.begun % WHOLE == 1;
+        let mut found = self.nudged_to_limit(kind, far, draw);
+        for _ in 1..STARTS {
+            if found.1 == 0 {
+                break;
+            }
+            found = self.nudged_to_limit(kind, far, draw);
+        }
+        self.limits.see_if(found.1 == 0, 2 * kind + u64::from(far));
+        found.0
+    }
+
+    /// Draws histograms until one is near a limit, and moves the nearest there hit by hit. Returns it and how far from
+    /// the limit it is still.
+    fn nudged_to_limit(&self, kind: u64, far: bool, draw: &mut Draw) -> (Vec<u32>, u64) {
         let to_limit = |one: &[u32]| Outcome::of(one, self.params).to_limit(kind, far);
         let mut best = self.histogram(kind, draw);
         let mut from = to_limit(&best);
@@ -153,24 +173,26 @@ impl<'a> Estimations<'a> {
                 (from, best) = (to_it, next);
             }
         }
-        let Some((mut distance, mut bin)) = from else { return best };
+        let Some((mut distance, mut bin)) = from else { return (best, u64::MAX) };
         for _ in 0..NUDGES {
             if distance == 0 {
                 break;
             }
-            let next = self.nudged(&best, bin, draw);
+            let next =
+                if kind == CERTAIN { moved(&best, draw) } else { self.nudged(&best, bin, draw) };
             let from = to_limit(&next).filter(|from| from.0 <= distance);
             if let Some(from) = from {
                 ((distance, bin), best) = (from, next);
             }
         }
-        best
+        (best, distance)
     }
 
     fn histogram(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
         match kind {
             EXTREME => self.extreme(draw),
-            USED_UP | WAITS => self.used_up(draw),
+            USED_UP | WAITS => self.used_up(14, draw),
+            CERTAIN => (0..SHAKES).fold(self.used_up(6, draw), |counts, _| moved(&counts, draw)),
             EMPTY => vec![0; self.params.histogram.bins],
             kind => self.drawn(kind, draw),
         }
@@ -233,13 +255,14 @@ impl<'a> Estimations<'a> {
         counts.into_iter().map(|count| count as u32).collect()
     }
 
-    /// Ambient light that leaves few shots for the echo, which takes them all.
-    fn used_up(&self, draw: &mut Draw) -> Vec<u32> {
+    /// Ambient light, of so many photons a shot over the window, that leaves few shots for the echo, which takes them
+    /// all.
+    fn used_up(&self, ambient: u32, draw: &mut Draw) -> Vec<u32> {
         let bins = self.params.histogram.bins as u64;
         let echo = bins / 2 + draw.below(bins / 3);
         let mut left = self.params.shots as u32;
         let count = |bin: u64| {
-            let now = if bin == echo { left } else { (left * 14 + 128) / bins as u32 };
+            let now = if bin == echo { left } else { (left * ambient + 128) / bins as u32 };
             left -= now.min(left);
             now
         };
@@ -283,7 +306,19 @@ impl<'a> Estimations<'a> {
     }
 
     /// Returns the coverage.
-    pub fn coverage(self) -> [Cover; 4] {
-        [self.starts, self.resets, self.seen, self.modes]
+    pub fn coverage(self) -> [Cover; 5] {
+        [self.starts, self.resets, self.seen, self.modes, self.limits]
     }
+}
+
+/// Moves hits between the last bin that has some, which takes all shots that are left, and one before it.
+fn moved(histogram: &[u32], draw: &mut Draw) -> Vec<u32> {
+    let mut counts = histogram.to_vec();
+    let last = counts.iter().rposition(|&count| count > 0).unwrap_or(0);
+    let bin = draw.below(last.max(1) as u64) as usize;
+    let [from, to] = if draw.one_in(2) { [last, bin] } else { [bin, last] };
+    let hits = counts[from].min(1 + draw.below(4) as u32);
+    counts[from] -= hits;
+    counts[to] += hits;
+    counts
 }

@@ -1,7 +1,7 @@
 //! Kinds of histograms, each of which shows one way in which an estimation ends.
 
 /// How many there are.
-pub(super) const KINDS: u64 = 16;
+pub(super) const KINDS: u64 = 17;
 pub(super) const EXTREME: u64 = 1;
 pub(super) const AT_END: u64 = 2;
 pub(super) const AT_BEGIN: u64 = 3;
@@ -14,8 +14,9 @@ pub(super) const ODD: u64 = 9;
 pub(super) const EMPTY: u64 = 10;
 pub(super) const UNARMED: u64 = 11;
 /// On either side of a limit: the least score of any echo, the least of an unsure one, the highest of another, the least
-/// shots that wait.
+/// shots that wait, the least score of an echo whose signal is uncertain.
 pub(super) const LEAST: u64 = 12;
 pub(super) const SURE: u64 = 13;
 pub(super) const ANOTHER: u64 = 14;
 pub(super) const WAITS: u64 = 15;
+pub(super) const CERTAIN: u64 = 16;

@@ -66,8 +66,8 @@ impl Outcome {
         }
     }
 
-    /// Returns how far a word is from a limit, if nothing else decides about its reason in the status, and the bin at which hits change
-    /// that. On the `far` side the status changes.
+    /// Returns how far a word is from a limit, if nothing else decides about its reason in the status, and the bin at
+    /// which hits change that. On the `far` side the status changes.
     pub(super) fn to_limit(&self, kind: u64, far: bool) -> Option<(u64, u64)> {
         let echo = [0, 1, 2].map(|which| self.flag(which));
         let reason = |status: Status| [0, u64::from(status.bit())].contains(&self.status);
@@ -79,6 +79,7 @@ impl Outcome {
             SURE => (no_echo && echo == [false, true, false], self.start, 424, self.middles[0]),
             ANOTHER => (reason(Status::Another), self.rescan, 331, self.middles[1]),
             WAITS => (true, waiting, 31, 0),
+            CERTAIN => (echo == [true, true, false], self.start, 849, self.middles[0]),
             _ => return None,
         };
         applies.then_some((word.abs_diff(limit + i64::from(far)), bin))
