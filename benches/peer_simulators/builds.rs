@@ -5,6 +5,7 @@ use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
+use crate::sources::Source;
 use crate::{Result, versions};
 
 /// A folder of built peers.
@@ -21,19 +22,16 @@ impl Cache {
     }
 
     /// Returns the folder with the output of `build` for these `sources` and `flags`, building it if necessary.
-    /// `build` receives the folder to work in.
+    /// `build` receives the folder to work in, which has the sources, and the paths of those that are Verilog.
     pub fn get(
         &self,
         name: &str,
-        sources: &[PathBuf],
-        flags: &[String],
-        build: impl FnOnce(&Path) -> Result<()>,
+        sources: &[Source],
+        flags: &[&str],
+        build: impl FnOnce(&Path, &[PathBuf]) -> Result<()>,
     ) -> Result<PathBuf> {
         let mut hasher = DefaultHasher::new();
-        (flags, versions::cpu(), versions::compilers()).hash(&mut hasher);
-        for source in sources {
-            fs::read(source)?.hash(&mut hasher);
-        }
+        (sources, flags, versions::cpu(), versions::compilers()).hash(&mut hasher);
         let kept = self.folder.join(format!("{name}-{:016x}", hasher.finish()));
         if kept.is_dir() {
             return Ok(kept);
@@ -44,7 +42,15 @@ impl Cache {
             fs::remove_dir_all(&work)?;
         }
         fs::create_dir_all(&work)?;
-        build(&work).map_err(|fault| format!("cannot build {name}: {fault}"))?;
+        let mut verilog = Vec::new();
+        for source in sources {
+            let path = work.join(&source.name);
+            fs::write(&path, &source.text)?;
+            if source.is_verilog() {
+                verilog.push(path);
+            }
+        }
+        build(&work, &verilog).map_err(|fault| format!("cannot build {name}: {fault}"))?;
         fs::rename(&work, &kept)?;
         Ok(kept)
     }

@@ -1,65 +1,41 @@
 //! Compilation of all peers, two at a time.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Mutex;
 use std::thread;
 
 use crate::builds::Cache;
-use crate::contender::Contender;
+use crate::contender::{Contender, Context};
 use crate::{Result, icarus, verilator, versions};
 
-/// Variant of the Verilog sources.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sources {
-    /// The sources in `rtl_ref`.
-    Reference,
-    /// The sources in `rtl_ref`, with the fastest coding of the decoder's ones count.
-    FastDecoder,
-}
-
-impl Sources {
-    /// Returns the files.
-    pub fn files(self, root: &Path) -> Result<Vec<PathBuf>> {
-        let ours = root.join("benches/peer_simulators/rtl");
-        let mut files = Vec::new();
-        for entry in fs::read_dir(root.join("rtl_ref"))? {
-            let file = entry?.path();
-            let Some(block) = file.file_stem().and_then(|stem| stem.to_str()) else { continue };
-            if file.extension().is_none_or(|ending| ending != "v") || block == "kc705_top" {
-                continue;
-            }
-            let is_replaced = match block {
-                // It is never started, and nobody is to pay for that.
-                "centroid_estimator" => true,
-                "tdc_decoder" => self == Sources::FastDecoder,
-                _ => false,
-            };
-            files.push(if is_replaced { ours.join(format!("{block}.sv")) } else { file });
-        }
-        files.sort();
-        Ok(files)
-    }
-}
-
-/// Formats an absolute path for the tools.
-pub fn absolute(path: &Path) -> String {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf()).display().to_string()
+/// Where and for what the peers are built.
+#[derive(Clone, Copy)]
+pub struct Workshop<'a> {
+    /// Folder of the repository.
+    pub root: &'a Path,
+    /// Peers that were built before.
+    pub cache: &'a Cache,
+    /// Number of shots of a frame.
+    pub shots: u64,
+    /// True if the peers are timed, so that the fastest options are worth their compilation.
+    pub is_timed: bool,
+    /// The frame that compilers learn from.
+    pub training: &'a Context,
 }
 
 type Job<'a> = Box<dyn FnOnce() -> Result<Vec<Contender>> + Send + 'a>;
 
 /// Builds the peers. Verilator is required; any other missing tool becomes a note.
-pub fn peers(root: &Path, cache: &Cache, quick: bool) -> Result<(Vec<Contender>, Vec<String>)> {
+pub fn peers(workshop: &Workshop, quick: bool) -> Result<(Vec<Contender>, Vec<String>)> {
     if versions::first_line("verilator", "--version").is_none() {
         return Err("verilator is missing: apt-get install verilator".into());
     }
     let mut jobs: Vec<(&str, Job)> = Vec::new();
     for variant in &verilator::VARIANTS {
-        let job = move || Ok(vec![variant.contender(root, cache)?]);
+        let job = move || Ok(vec![variant.contender(workshop)?]);
         jobs.push(("verilator", Box::new(job)));
     }
-    jobs.push(("icarus", Box::new(|| Ok(vec![icarus::contender(root, cache, quick)?]))));
+    jobs.push(("icarus", Box::new(|| Ok(vec![icarus::contender(workshop, quick)?]))));
     sort_out(side_by_side(jobs))
 }
 

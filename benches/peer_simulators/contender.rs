@@ -5,6 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use serde::Serialize;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 
@@ -17,7 +18,8 @@ pub const SHOTS: u64 = 30_000;
 pub const FEW_SHOTS: u64 = 300;
 
 /// Kind of work to time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Work {
     /// A frame, simulating every cycle.
     Cycle,
@@ -141,7 +143,8 @@ pub struct Context {
     pub laser_freq: u8,
     /// Setup of tofsim.
     pub setup: Setup,
-    photons: PathBuf,
+    /// Photons of a frame: a line for each shot, the time from the laser edge or -1 [fs].
+    pub photons: PathBuf,
     /// Expected results, by shots per frame.
     expected: BTreeMap<u64, Expected>,
 }

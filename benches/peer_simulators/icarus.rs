@@ -1,31 +1,29 @@
 //! Icarus Verilog with the sources in `rtl_ref`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::builds::Cache;
-use crate::compilers::Sources;
+use crate::compilers::Workshop;
 use crate::contender::{Call, Contender, FEW_SHOTS, SHOTS, Work};
+use crate::sources::{Source, Sources};
 use crate::{Result, run};
 
 /// Options of every build.
 pub const OPTIONS: &str = "-g2012 -s bench";
 
 /// Builds the peer; with `quick`, for frames of few shots.
-pub fn contender(root: &Path, cache: &Cache, quick: bool) -> Result<Contender> {
-    let shots = if quick { FEW_SHOTS } else { SHOTS };
-    let bench = root.join("benches/peer_simulators");
-    let mut sources = Sources::Reference.files(root)?;
-    sources.push(bench.join("icarus.v"));
+pub fn contender(workshop: &Workshop, quick: bool) -> Result<Contender> {
+    let shots = if quick { FEW_SHOTS } else { workshop.shots };
+    let mut sources = Sources::Reference.modules(workshop.root)?;
+    sources.push(Source::read(&workshop.root.join("benches/peer_simulators/icarus.v"))?);
     let parameter = format!("-Pbench.ShotsPerFrame={shots}");
-    let build = |folder: &Path| {
+    let build = |folder: &Path, verilog: &[PathBuf]| {
         let mut command = Command::new("iverilog");
-        command.args(OPTIONS.split_whitespace()).arg(&parameter).current_dir(root);
-        command.arg("-o").arg(folder.join("bench.vvp")).args(&sources);
+        command.args(OPTIONS.split_whitespace()).arg(&parameter).current_dir(workshop.root);
+        command.arg("-o").arg(folder.join("bench.vvp")).args(verilog);
         run::stdout(&mut command).map(drop)
     };
-    let flags = [OPTIONS.to_string(), parameter.clone()];
-    let folder = cache.get("icarus", &sources, &flags, build)?;
+    let folder = workshop.cache.get("icarus", &sources, &[OPTIONS, &parameter], build)?;
     Ok(Contender {
         simulator: "icarus",
         variant: "rtl_ref",

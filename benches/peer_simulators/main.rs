@@ -13,6 +13,7 @@ mod pinning;
 mod report;
 mod rounds;
 mod run;
+mod sources;
 mod verilator;
 mod versions;
 
@@ -22,7 +23,8 @@ use std::time::{Duration, Instant};
 
 use builds::Cache;
 use clap::Parser;
-use contender::{Contender, Context, Work};
+use compilers::Workshop;
+use contender::{Contender, Context, FEW_SHOTS, SHOTS};
 use expected::Expected;
 use report::Report;
 use rounds::Plan;
@@ -45,6 +47,9 @@ pub struct Args {
     /// Finish within two minutes: fewer repetitions, and Icarus with frames of 300 shots
     #[arg(long)]
     quick: bool,
+    /// Only compare a frame of 300 shots of each simulator, in half a minute
+    #[arg(long, conflicts_with_all = ["json", "quick", "core"])]
+    check: bool,
     /// Core to run on [default: the last one]
     #[arg(long, value_name = "N")]
     core: Option<usize>,
@@ -65,17 +70,28 @@ fn main() -> ExitCode {
 
 fn compare(args: &Args) -> Result<()> {
     let begun = Instant::now();
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let root = &Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).canonicalize()?;
     let cache = Cache::new(Path::new(env!("CARGO_TARGET_TMPDIR")))?;
-    let (peers, notes) = compilers::peers(root, &cache, args.quick)?;
-    let mut report = Report::new(notes, pinning::pin(args.core)?);
     let folder = scratch()?;
-    for (done, laser_freq) in LASER_FREQS.into_iter().enumerate() {
-        let context = Context::new(root, folder.path(), laser_freq)?;
-        check(&peers, &context)?;
-        let left = LASER_FREQS.len() - done;
-        let measured = rounds::run(&peers, &context, &plan(args, begun, left))?;
-        report.add(laser_freq, &measured);
+    let contexts = LASER_FREQS.map(|laser_freq| Context::new(root, folder.path(), laser_freq));
+    let contexts = contexts.into_iter().collect::<Result<Vec<_>>>()?;
+    let workshop = Workshop {
+        root,
+        cache: &cache,
+        shots: if args.check { FEW_SHOTS } else { SHOTS },
+        is_timed: !args.check,
+        training: &contexts[0],
+    };
+    let (peers, notes) = compilers::peers(&workshop, args.quick)?;
+    contexts.iter().try_for_each(|context| check(&peers, context))?;
+    if args.check {
+        println!("{} simulators give tofsim's frames", peers.len());
+        return notes.first().map_or(Ok(()), |missing| Err(missing.as_str().into()));
+    }
+    let mut report = Report::new(notes, pinning::pin(args.core)?);
+    for (done, context) in contexts.iter().enumerate() {
+        let left = contexts.len() - done;
+        report.add(context.laser_freq, &rounds::run(&peers, context, &plan(args, begun, left))?);
     }
     report.print(args.json)
 }
@@ -93,8 +109,9 @@ fn scratch() -> Result<tempfile::TempDir> {
 /// The names of the peers that do not.
 fn check(peers: &[Contender], context: &Context) -> Result<()> {
     let mut differing = Vec::new();
-    for peer in peers.iter().filter(|peer| peer.work == Work::Cycle && !peer.is_slow) {
-        eprintln!("peers: checking {peer} at laser_freq {}", context.laser_freq);
+    for peer in peers.iter().filter(|peer| !peer.is_slow) {
+        let (work, laser_freq) = (peer.work.name(), context.laser_freq);
+        eprintln!("peers: checking {} ({work}) at laser_freq {laser_freq}", peer.simulator);
         let frames = peer.run(context, 2)?.frames;
         if let Err(difference) = context.expected(peer.shots).check(&frames) {
             differing.push(format!("{peer} differs from tofsim: {difference}"));

@@ -4,6 +4,7 @@ use std::env;
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::contender::{Contender, Work};
@@ -20,13 +21,31 @@ pub struct Report {
     measured: Vec<(u8, Vec<Measured>)>,
 }
 
-/// tofsim and Verilator at the same kind of work.
+/// tofsim and the fastest model of Verilator at the same kind of work.
+#[derive(Serialize)]
 struct Row {
     work: Work,
     laser_freq: u8,
+    /// Median [ms a frame].
     tofsim_ms: f64,
-    /// Median of the fastest Verilator model [ms].
+    /// Median [ms a frame].
     verilator_ms: f64,
+    ratio: f64,
+}
+
+/// A peer's timings.
+#[derive(Serialize)]
+struct Peer<'a> {
+    simulator: &'a str,
+    variant: &'a str,
+    work: Work,
+    laser_freq: u8,
+    /// Median [ms a frame].
+    ms: f64,
+    min_ms: f64,
+    max_ms: f64,
+    timings: usize,
+    shots: u64,
 }
 
 impl Report {
@@ -52,9 +71,7 @@ impl Report {
             println!("\nlaser_freq {laser_freq}, ms a frame of 30,000 shots");
             println!("{}", table(measured));
         }
-        println!(
-            "\nVerilator, the faster of rtl_ref and rtl_ref with the fastest decoder, over tofsim"
-        );
+        println!("\nVerilator's fastest model over tofsim");
         println!("{}", self.ratios());
         println!(
             "photons: peers {PHOTONS_OF_PEERS}, tofsim {PHOTONS_OF_TOFSIM}; {}",
@@ -66,14 +83,21 @@ impl Report {
 
     fn rows(&self) -> Vec<Row> {
         let rows = self.measured.iter().flat_map(|(laser_freq, measured)| {
-            Work::ALL.into_iter().map(|work| Row {
-                work,
-                laser_freq: *laser_freq,
-                tofsim_ms: best(measured, work, |peer| peer.is_none()),
-                verilator_ms: best(measured, work.of_peer(), is_verilator),
+            Work::ALL.into_iter().map(|work| {
+                let tofsim_ms = best(measured, work, |peer| peer.is_none());
+                let verilator_ms = best(measured, work.of_peer(), is_verilator);
+                let ratio = verilator_ms / tofsim_ms;
+                Row { work, laser_freq: *laser_freq, tofsim_ms, verilator_ms, ratio }
             })
         });
         rows.collect()
+    }
+
+    fn peers(&self) -> Vec<Peer<'_>> {
+        let all = self.measured.iter().flat_map(|(laser_freq, measured)| {
+            measured.iter().filter_map(|measured| Peer::new(*laser_freq, measured))
+        });
+        all.collect()
     }
 
     fn ratios(&self) -> Table {
@@ -84,26 +108,13 @@ impl Report {
                 row.work.name().to_string(),
                 digits(row.tofsim_ms),
                 digits(row.verilator_ms),
-                digits(row.verilator_ms / row.tofsim_ms),
+                digits(row.ratio),
             ]);
         }
         right(table, 2)
     }
 
     fn json(&self) -> Value {
-        let rows = self.rows();
-        let rows = rows.iter().map(|row| {
-            json!({
-                "work": row.work.name(),
-                "laser_freq": row.laser_freq,
-                "tofsim_ms": row.tofsim_ms,
-                "verilator_ms": row.verilator_ms,
-                "ratio": row.verilator_ms / row.tofsim_ms,
-            })
-        });
-        let peers = self.measured.iter().flat_map(|(laser_freq, measured)| {
-            measured.iter().filter_map(|measured| peer(*laser_freq, measured))
-        });
         json!({
             "versions": versions::json(),
             "flags": flags(),
@@ -111,31 +122,26 @@ impl Report {
             "pinned": self.pinned,
             "photons": { "peers": PHOTONS_OF_PEERS, "tofsim": PHOTONS_OF_TOFSIM },
             "notes": self.notes,
-            "rows": rows.collect::<Vec<_>>(),
-            "peers": peers.collect::<Vec<_>>(),
+            "rows": self.rows(),
+            "peers": self.peers(),
         })
     }
 }
 
-fn peer(laser_freq: u8, measured: &Measured) -> Option<Value> {
-    let peer = measured.peer.as_ref()?;
-    Some(json!({
-        "simulator": peer.simulator,
-        "variant": peer.variant,
-        "work": peer.work.name(),
-        "laser_freq": laser_freq,
-        "ms": measured.median(),
-        "min_ms": measured.min(),
-        "max_ms": measured.max(),
-        "timings": measured.count(),
-        "shots": peer.shots,
-    }))
+impl<'a> Peer<'a> {
+    fn new(laser_freq: u8, measured: &'a Measured) -> Option<Self> {
+        let &Contender { simulator, variant, work, shots, .. } = measured.peer.as_ref()?;
+        let (ms, min_ms, max_ms) = (measured.median(), measured.min(), measured.max());
+        let timings = measured.count();
+        Some(Peer { simulator, variant, work, laser_freq, ms, min_ms, max_ms, timings, shots })
+    }
 }
 
 fn flags() -> Value {
     json!({
         "verilator": verilator::COMMON,
         "verilator OPT_FAST": verilator::OPT_FAST,
+        "profile-guided": verilator::PROFILE_GUIDED,
         "iverilog": icarus::OPTIONS,
         "RUSTFLAGS": env::var("RUSTFLAGS").unwrap_or_default(),
     })
