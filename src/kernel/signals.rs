@@ -32,12 +32,21 @@ macro_rules! signals {
             $field_vis:vis $field:ident: $ty:ty $(= $reset:expr)?,)*
     }) => {
         $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(Clone, Copy, Debug)]
         $vis struct $name { $($(#[doc = $doc])+ $field_vis $field: $ty,)* }
 
         impl Default for $name {
             fn default() -> Self {
                 $name { $($field: $crate::signals!(@reset $($reset)?),)* }
+            }
+        }
+
+        // All fields are compared, without a branch for each: mostly they are equal.
+        impl PartialEq for $name {
+            #[inline]
+            #[allow(unused_variables, reason = "a module may have no signals of one kind")]
+            fn eq(&self, other: &Self) -> bool {
+                true $(& $crate::kernel::signals::Field::is_same(&self.$field, &other.$field))*
             }
         }
 

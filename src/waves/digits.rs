@@ -32,7 +32,7 @@ pub struct TapDigits {
     /// All taps in physical order, if it differs from the order of arrival.
     taps: BitVec<u64>,
     /// The decoder's codes of groups of taps.
-    counts: BitVec<u64>,
+    counts: Vec<u64>,
     decoder: Decoder,
 }
 
@@ -51,7 +51,7 @@ impl TapDigits {
         let arrived = bitvec![u64, Lsb0; 0; order.len()];
         let order = if order.is_sorted() { Vec::new() } else { order.to_vec() };
         let taps = bitvec![u64, Lsb0; 0; order.len()];
-        TapDigits { taps, order, arrived, counts: BitVec::new(), decoder }
+        TapDigits { taps, order, arrived, counts: Vec::new(), decoder }
     }
 
     /// Returns the taps, physical tap 0 first, or the decoder's code of each `group` of taps.
@@ -65,16 +65,16 @@ impl TapDigits {
         if group == 1 {
             return Bits { words: taps.as_raw_slice(), width: count };
         }
-        let width = count.div_ceil(group) * ones_width(group);
         self.counts.clear();
-        self.counts.resize(width, false);
-        self.counts.set_uninitialized(false);
+        let counts = &mut self.counts;
         match self.decoder {
-            Decoder::Ones => partial_ones(taps, group, &mut self.counts),
-            Decoder::Leading => partial_highest(taps, group, &mut self.counts),
-            Decoder::Reordered => partial_highest(&self.arrived, group, &mut self.counts),
+            Decoder::Ones => partial_ones(taps.as_raw_slice(), count, group, counts),
+            Decoder::Leading => partial_highest(taps.as_raw_slice(), count, group, counts),
+            Decoder::Reordered => {
+                partial_highest(self.arrived.as_raw_slice(), count, group, counts)
+            }
         }
-        Bits { words: self.counts.as_raw_slice(), width }
+        Bits { words: counts, width: count.div_ceil(group) * ones_width(group) }
     }
 
     /// Converts bits, physical tap 0 first and without bits beyond the last tap, to a thermometer code. Returns

@@ -32,6 +32,11 @@ pub trait Field: Copy + PartialEq {
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink);
     /// The value with what the source gives.
     fn given(id: usize, source: &mut impl Source) -> Self;
+    /// Returns whether both values are equal.
+    #[inline(always)]
+    fn is_same(&self, other: &Self) -> bool {
+        self == other
+    }
 }
 
 /// A field that is a single word.
@@ -109,6 +114,11 @@ impl<T: Word, const K: usize> Field for [T; K] {
     }
     fn given(id: usize, source: &mut impl Source) -> Self {
         std::array::from_fn(|k| T::given(id + k, source))
+    }
+    #[inline(always)]
+    fn is_same(&self, other: &Self) -> bool {
+        let pairs = self.iter().zip(other);
+        pairs.fold(0, |differing, (one, other)| differing | (one.bits() ^ other.bits())) == 0
     }
 }
 
