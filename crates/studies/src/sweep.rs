@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::PoisonError;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Error, Result, poll_stop};
 use tofsim::note::Note;
 
 use crate::header::header;
@@ -69,9 +69,7 @@ pub fn work_out(plan: &Plan, points: &[u64], stop: Option<&AtomicBool>) -> Resul
 
 /// Works out one point, unless it is stopped.
 fn entry(plan: &Plan, point: u64, stop: Option<&AtomicBool>) -> Result<Entry> {
-    if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-        return Err(Error::Interrupted);
-    }
+    poll_stop(stop)?;
     let worked = work(plan, point, stop)?;
     Ok(Entry { cells: worked.row.cells, notes: worked.notes })
 }
