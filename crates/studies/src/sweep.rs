@@ -201,6 +201,7 @@ impl Sweep<'_> {
     /// Writes the table of a journal.
     fn write(&self, folder: &Path, journal: &Journal) -> Result<Finished> {
         let fields = header(self.plan);
+        let names = fields.iter().map(|field| field.name.as_str());
         let is_whole = self.shard == Shard::WHOLE;
         let mut metadata = vec![(ABOUT, self.about.clone())];
         if !is_whole {
@@ -209,8 +210,7 @@ impl Sweep<'_> {
         let path = self.table(folder);
         let mut table = parquet_file::create(&path, &fields, metadata)?;
         let csv = path.with_extension("csv");
-        let mut text =
-            is_whole.then(|| CsvFile::create(&csv, &self.comment, &fields)).transpose()?;
+        let mut text = is_whole.then(|| CsvFile::create(&csv, &self.comment, names)).transpose()?;
         let mut finished = Finished::default();
         journal.in_order(|entry| {
             finished.add_notes(&entry);
