@@ -22,13 +22,14 @@
 //! That is with the KC705's 256 bins: 312 cycles, 2.496 us, for every W; with others 56 more than there are
 //! bins. A start while busy is ignored; one in the cycle of `algo_done` is taken.
 
-use crate::kernel::module::{Module, Visitor};
 use crate::kernel::{S, U};
-use crate::signals;
+use crate::{module_of_registers, signals};
 
 use super::forward2::Depth;
 use super::histogram_builder::{self, Bin, Count};
-use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
+use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotOut};
+
+pub use super::tof_top::slot::HistogramIn as In;
 
 mod params;
 mod window;
@@ -46,19 +47,6 @@ const FINE_BITS: u32 = 18;
 
 /// Fraction bits of the product that a depth word does not have.
 pub const SURPLUS: u32 = POSITION_FRACTION + SLOPE_FRACTION - 29;
-
-signals! {
-    /// Input ports.
-    pub struct In {
-        /// Synchronous reset.
-        pub rst: bool,
-        /// Starts an estimation.
-        pub algo_start: bool,
-        /// Word of the histogram at `read_addr` [hits].
-        #[size(CountBits)]
-        pub count: Count,
-    }
-}
 
 signals! {
     /// Registers; the public ones are the output ports.
@@ -156,20 +144,7 @@ impl Default for CentroidEstimator {
     }
 }
 
-impl Module for CentroidEstimator {
-    const COUNT: usize = <Registers as Module>::COUNT;
-
-    #[inline(always)]
-    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
-        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
-    }
-}
-
-impl From<SlotIn> for In {
-    fn from(SlotIn { rst, algo_start, count, .. }: SlotIn) -> Self {
-        In { rst, algo_start, count }
-    }
-}
+module_of_registers!(CentroidEstimator);
 
 impl SlotEstimator for CentroidEstimator {
     type In = In;

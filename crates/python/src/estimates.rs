@@ -1,4 +1,4 @@
-//! Light that comes back, and depths of histograms of one's own.
+//! Light that comes back, and depths of your own histograms.
 
 use numpy::PyArray1;
 use pyo3::prelude::*;

@@ -67,7 +67,7 @@ pub fn work_out(plan: &Plan, points: &[u64], stop: Option<&AtomicBool>) -> Resul
     points.par_iter().map(|point| entry(plan, *point, stop)).collect()
 }
 
-/// Works out one point, unless it is stopped.
+/// Evaluates one point, unless it is stopped.
 fn entry(plan: &Plan, point: u64, stop: Option<&AtomicBool>) -> Result<Entry> {
     poll_stop(stop)?;
     let worked = work(plan, point, stop)?;

@@ -60,7 +60,7 @@ pub struct Afterpulses {
     /// Mean time from the end of the dead time until they come, if there are enough: the time constant, where there is
     /// one [s].
     pub time_constant_s: Option<Measured>,
-    /// Chance that an avalanche traps a carrier, from both; not told by a mean over two kinds of traps [1].
+    /// Probability that an avalanche traps a carrier, from both; unknown with two kinds of traps [1].
     pub probability: Option<Measured>,
     /// What the scenario's keys come to, q [1].
     #[serde(rename = "expected_after_dead_time")]

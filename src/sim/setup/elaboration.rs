@@ -22,9 +22,8 @@ use super::stimulus::stimulus;
 use super::{Setup, fits, recalibration};
 
 impl Setup {
-    /// Loads the files that the scenario names and works out what it sets, as [`Setup::new`], for who wants
-    /// histograms and not what the estimator makes of them: the network may be one for another histogram, and finds
-    /// nothing then.
+    /// Loads the files that the scenario names, and elaborates it, for histograms without depths: unlike
+    /// [`Setup::new`], it accepts a network for another histogram.
     ///
     /// # Errors
     /// When one of the files cannot be read or used.

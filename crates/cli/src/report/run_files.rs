@@ -68,7 +68,7 @@ impl<'a> RunFiles<'a> {
         Ok(RunFiles { folder, record, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
 
-    /// Whether [`RunFiles::shot`] has to be told of shots.
+    /// Returns whether [`RunFiles::shot`] needs the shots.
     pub fn want_shots(&self) -> bool {
         self.folder.is_some() || self.events.is_some() || self.wants_tdc
     }

@@ -29,7 +29,7 @@ use super::state::{BestBlock, CurvePoint, TournamentState};
 pub struct Watch<'a> {
     /// Set when the user interrupts.
     pub stop: Option<&'a AtomicBool>,
-    /// Is told of work done [histograms times epochs].
+    /// Called with the work done [histograms times epochs].
     pub done: &'a (dyn Fn(u64) + Sync),
     /// When to come back, so that the state can be saved; at least one epoch is made before.
     pub until: Option<Instant>,
