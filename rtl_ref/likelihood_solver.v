@@ -6,8 +6,6 @@
 // An instruction goes through nine cycles: operands, products with the low bits of b, with the others, their sum, two
 // shifts, the sum with c, its limits, and the memory. Others begin before, as far as they do not need what it gives:
 // each says when the next one begins. A reciprocal takes 17 cycles more, a root 25, a bit of each at a time.
-// Words are extended and cut as what they are assigned to is wide.
-// verilator lint_off WIDTH
 module likelihood_solver #(
     parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROM
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
@@ -124,6 +122,8 @@ module likelihood_solver #(
     initial begin
         for (i = 0; i < 18; i = i + 1) words[i] = 0;
         words[One] = 1;
+        // Constants are extended to words.
+        // verilator lint_off WIDTH
         words[KappaAt] = Kappa;
         words[Stride] = Kappa << StepLog2;
         words[MetresAt] = Metres;
@@ -134,6 +134,7 @@ module likelihood_solver #(
         words[Wide] = PulseSigma << 4;
         words[Margin] = PulseSigma << 3;
         words[End] = WindowEnd;
+        // verilator lint_on WIDTH
         words[Variance] = 64;
         words[Unsure] = 40;
         words[Two] = 2;
@@ -162,6 +163,8 @@ module likelihood_solver #(
 
     // Operands from other blocks, in groups of four
     reg signed [WordBits-1:0] sum_a, scan_a, box_a, other_a, sum_c, other_c;
+    // Operands are extended to words, or cut as long as words.
+    // verilator lint_off WIDTH
     always @* begin
         case (from_a[1:0])
             Sum13: sum_a = sum_13 >>> 5;
@@ -185,26 +188,38 @@ module likelihood_solver #(
         endcase
         other_c = from_c[2] ? score_2 <<< 2 : sum_c;
     end
+    // verilator lint_on WIDTH
 
     // The bits of a, and of what has been marked
     reg [5:0] length, marked_length;
     always @* begin
         length = 6'd1;
+        // A place is an integer.
+        // verilator lint_off WIDTH
         for (i = 1; i < WordBits - 1; i = i + 1) if (a[i]) length = i + 1;
+        // verilator lint_on WIDTH
         if (a[WordBits-1]) length = 6'd1;
         marked_length = 6'd0;
+        // A place is an integer.
+        // verilator lint_off WIDTH
         for (i = 0; i < WordBits - 14; i = i + 1) if (magnitude[i]) marked_length = i + 15;
+        // verilator lint_on WIDTH
     end
 
     // One multiplier: the low bits of b, then the others. In two parts, to each of which one is added, as the slices
     // that multiply have it.
+    // Parts are extended to the product.
+    // verilator lint_off WIDTH
     wire signed [PartBits-1:0] part = at_1 ? $signed({1'b0, b[16:0]}) : $signed(b[WordBits-1:17]);
     wire signed [LowProductBits-1:0] lower = low_product + (low >>> 17);
     wire signed [LowProductBits-1:0] upper = high_product + (lower >>> 17);
     wire signed [LowProductBits-1:0] partial = {upper, lower[16:0]};
+    // verilator lint_on WIDTH
 
     // The shift. It goes in steps, the longest first: the others have fewer bits to look at.
     reg [7:0] more;
+    // Parts of a shift are extended to it.
+    // verilator lint_off WIDTH
     always @*
         case (by)
             ByBits: more = bits;
@@ -215,6 +230,7 @@ module likelihood_solver #(
             default: more = 8'd0;
         endcase
     wire [7:0] all_shift = base + more;
+    // verilator lint_on WIDTH
     reg signed [64:0] down;
     reg signed [FineBits-1:0] fine;
     reg moved_fits;
@@ -237,15 +253,21 @@ module likelihood_solver #(
         for (i = 4; i >= 0; i = i - 1) if (pairs_left[i]) pairs = pairs >> (2 << i);
     end
     wire [27:0] left = roots ? {remainder[25:0], pair} : {remainder[26:0], 1'b1};
+    // A quotient is as long as its root.
+    // verilator lint_off WIDTH
     wire [27:0] against = roots ? {quotient, 2'b01} : shifted[27:0];
+    // verilator lint_on WIDTH
     wire [28:0] less = {1'b0, left} - {1'b0, against};
     wire fits = !less[28];
 
     // The sum, within its limits, which are such that few bits tell whether it is
     // The lowest bit is the carry that went in.
     // verilator lint_off UNUSEDSIGNAL
+    // A word is extended to the sum.
+    // verilator lint_off WIDTH
     wire signed [ShiftedBits+1:0] doubled
         = $signed({c, 1'b1}) + $signed({{shifted[ShiftedBits-1], shifted} ^ {ShiftedBits + 1{minus}}, half ^ minus});
+    // verilator lint_on WIDTH
     // verilator lint_on UNUSEDSIGNAL
     wire signed [WordBits-1:0] top = {1'b0, {WordBits - 1{1'b1}}};
     wire under = past ? opposite : sum[ShiftedBits];
@@ -270,7 +292,10 @@ module likelihood_solver #(
             OfSignal: begin least = 16; most = 16777215; end
             OfAmbient: begin least = 1; most = 16777215; end
             OfChance: begin least = 1; most = 8388608; end
+            // The end is extended to a word.
+            // verilator lint_off WIDTH
             OfWindow: begin least = 0; most = WindowEnd; end
+            // verilator lint_on WIDTH
             default: begin least = held ? 0 : -8192; most = 49152; end
         endcase
         case (limits)
@@ -283,12 +308,18 @@ module likelihood_solver #(
             default: {below, outside} = {under, past_growth};
         endcase
     end
+    // A sum within its limits is cut to a word.
+    // verilator lint_off WIDTH
     wire signed [WordBits-1:0] limited = !outside ? sum : below ? least : most;
+    // verilator lint_on WIDTH
     wire last_digit = digit == (roots ? 5'd25 : 5'd17);
     wire [6:0] marked = 7'd1 << mark[2:0];
     // Its magnitude without the lowest 14 bits, on which no shift depends
     wire carried = result < 0 && result[13:0] == 14'd0;
+    // The carry is extended.
+    // verilator lint_off WIDTH
     wire [WordBits-15:0] absolute = (result[WordBits-1:14] ^ {WordBits - 14{result[WordBits-1]}}) + carried;
+    // verilator lint_on WIDTH
 
     always @(posedge clk_sys)
         if (at_8 && !to[5]) words[to[4:0]] <= result;
@@ -339,8 +370,11 @@ module likelihood_solver #(
             low_product <= $signed({1'b0, a[16:0]}) * part;
             high_product <= $signed(a[WordBits-1:17]) * part;
             low <= at_2 ? partial : 0;
+            // The product is cut to its words, a shift to its bits.
+            // verilator lint_off WIDTH
             if (at_3) product <= {partial, low[16:0]};
             shift <= all_shift > 63 ? 6'd63 : all_shift;
+            // verilator lint_on WIDTH
             shift_low <= shift[3:0];
             coarse <= down[FineBits-1:0];
             negative <= down[64];
@@ -358,11 +392,17 @@ module likelihood_solver #(
             past <= beyond;
             opposite <= shifted[ShiftedBits-1] ^ minus;
             limits <= of_sum[12:10];
+            // A quotient is extended to a word.
+            // verilator lint_off WIDTH
             result <= divided ? quotient : limited;
+            // verilator lint_on WIDTH
 
             // A bit of a reciprocal or of a root
             if (at_1 && of_operands[48:46] == Reciprocal) bits <= length;
+            // Bits are counted in integers.
+            // verilator lint_off WIDTH
             else if (divided && roots) bits <= (10 + bits + exponent + odd) >> 1;
+            // verilator lint_on WIDTH
             dividing <= at_6 && divides || dividing && !last_digit;
             divided <= dividing && last_digit;
             pair <= odd ? pairs[1:0] : pairs[2:1];
@@ -376,11 +416,14 @@ module likelihood_solver #(
             // What an instruction has come to
             if (at_8) begin
                 case (to)
+                    // Results are cut to their words.
+                    // verilator lint_off WIDTH
                     Arrival: arrival <= result;
                     Signal: strength <= result;
                     Ambient: ambient <= result;
                     Depth: depth <= result;
                     SigmaAt: sigma <= result;
+                    // verilator lint_on WIDTH
                     default: ;
                 endcase
                 if (mark[3]) flags <= (flags & ~marked) | (result < 0 ? marked : 7'd0);
@@ -388,4 +431,3 @@ module likelihood_solver #(
         end
     end
 endmodule
-// verilator lint_on WIDTH

@@ -4,8 +4,6 @@
 // Sums over the bins of a fit: information and score of (mu, log S, log b), or how well the fit does.
 //
 // What a bin says goes on for nine beats of two cycles each; four multipliers work twice a beat.
-// Words are extended and cut as what they are assigned to is wide.
-// verilator lint_off WIDTH
 module likelihood_sums #(
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
     parameter integer CountBits = 16             // of a word of the histogram, 8 to 24
@@ -85,7 +83,10 @@ module likelihood_sums #(
     integer i;
     initial begin
         // 1024 over 1 + (i + 1/2) / 64, rounded
+        // Places are integers.
+        // verilator lint_off WIDTH
         for (i = 0; i < 64; i = i + 1) reciprocals[i] = (262144 + 129 + 2 * i) / (2 * (129 + 2 * i));
+        // verilator lint_on WIDTH
         {sum_12, sum_13, sum_23, score_1, score_2, score_3, chi_square, far, changed} = 0;
         {sum_11, sum_22, sum_33} = 0;
         {first_a, first_b, first_product, second_a, second_b, second_product} = 0;
@@ -104,27 +105,39 @@ module likelihood_sums #(
     wire [CountBits+12:0] expected_cut = predicted[CountBits+17:5];
     wire [CountBits+7:0] expected_limited
         = |expected_cut[CountBits+12:CountBits+8] ? {CountBits + 8{1'b1}} : expected_cut[CountBits+7:0];
+    // What is added is extended to the product.
+    // verilator lint_off WIDTH
     wire signed [13:0] first_half = phase ? 14'sd0 : Half <<< 1;
     wire signed [CountBits+22:0] first = first_product + first_half;
+    // verilator lint_on WIDTH
 
     // The second: a share of the residual or its square, then a share of the weight
     wire is_near = residual[ResidualBits-1:NearBits-1] == {ResidualBits - NearBits + 1{residual[ResidualBits-1]}}
         && !(residual[ResidualBits-1] && residual[NearBits-2:0] == {NearBits - 1{1'b0}});
     wire signed [NearBits-1:0] near
         = is_near ? residual[NearBits-1:0] : residual[ResidualBits-1] ? -$signed(Nearest) : $signed(Nearest);
+    // What is added is extended to the product.
+    // verilator lint_off WIDTH
     wire signed [12:0] second_half = check && !phase ? 13'sd0 : Half;
     wire signed [WeightBits+FactorBits:0] second = second_product + second_half;
+    // verilator lint_on WIDTH
 
     // The third: a share of that share or a term of the chi-square, then the other share times its slope
     wire signed [WeightBits:0] difference = $signed({1'b0, once_2}) - $signed({1'b0, twice});
+    // What is added is extended to the product.
+    // verilator lint_off WIDTH
     wire signed [12:0] third_half = check || phase ? 13'sd0 : Half;
     wire signed [WeightBits+14:0] third = third_product + third_half;
+    // verilator lint_on WIDTH
 
     // The fourth: a share of the share times its slope, and times it again, or how far a square may be
     wire signed [16:0] nearest = check ? Far * $signed(Count[7:0]) : 17'sd0;
     // A product is as long as its word, but for one of a check.
     // verilator lint_off UNUSEDSIGNAL
+    // What is added is extended to the product.
+    // verilator lint_off WIDTH
     wire signed [WeightBits+9:0] fourth = fourth_product + nearest;
+    // verilator lint_on WIDTH
     // verilator lint_on UNUSEDSIGNAL
 
     // The square over its variance. Shifts go in steps, the longest first: the others have fewer bits to look at.
@@ -155,16 +168,24 @@ module likelihood_sums #(
     endfunction
 
     // To the last sum w (1 - s) comes first, and then w s (1 - s) leaves it; in a check a term of the chi-square comes.
+    // Terms are extended to the sum.
+    // verilator lint_off WIDTH
     wire signed [LastBits-1:0] comes = check ? $signed({1'b0, twice}) : others;
     wire signed [LastBits-1:0] changes = phase ? comes : check ? {LastBits{1'b1}} : ~mixed;
+    // verilator lint_on WIDTH
     // The lowest bit is the carry that went in.
     // verilator lint_off UNUSEDSIGNAL
     wire [LastBits:0] last_doubled = {last_sum, 1'b0} - {~changes, phase};
     // verilator lint_on UNUSEDSIGNAL
 
+    // The shorter one is extended.
+    // verilator lint_off WIDTH
     wire is_far = $signed({1'b0, square_2}) > tzz;
+    // verilator lint_on WIDTH
 
     always @(posedge clk_sys) begin
+        // Operands are extended to the multipliers, and products cut to their words.
+        // verilator lint_off WIDTH
         first_a <= phase ? seen_first : $signed({1'b0, expected_limited});
         first_b <= phase ? {{5{z_0[8]}}, z_0} : $signed({1'b0, gain});
         second_a <= phase ? $signed({1'b0, weight_first}) : check ? near : residual;
@@ -183,6 +204,7 @@ module likelihood_sums #(
         square_first <= second >>> 2;
         twice_first <= third >>> 12;
         tz_first <= fourth;
+        // verilator lint_on WIDTH
         square_over <= square_over_next;
         aligned <= aligned_next[5:0];
         if (phase) begin
@@ -196,6 +218,8 @@ module likelihood_sums #(
             {singles_3, singles_2, singles_1, singles_0} <= {singles_2, singles_1, singles_0, single};
             {once_2, once_1, once_0} <= {once_1, once_0, second[WeightBits+11:12]};
             others <= $signed({1'b0, weight_1}) - $signed({1'b0, once_0});
+            // Products are cut to their words.
+            // verilator lint_off WIDTH
             seen_z <= first;
             {variances_1, variances_0} <= {variances_0, {1'b0, weight_0} + 5'd16};
             bits <= length;
@@ -205,12 +229,15 @@ module likelihood_sums #(
             mixed <= difference;
             oz <= third;
             tzz <= fourth;
+            // verilator lint_on WIDTH
             tz <= tz_first;
             if (check && singles_3 && is_far) far <= 1'b1;
         end
         // What is added goes to the one that stands second, and they change places.
         changed <= phase;
         if (phase || changed) begin
+            // Terms are extended to the sums.
+            // verilator lint_off WIDTH
             sum_13 <= sum_12;
             sum_12 <= plus(sum_13, phase ? oz : tz);
             sum_11 <= score_1;
@@ -219,20 +246,23 @@ module likelihood_sums #(
             sum_22 <= plus(sum_23, phase ? mixed : $signed({1'b0, twice}));
             score_3 <= score_2;
             score_2 <= plus(score_3, phase ? unseen : seen);
+            // verilator lint_on WIDTH
             last_sum <= last_doubled[LastBits:1];
         end
         sum_33 <= last_sum[CountBits+18:0];
         if (check) chi_square <= last_sum[BinBits+24:0];
         if (pass) begin
             changed <= 1'b0;
+            // Constants are extended to the sums.
+            // verilator lint_off WIDTH
             sum_11 <= {Sixteenth, 1'b0};
             {sum_12, sum_13, sum_23, score_1, score_2, score_3} <= 0;
             sum_22 <= Sixteenth;
             last_sum <= check ? 0 : Quarter;
+            // verilator lint_on WIDTH
             far <= 1'b0;
             // What is on the way from a pass that was no check is no square.
             {square_0, square_1, square_2, reciprocal, twice_first} <= 0;
         end
     end
 endmodule
-// verilator lint_on WIDTH

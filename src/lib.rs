@@ -58,7 +58,7 @@
 //! # }
 //! ```
 //!
-//! # An estimator of one's own
+//! # A custom estimator
 //!
 //! The crate `tofsim-learn` has the panel of estimators, and evaluates them over many scenes; its example
 //! `own_estimator` adds one. A run's histograms alone are enough to begin with:

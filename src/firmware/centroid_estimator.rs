@@ -22,21 +22,23 @@
 //! That is with the KC705's 256 bins: 312 cycles, 2.496 us, for every W; with others 56 more than there are
 //! bins. A start while busy is ignored; one in the cycle of `algo_done` is taken.
 
-use crate::kernel::module::{Module, Visitor};
 use crate::kernel::{S, U};
-use crate::signals;
+use crate::{module_of_registers, signals};
 
 use super::forward2::Depth;
 use super::histogram_builder::{self, Bin, Count};
-use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn, SlotOut};
+use super::tof_top::slot::{EstimateWords, SlotEstimator, SlotOut};
+
+pub use super::tof_top::slot::HistogramIn as In;
 
 mod params;
+mod window;
 
+use params::QUOTIENT_BITS;
 pub use params::{
     MOST_HALF_WIDTH, Offset, POSITION_FRACTION, Params, Position, SLOPE_FRACTION, Slope,
     position_bits,
 };
-use params::{QUOTIENT_BITS, SUMS};
 
 /// Words that the window can remember.
 const WORDS: usize = 64;
@@ -45,19 +47,6 @@ const FINE_BITS: u32 = 18;
 
 /// Fraction bits of the product that a depth word does not have.
 pub const SURPLUS: u32 = POSITION_FRACTION + SLOPE_FRACTION - 29;
-
-signals! {
-    /// Input ports.
-    pub struct In {
-        /// Synchronous reset.
-        pub rst: bool,
-        /// Starts an estimation.
-        pub algo_start: bool,
-        /// Word of the histogram at `read_addr` [hits].
-        #[size(CountBits)]
-        pub count: Count,
-    }
-}
 
 signals! {
     /// Registers; the public ones are the output ports.
@@ -155,20 +144,7 @@ impl Default for CentroidEstimator {
     }
 }
 
-impl Module for CentroidEstimator {
-    const COUNT: usize = <Registers as Module>::COUNT;
-
-    #[inline(always)]
-    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
-        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
-    }
-}
-
-impl From<SlotIn> for In {
-    fn from(SlotIn { rst, algo_start, count, .. }: SlotIn) -> Self {
-        In { rst, algo_start, count }
-    }
-}
+module_of_registers!(CentroidEstimator);
 
 impl SlotEstimator for CentroidEstimator {
     type In = In;
@@ -242,50 +218,12 @@ impl CentroidEstimator {
         }
         d
     }
-
-    /// Takes this cycle's word and those of the window that ends before it.
-    fn look(&self, i: &In, p: &Params, d: &mut Registers) {
-        let q = &self.registers;
-        let first = self.window[q.first.index()];
-        d.whole = q.step.get() >= 2 * p.half_width;
-        d.first = if q.whole { q.first + 1 } else { U::new(1) };
-        d.entering = if q.read_en { i.count } else { U::new(0) };
-        d.leaving = if q.whole { first } else { U::new(0) };
-        d.level = if !p.background {
-            U::new(0)
-        } else if q.whole {
-            first
-        } else {
-            U::new((2 * first.get()).min(p.histogram.most_hits()))
-        };
-        d.centre = self.window[(q.step - p.half_width).index() % WORDS];
-    }
 }
 
 impl Registers {
     /// Cycles since e0, up to the one of `algo_done`.
     pub fn phase(&self, p: &Params) -> Option<u64> {
         if self.algo_done { Some(p.done()) } else { self.busy.then(|| self.step.get()) }
-    }
-
-    /// Makes of those words what the sums need.
-    fn weigh(&self, p: &Params, d: &mut Registers) {
-        let centred = self.step.get() > p.half_width + 1;
-        let over = self.centre.get().saturating_sub(self.level.get());
-        d.change = S::new(self.entering.get() as i64 - self.leaving.get() as i64);
-        d.weighted = U::new((2 * p.half_width + 1) * self.leaving.get());
-        d.height = U::new(if centred { over } else { 0 });
-    }
-
-    /// Keeps the window if its centre is the highest, and slides it on.
-    fn slide(&self, p: &Params, d: &mut Registers) {
-        if self.height.get() > self.best.get() {
-            (d.best, d.best_sum) = (self.height, self.sum);
-            d.peak = U::new(self.step.get() - SUMS - 1 - p.half_width);
-            d.remainder = U::new(self.ages.get());
-        }
-        d.sum = U::new((self.sum.get() as i64 + self.change.get()) as u64);
-        d.ages = self.ages + self.sum.get() - self.weighted.get();
     }
 
     /// One bit of `remainder` / `best_sum`, by restoring division.

@@ -11,28 +11,17 @@ use datapath::Datapath;
 
 use std::sync::Arc;
 
+use crate::connect;
 use crate::kernel::Clocked;
-use crate::{connect, signals};
 
 use super::estimator_ctrl::{self, EstimatorCtrl};
 use super::forward1::{self, Forward1, Row};
 use super::forward2::{self, Forward2};
-use super::histogram_builder::{self, Count};
+use super::histogram_builder;
 use super::tansig::{self, Tansig};
-use super::tof_top::slot::{Assumptions, EstimateWords, SlotEstimator, SlotIn, SlotOut};
+use super::tof_top::slot::{Assumptions, EstimateWords, SlotEstimator, SlotOut};
 
-signals! {
-    /// Input ports.
-    pub struct In {
-        /// Synchronous reset.
-        pub rst: bool,
-        /// Starts an estimation.
-        pub algo_start: bool,
-        /// Word of the histogram at `read_addr` [hits].
-        #[size(CountBits)]
-        pub count: Count,
-    }
-}
+pub use super::tof_top::slot::HistogramIn as In;
 
 /// ROM contents.
 #[derive(Clone, Debug)]
@@ -61,21 +50,16 @@ pub struct DepthEstimator {
 connect! {
     /// Port connections.
     pub struct Wires(this: &DepthEstimator, i: &In) {
-        output read_en <- this.estimator_ctrl.read_en;
-        output read_addr <- this.estimator_ctrl.read_addr;
+        output [read_en, read_addr] <- this.estimator_ctrl;
         output depth <- this.forward2.depth;
         output algo_done <- this.estimator_ctrl.algo_done;
     }
     estimator_ctrl(clk_sys): estimator_ctrl::In {
-        rst <- i.rst;
-        algo_start <- i.algo_start;
+        [rst, algo_start] <- i;
     }
     forward1(clk_sys): forward1::In {
-        rst <- i.rst;
-        forward1_first <- this.estimator_ctrl.forward1_first;
-        forward1_en <- this.estimator_ctrl.forward1_en;
-        rom_addr <- this.estimator_ctrl.rom_addr;
-        count <- i.count;
+        [rst, count] <- i;
+        [forward1_first, forward1_en, rom_addr] <- this.estimator_ctrl;
     }
     tansig(clk_sys): tansig::In {
         rst <- i.rst;
@@ -84,11 +68,8 @@ connect! {
     }
     forward2(clk_sys): forward2::In {
         rst <- i.rst;
-        pair <- this.estimator_ctrl.pair;
-        forward2_first <- this.estimator_ctrl.forward2_first;
-        forward2_en <- this.estimator_ctrl.forward2_en;
-        depth_en <- this.estimator_ctrl.depth_en;
         l1_out <- this.tansig.l1_out;
+        [pair, forward2_first, forward2_en, depth_en] <- this.estimator_ctrl;
     }
 }
 
@@ -101,12 +82,6 @@ impl Params {
     /// Returns the parameters of the control's steps.
     pub fn ctrl(&self) -> estimator_ctrl::Params {
         estimator_ctrl::Params { bins: self.forward1.w1.len(), neurons: self.neurons() }
-    }
-}
-
-impl From<SlotIn> for In {
-    fn from(SlotIn { rst, algo_start, count, .. }: SlotIn) -> Self {
-        In { rst, algo_start, count }
     }
 }
 

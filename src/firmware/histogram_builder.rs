@@ -7,8 +7,7 @@
 //! early. A hit that meets `clear` in any of its three cycles is lost. Nothing has a reset.
 
 use crate::kernel::U;
-use crate::kernel::module::{Module, Visitor};
-use crate::signals;
+use crate::{module_of_registers, signals};
 
 /// Words of the histogram unless elaboration says otherwise.
 pub const BINS: usize = 256;
@@ -107,15 +106,8 @@ impl Default for HistogramBuilder {
     }
 }
 
-impl Module for HistogramBuilder {
-    const COUNT: usize = <Registers as Module>::COUNT;
-
-    /// The words of the RAM come after all registers (see [`crate::hierarchy`]).
-    #[inline(always)]
-    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
-        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
-    }
-}
+// The words of the RAM come after all registers (see `crate::hierarchy`).
+module_of_registers!(HistogramBuilder);
 
 impl HistogramBuilder {
     /// An empty histogram.

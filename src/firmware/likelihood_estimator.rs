@@ -1,4 +1,4 @@
-//! Maximum likelihood in integers: a depth at the Cramér-Rao bound, its deviation, and whether to believe it.
+//! Maximum likelihood in integers: a depth at the Cramér-Rao bound, its standard deviation, and its status.
 //!
 //! Of the R shots that still wait when a bin begins, n end in it, and n is binomial with the chance
 //! 1 - exp(-lambda): lambda = b W + S G(mu), for a bin of width W into which the part G of a pulse around mu
@@ -28,12 +28,13 @@ pub mod tables;
 pub mod words;
 
 use super::forward2::Depth;
-use super::histogram_builder::Count;
 use super::likelihood_memory::{self, LikelihoodMemory, Place};
 use super::likelihood_scan::{self, LikelihoodScan};
 use super::likelihood_solver::{self, LikelihoodSolver};
 use super::likelihood_sums::{self, LikelihoodSums};
 use super::likelihood_terms::{self, LikelihoodTerms};
+
+pub use super::tof_top::slot::SlotIn as In;
 
 states! {
     /// States of the estimator.
@@ -42,37 +43,22 @@ states! {
         Idle,
         /// Reads the histogram.
         Load,
-        /// Works out the ambient light.
+        /// Computes the ambient light.
         Ambient,
         /// Slides the box.
         Scan,
-        /// Works out where the fit begins.
+        /// Computes the begin of the fit.
         Start,
-        /// Goes through the bins of the fit.
+        /// Passes over the bins of the fit.
         Fit,
         /// Takes a step.
         Step,
-        /// Goes through them to see how well they fit.
+        /// Passes over them for the chi-square.
         Check,
         /// Slides the box over all others.
         Rescan,
-        /// Works out what comes out.
+        /// Computes the results.
         End,
-    }
-}
-
-signals! {
-    /// Input ports.
-    pub struct In {
-        /// Synchronous reset.
-        pub rst: bool,
-        /// Starts an estimation.
-        pub algo_start: bool,
-        /// SPADs come back by themselves (MODE 1).
-        pub mode: bool,
-        /// Word of the histogram at `read_addr` [hits].
-        #[size(CountBits)]
-        pub count: Count,
     }
 }
 
@@ -84,7 +70,7 @@ signals! {
         /// Its standard deviation, with as many fraction bits.
         #[view(heading = "Estimator", probe = true)]
         pub sigma: U<36>,
-        /// Why not to believe it; see [`Status`].
+        /// Reasons to reject the depth; see [`Status`].
         #[view(heading = "Estimator", probe = true)]
         pub status: U<7>,
         /// Chi-square of the fit, 8 fraction bits.
@@ -160,80 +146,39 @@ connect! {
     /// Port connections.
     pub struct Wires(this: &LikelihoodEstimator, i: &In) {
         signals registers;
-        output read_en <- this.likelihood_memory.registers.read_en;
-        output read_addr <- this.likelihood_memory.registers.read_addr;
+        output [read_en, read_addr] <- this.likelihood_memory.registers;
     }
     likelihood_memory(clk_sys): likelihood_memory::In {
-        rst <- i.rst;
-        load <- this.registers.load;
-        count <- i.count;
-        pass <- this.registers.pass;
-        scan <- this.registers.scan;
-        fit_begin <- this.registers.fit_begin;
-        fit_end <- this.registers.fit_end;
-        phase <- this.registers.phase;
+        [rst, count] <- i;
+        [load, pass, scan, fit_begin, fit_end, phase] <- this.registers;
     }
     likelihood_terms(clk_sys): likelihood_terms::In {
-        phase <- this.registers.phase;
-        scan <- this.registers.scan;
-        arrival <- this.likelihood_solver.registers.arrival;
-        strength <- this.likelihood_solver.registers.strength;
-        ambient <- this.likelihood_solver.registers.ambient;
-        word_bin <- this.likelihood_memory.registers.word_bin;
-        word_rest <- this.likelihood_memory.registers.word_rest;
-        word_edge <- this.likelihood_memory.registers.word_edge;
-        word_slide <- this.likelihood_memory.registers.word_slide;
-        word_first <- this.likelihood_memory.registers.word_first;
-        word_ended <- this.likelihood_memory.registers.word_ended;
-        word_waiting <- this.likelihood_memory.registers.word_waiting;
-        word_width <- this.likelihood_memory.registers.word_width;
-        word_end <- this.likelihood_memory.registers.word_end;
+        [phase, scan] <- this.registers;
+        [arrival, strength, ambient] <- this.likelihood_solver.registers;
+        [
+            word_bin, word_rest, word_edge, word_slide, word_first, word_ended, word_waiting,
+            word_width, word_end
+        ] <- this.likelihood_memory.registers;
     }
     likelihood_sums(clk_sys): likelihood_sums::In {
         pass <- this.registers.sums;
-        check <- this.registers.check;
-        phase <- this.registers.phase;
-        residual <- this.likelihood_terms.residual;
-        predicted <- this.likelihood_terms.predicted;
-        gain <- this.likelihood_terms.gain;
-        share <- this.likelihood_terms.share;
-        slope <- this.likelihood_terms.slope;
-        single <- this.likelihood_terms.single;
+        [check, phase] <- this.registers;
+        [residual, predicted, gain, share, slope, single] <- this.likelihood_terms;
     }
     likelihood_scan(clk_sys): likelihood_scan::In {
-        load <- this.registers.load;
-        block_done <- this.likelihood_memory.registers.block_done;
-        block_ended <- this.likelihood_memory.registers.block_ended;
-        block_exposure <- this.likelihood_memory.registers.block_exposure;
-        pass <- this.registers.pass;
-        scan <- this.registers.scan;
-        phase <- this.registers.phase;
-        slide <- this.likelihood_terms.slide;
-        residual <- this.likelihood_terms.residual;
-        predicted <- this.likelihood_terms.predicted;
-        middle <- this.likelihood_terms.middle;
-        waits <- this.likelihood_terms.waits;
+        [load, pass, scan, phase] <- this.registers;
+        [block_done, block_ended, block_exposure] <- this.likelihood_memory.registers;
+        [slide, residual, predicted, middle, waits] <- this.likelihood_terms;
     }
     likelihood_solver(clk_sys): likelihood_solver::In {
         rst <- i.rst;
-        run <- this.registers.run;
-        entry <- this.registers.entry;
-        ambient_ended <- this.likelihood_scan.registers.ambient_ended;
-        ambient_exposure <- this.likelihood_scan.registers.ambient_exposure;
-        lone <- this.likelihood_scan.registers.lone;
-        best_excess <- this.likelihood_scan.registers.best_excess;
-        best_middle <- this.likelihood_scan.registers.best_middle;
-        box_length <- this.likelihood_scan.registers.box_length;
-        box_sum <- this.likelihood_scan.registers.box_sum;
-        sum_11 <- this.likelihood_sums.sum_11;
-        sum_12 <- this.likelihood_sums.sum_12;
-        sum_13 <- this.likelihood_sums.sum_13;
-        sum_22 <- this.likelihood_sums.sum_22;
-        sum_23 <- this.likelihood_sums.sum_23;
-        sum_33 <- this.likelihood_sums.sum_33;
-        score_1 <- this.likelihood_sums.score_1;
-        score_2 <- this.likelihood_sums.score_2;
-        score_3 <- this.likelihood_sums.score_3;
+        [run, entry] <- this.registers;
+        [
+            ambient_ended, ambient_exposure, lone, best_excess, best_middle, box_length, box_sum
+        ] <- this.likelihood_scan.registers;
+        [
+            sum_11, sum_12, sum_13, sum_22, sum_23, sum_33, score_1, score_2, score_3
+        ] <- this.likelihood_sums;
     }
 }
 

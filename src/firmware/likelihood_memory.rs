@@ -12,8 +12,7 @@
 //! ```
 
 use crate::kernel::U;
-use crate::kernel::module::{Module, Visitor};
-use crate::signals;
+use crate::{module_of_registers, signals};
 
 use super::histogram_builder::{Bin, Count, MOST_BINS};
 use super::likelihood_estimator::params::Params;
@@ -227,14 +226,7 @@ impl Default for LikelihoodMemory {
     }
 }
 
-impl Module for LikelihoodMemory {
-    const COUNT: usize = <Registers as Module>::COUNT;
-
-    #[inline(always)]
-    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
-        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
-    }
-}
+module_of_registers!(LikelihoodMemory);
 
 impl LikelihoodMemory {
     /// The rising edge of `clk_sys`.

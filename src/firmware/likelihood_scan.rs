@@ -13,9 +13,8 @@
 //! Of eight blocks, as far as they have a 64th of the first one's exposure, the one at 3/8 of the order of hazards
 //! is kept: it is among the lowest three.
 
-use crate::kernel::module::{Module, Visitor};
 use crate::kernel::{S, U};
-use crate::signals;
+use crate::{module_of_registers, signals};
 
 use super::histogram_builder::{Bin, Count, MOST_BINS};
 use super::likelihood_estimator::params::Params;
@@ -225,14 +224,7 @@ impl Default for LikelihoodScan {
     }
 }
 
-impl Module for LikelihoodScan {
-    const COUNT: usize = <Registers as Module>::COUNT;
-
-    #[inline(always)]
-    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
-        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
-    }
-}
+module_of_registers!(LikelihoodScan);
 
 impl LikelihoodScan {
     /// The rising edge of `clk_sys`.

@@ -9,9 +9,8 @@
 //! `sequence` begins instructions and moves them on, `operands` reads and writes words, and between the two are
 //! `arithmetic` and `division`.
 
-use crate::kernel::module::{Module, Visitor};
 use crate::kernel::{S, U};
-use crate::signals;
+use crate::{module_of_registers, signals};
 
 use super::histogram_builder::Count;
 use super::likelihood_estimator::params::Params;
@@ -240,14 +239,7 @@ impl Default for LikelihoodSolver {
     }
 }
 
-impl Module for LikelihoodSolver {
-    const COUNT: usize = <Registers as Module>::COUNT;
-
-    #[inline(always)]
-    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
-        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
-    }
-}
+module_of_registers!(LikelihoodSolver);
 
 impl LikelihoodSolver {
     /// The instruction that it is at.

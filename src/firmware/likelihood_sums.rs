@@ -133,13 +133,13 @@ signals! {
         /// Their product.
         #[size(FourthProductBits)]
         fourth_product: S<42>,
-        /// w, half a beat early.
+        /// w, one cycle ahead.
         #[size(WeightBits)]
         weight_first: Weight,
-        /// v s, half a beat early.
+        /// v s, one cycle ahead.
         #[size(ResidualBits)]
         seen_first: Residual,
-        /// The square of v, half a beat early.
+        /// The square of v, one cycle ahead.
         #[size(SquareBits)]
         square_first: U<48>,
         /// w.
@@ -186,7 +186,7 @@ signals! {
         over: U<24>,
         /// The reciprocal of that variance's mantissa.
         reciprocal: U<10>,
-        /// w s s, or a term of the chi-square, half a beat early.
+        /// w s s, or a term of the chi-square, one cycle ahead.
         #[size(WeightBits)]
         twice_first: Weight,
         /// w s s.
@@ -195,7 +195,7 @@ signals! {
         /// w s (1 - s).
         #[size(MixedBits)]
         mixed: S<33>,
-        /// w s s z, half a beat early.
+        /// w s s z, one cycle ahead.
         #[size(WeightSlopeBits)]
         tz_first: S<41>,
         /// w s s z.

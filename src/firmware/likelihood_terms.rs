@@ -146,7 +146,7 @@ signals! {
         rise: U<17>,
         /// Increase of the part to the time, in the first cycle of a beat [16ths].
         risen: U<21>,
-        /// Part of the pulse before the word's end, half a beat early.
+        /// Part of the pulse before the word's end, one cycle ahead.
         pulse_part: U<17>,
         /// Slope there.
         pulse_slope: Slope,
@@ -182,7 +182,7 @@ signals! {
         signal_hazard: [Hazard; 2],
         /// Bits of the hazard.
         bits: [U<5>; 5],
-        /// The hazard's mantissa, half a beat early.
+        /// The hazard's mantissa, one cycle ahead.
         mantissa_first: U<14>,
         /// The hazard's mantissa.
         mantissa: [U<14>; 3],
@@ -202,7 +202,7 @@ signals! {
         many_left: U<17>,
         /// Three times that.
         triple_left: U<19>,
-        /// Increase of k within a quarter, half a beat early, 22 fraction bits; then the share.
+        /// Increase of k within a quarter, one cycle ahead, 22 fraction bits; then the share.
         grown: U<24>,
         /// k at the quarter before.
         k_before: K,
@@ -210,7 +210,7 @@ signals! {
         k: K,
         /// k less lambda.
         gains: [U<13>; 3],
-        /// s, half a beat early.
+        /// s, one cycle ahead.
         share_first: Share,
         /// s.
         shares: [Share; 3],
@@ -224,7 +224,7 @@ signals! {
         shots_product: U<51>,
         /// Half of what is cut off it.
         half: U<24>,
-        /// n k and half of what is cut off it, half a beat early, 12 fraction bits.
+        /// n k and half of what is cut off it, one cycle ahead, 12 fraction bits.
         #[size(EndedBits)]
         ended_k_first: U<51>,
         /// n k and that half.

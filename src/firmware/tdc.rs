@@ -120,32 +120,22 @@ pub struct Tdc {
 connect! {
     /// Port connections.
     pub struct Wires(this: &Tdc, i: &In) {
-        output tdc_code <- this.tdc_decoder.tdc_code;
-        output tdc_valid <- this.tdc_decoder.tdc_valid;
-        output n <- this.tdc_decoder.n;
-        output n_valid <- this.tdc_decoder.n_valid;
+        output [tdc_code, tdc_valid, n, n_valid] <- this.tdc_decoder;
     }
     carry_chain(clk_sys): carry_chain::In {
         tdc_stop <- i.tdc_stop;
     }
     coarse_counter(clk_sys): coarse_counter::In {
-        rst <- i.rst;
-        start <- i.start;
+        [rst, start] <- i;
     }
     tdc_latch(clk_sys): tdc_latch::In {
-        rst <- i.rst;
-        start <- i.start;
-        window <- this.coarse_counter.window;
-        free <- i.free;
-        coarse <- this.coarse_counter.coarse;
         taps <- this.carry_chain.taps;
+        [rst, start, free] <- i;
+        [window, coarse] <- this.coarse_counter;
     }
     tdc_decoder(clk_sys): tdc_decoder::In {
-        rst <- i.rst;
-        hit <- this.tdc_latch.hit;
-        hit_coarse <- this.tdc_latch.hit_coarse;
-        hit_taps <- this.tdc_latch.hit_taps;
-        calibrated_age <- i.calibrated_age;
+        [rst, calibrated_age] <- i;
+        [hit, hit_coarse, hit_taps] <- this.tdc_latch;
     }
 }
 

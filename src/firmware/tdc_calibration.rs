@@ -1,4 +1,4 @@
-//! Calibrates the TDC between two frames: counts hits that know nothing of the clock, and works out ages from them.
+//! Calibrates the TDC between two frames: counts hits uncorrelated with the clock, and computes ages from them.
 //!
 //! Mirrors `rtl_ref/tdc_calibration.v`. Of hits that are spread evenly over a clock period, as many have an `n` as
 //! the ages that give it are wide. With C hits of less, c of its own and 2^k in all, the middle of those ages is
@@ -21,8 +21,7 @@
 //! many frames. Hits have to be two cycles or more apart.
 
 use crate::kernel::U;
-use crate::kernel::module::{Module, Visitor};
-use crate::{signals, states};
+use crate::{module_of_registers, signals, states};
 
 mod params;
 
@@ -129,14 +128,7 @@ pub struct TdcCalibration {
     pub ram: Box<[Word]>,
 }
 
-impl Module for TdcCalibration {
-    const COUNT: usize = <Registers as Module>::COUNT;
-
-    #[inline(always)]
-    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
-        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
-    }
-}
+module_of_registers!(TdcCalibration);
 
 impl TdcCalibration {
     /// At power-up.

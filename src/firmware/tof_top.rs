@@ -25,6 +25,7 @@ use super::{lvds_output, pll};
 
 pub mod estimator_params;
 mod estimators;
+mod nets;
 mod ports;
 mod sizes;
 pub mod slot;
@@ -86,28 +87,16 @@ connect! {
         signals clocks, pins, nets;
         wire rst_sys <- this.reset_sync_sys.rst_sync;
         wire rst_laser <- this.reset_sync_laser.rst_sync;
-        wire mode_sync <- this.control_sync.mode_sync;
-        wire laser_freq_sync <- this.control_sync.laser_freq_sync;
-        wire laser_en_sync <- this.control_sync.laser_en_sync;
-        wire dsp_en_sync <- this.control_sync.dsp_en_sync;
-        wire dsp_rst_sync <- this.control_sync.dsp_rst_sync;
-        wire clear <- this.frame_ctrl.clear;
-        wire clear_addr <- this.frame_ctrl.clear_addr;
-        wire acquire <- this.frame_ctrl.acquire;
-        wire algo_start <- this.frame_ctrl.algo_start;
-        wire pre_start <- this.vcsel_driver.registers.pre_start;
-        wire start <- this.vcsel_driver.registers.start;
-        wire read_en <- this.slot.read_en;
-        wire read_addr <- this.slot.read_addr;
+        wire [mode_sync, laser_freq_sync, laser_en_sync] <- this.control_sync;
+        wire [dsp_en_sync, dsp_rst_sync] <- this.control_sync;
+        wire [clear, clear_addr, acquire, algo_start] <- this.frame_ctrl;
+        wire [pre_start, start] <- this.vcsel_driver.registers;
+        wire [read_en, read_addr] <- this.slot;
         output laser_on_lvds_p <- this.lvds_output.o;
         output laser_on_lvds_n <- this.lvds_output.ob;
         output ring_on <- this.tdc_calibration.registers.ring_on;
-        output spad_rst <- this.spad_control.spad_rst;
-        output spad_sel <- this.spad_control.spad_sel;
-        output depth <- this.slot.words.depth;
-        output sigma <- this.slot.words.sigma;
-        output status <- this.slot.words.status;
-        output valid <- this.slot.words.valid;
+        output [spad_rst, spad_sel] <- this.spad_control;
+        output [depth, sigma, status, valid] <- this.slot.words;
         output algo_done <- this.slot.algo_done;
         output hist_valid <- this.slot.read_en;
         output hist_bin <- this.slot.read_addr;
@@ -125,11 +114,7 @@ connect! {
         locked <- this.pll.locked;
     }
     control_sync(clk_sys): control_sync::In {
-        mode <- this.pins.mode;
-        laser_freq <- this.pins.laser_freq;
-        laser_en <- this.pins.laser_en;
-        dsp_en <- this.pins.dsp_en;
-        dsp_rst <- this.pins.dsp_rst;
+        [mode, laser_freq, laser_en, dsp_en, dsp_rst] <- this.pins;
     }
     frame_ctrl(clk_sys): frame_ctrl::In {
         rst <- this.reset_sync_sys.rst_sync;
@@ -163,22 +148,17 @@ connect! {
     }
     tdc_calibration(clk_sys): tdc_calibration::In {
         rst <- this.nets.rst_dsp;
-        clear <- this.frame_ctrl.clear;
-        frame_done <- this.frame_ctrl.frame_done;
-        n_valid <- this.tdc.tdc_decoder.n_valid;
-        n <- this.tdc.tdc_decoder.n;
+        [clear, frame_done] <- this.frame_ctrl;
+        [n_valid, n] <- this.tdc.tdc_decoder;
     }
     code_preload(clk_sys): code_preload::In {
         rst <- this.nets.rst_dsp;
         start <- this.vcsel_driver.registers.start;
     }
     histogram_builder(clk_sys): histogram_builder::In {
-        clear <- this.frame_ctrl.clear;
-        clear_addr <- this.frame_ctrl.clear_addr;
-        tdc_valid <- this.nets.tdc_valid;
-        tdc_code <- this.nets.tdc_code;
-        read_en <- this.slot.read_en;
-        read_addr <- this.slot.read_addr;
+        [clear, clear_addr] <- this.frame_ctrl;
+        [tdc_valid, tdc_code] <- this.nets;
+        [read_en, read_addr] <- this.slot;
     } -> { count: this.nets.count, }
     histogram_preload(): histogram_preload::In {
         read_addr <- this.slot.read_addr;
@@ -262,56 +242,6 @@ impl TofTop {
     pub fn fall_laser(&mut self) {
         self.vcsel_driver.fall_laser();
         self.drive_laser();
-    }
-
-    /// Takes the edge's part of the TDC or of its stand-in.
-    #[inline(always)]
-    pub(crate) fn convert(
-        &mut self,
-        p: &Params,
-        tdc: &tdc::In,
-        code_preload: &code_preload::In,
-        taps: Taps,
-    ) {
-        match &p.code_source {
-            CodeSource::Tdc => self.tdc.rise(tdc, &p.tdc, taps),
-            CodeSource::Preload(rom) => {
-                self.code_preload = self.code_preload.next(code_preload, rom);
-            }
-        }
-    }
-
-    /// The code, from the registers of its source.
-    #[inline(always)]
-    pub(crate) fn take_code(&mut self, p: &Params) {
-        (self.nets.tdc_valid, self.nets.tdc_code) = match &p.code_source {
-            CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
-            CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
-        };
-    }
-
-    /// Combinational wires, which only registers drive. Every edge does this; at power-up it is for
-    /// who makes the device.
-    #[inline(always)]
-    pub fn settle(&mut self, p: &Params) {
-        self.nets.rst_dsp = self.reset_sync_sys.rst_sync || self.control_sync.dsp_rst_sync;
-        self.take_code(p);
-        self.nets.count = match &p.histogram_source {
-            HistogramSource::Builder => {
-                self.histogram_builder.count(&Wires::histogram_builder(self))
-            }
-            HistogramSource::Preload(rom) => {
-                histogram_preload::count(&Wires::histogram_preload(self), rom)
-            }
-        };
-        self.drive_laser();
-    }
-
-    /// The laser's pins, from the driver's register.
-    #[inline(always)]
-    pub(crate) fn drive_laser(&mut self) {
-        self.nets.laser_on = self.vcsel_driver.laser_on();
-        self.lvds_output = lvds_output::out(&lvds_output::In { i: self.nets.laser_on });
     }
 }
 

@@ -8,20 +8,23 @@
 /// it. In the braces after the struct stand the fields with signals of the container's own, then its
 /// wires and output ports that show what a module inside holds. Each module is a field of the container
 /// and has, in parentheses, its clock ports, with `port <- clock` where that is called otherwise. A
-/// source is a path that begins with the container (`this`) or with the container's own input ports;
-/// after `->` stand output ports of a module that are no registers of it. `#[watches]` marks a module
-/// that nothing reads: runs that nobody traces need not move it.
+/// source is a path that begins with the container (`this`) or with the container's own input ports. Names
+/// in brackets have the signals of the same names in one source. After `->` stand output ports of a module that are no
+/// registers of it. `#[watches]` marks a module that nothing reads: runs that nobody traces need not move it.
 #[macro_export]
 macro_rules! connect {
     (
         $(#[$doc:meta])*
         $vis:vis struct $Wires:ident $from:tt {
             $(signals $($own:ident),+;)?
-            $(wire $wire:ident <- this $(. $wire_from:ident)+;)*
-            $(output $output:ident <- this $(. $output_from:ident)+;)*
+            $(wire $($wire:ident <- this $(. $wire_from:ident)+)?
+                $([$($wires:ident),+] <- $wires_from:expr)?;)*
+            $(output $($output:ident <- this $(. $output_from:ident)+)?
+                $([$($outputs:ident),+] <- $outputs_from:expr)?;)*
         }
         $($(#[$mark:ident])? $module:ident ($($clock:ident $(<- $clock_from:ident)?),*): $file:ident::In {
-            $($port:ident <- $root:ident $(. $field:ident)+;)*
+            $($($port:ident <- $root:ident $(. $field:ident)+)?
+                $([$($ports:ident),+ $(,)?] <- $ports_from:expr)?;)*
         } $(-> { $($driver:ident: this $(. $driven:ident)+,)+ })?)*
     ) => {
         $(#[$doc])*
@@ -38,7 +41,9 @@ macro_rules! connect {
                 #[inline(always)]
                 #[allow(unused_variables, reason = "a module may be fed from one side only")]
                 $vis fn $module $from -> $file::In {
-                    $file::In { $($port: $root $(. $field)+,)* }
+                    $file::In {
+                        $($($port: $root $(. $field)+,)? $($($ports: $ports_from.$ports,)+)?)*
+                    }
                 }
             )*
         }
@@ -60,26 +65,30 @@ macro_rules! connect {
                     then.as_deref_mut().map(|then| &mut then.$own),
                 );)+)?
                 visitor.aliases(const { &[
-                    $($crate::kernel::module::Alias {
-                        name: stringify!($wire),
-                        output: false,
-                        source: concat!("this" $(, ".", stringify!($wire_from))+),
-                    },)*
-                    $($crate::kernel::module::Alias {
-                        name: stringify!($output),
-                        output: true,
-                        source: concat!("this" $(, ".", stringify!($output_from))+),
-                    },)*
+                    $(
+                        $($crate::connect!(@alias $wire, false, "this" $(, ".", stringify!($wire_from))+),)?
+                        $($($crate::connect!(@alias $wires, false, stringify!($wires_from), ".", stringify!($wires)),)+)?
+                    )*
+                    $(
+                        $($crate::connect!(@alias $output, true, "this" $(, ".", stringify!($output_from))+),)?
+                        $($($crate::connect!(@alias $outputs, true, stringify!($outputs_from), ".", stringify!($outputs)),)+)?
+                    )*
                 ] });
                 $(visitor.module(
                     const { &$crate::kernel::module::Instance {
                         name: stringify!($module),
                         clocks: &[$($crate::connect!(@clock $clock $($clock_from)?)),*],
                         inputs: <$file::In as $crate::kernel::signals::Signals>::list,
-                        sources: &[$((
-                            stringify!($port),
-                            concat!(stringify!($root) $(, ".", stringify!($field))+),
-                        ),)*],
+                        sources: &[$(
+                            $((
+                                stringify!($port),
+                                concat!(stringify!($root) $(, ".", stringify!($field))+),
+                            ),)?
+                            $($((
+                                stringify!($ports),
+                                concat!(stringify!($ports_from), ".", stringify!($ports)),
+                            ),)+)?
+                        )*],
                         outputs: &[$($((
                             stringify!($driver),
                             concat!("this" $(, ".", stringify!($driven))+),
@@ -89,6 +98,13 @@ macro_rules! connect {
                     then.as_deref_mut().map(|then| &mut then.$module),
                 );)*
             }
+        }
+    };
+    (@alias $name:ident, $output:literal, $($source:tt)+) => {
+        $crate::kernel::module::Alias {
+            name: stringify!($name),
+            output: $output,
+            source: concat!($($source)+),
         }
     };
     (@container ($this:ident: &$Container:ident $($rest:tt)*)) => { $Container };

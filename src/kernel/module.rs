@@ -56,6 +56,26 @@ impl<S: Signals> Module for S {
     }
 }
 
+/// Makes a module of a struct whose signals are those of its field `registers`: what else it has are memories.
+#[macro_export]
+macro_rules! module_of_registers {
+    ($Block:ident) => {
+        impl $crate::kernel::module::Module for $Block {
+            const COUNT: usize = $crate::kernel::module::count(|block: &Self| &block.registers);
+
+            #[inline(always)]
+            fn visit(
+                &self,
+                then: Option<&mut Self>,
+                visitor: &mut impl $crate::kernel::module::Visitor,
+            ) {
+                let registers = then.map(|then| &mut then.registers);
+                visitor.signals("registers", &self.registers, registers);
+            }
+        }
+    };
+}
+
 /// Signals in the module that a field of `M` is.
 #[doc(hidden)]
 pub const fn count<M, F: Module>(_: fn(&M) -> &F) -> usize {

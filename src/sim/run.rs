@@ -2,13 +2,13 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::error::{Error, Input, Result};
+use crate::error::{Error, Input, Result, poll_stop};
 use crate::kernel::Time;
 use crate::note::Note;
 use crate::scenario::window::Window;
 use crate::waves::{Marks, Waves};
 
-use super::callback::{Callback, call, poll_stop};
+use super::callback::{Callback, call};
 use super::clockwork::{Clockwork, Event};
 use super::device::Off;
 use super::frames::Frame;

@@ -78,13 +78,13 @@ impl SecondOpinion {
         Estimate { chi_square: Some(found.chi_square()), ..words }
     }
 
-    /// Name of the estimator in the firmware's socket.
+    /// Name of the estimator in the firmware's slot.
     pub fn socket(&self) -> &'static str {
         self.socket.name
     }
 
-    /// How far the depth of the socket may be from that of a second opinion: six standard deviations of their
-    /// difference [m].
+    /// Largest accepted difference between the depth of that estimator and a second opinion: six standard deviations
+    /// [m].
     pub fn allowed_m(&self, opinion: &Estimate) -> f64 {
         let (depth_m, sigma_m) =
             (opinion.depth_m.unwrap_or(f64::NAN), opinion.sigma_m.unwrap_or(0.0));

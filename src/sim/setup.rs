@@ -95,7 +95,7 @@ impl Setup {
         Setup::new(scenario::load(name, &overrides)?)
     }
 
-    /// Loads the files that the scenario names and works out what it sets.
+    /// Loads the files that the scenario names, and elaborates it.
     ///
     /// # Errors
     /// When one of the files cannot be read or used, or the estimator is a network for another histogram.

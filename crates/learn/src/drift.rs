@@ -3,12 +3,12 @@
 //! The conditions are constant within a frame, because a die takes seconds for a degree. Both calibrations are exact
 //! when they are made, and use the same random numbers at each moment.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Input, Result, poll_stop};
 use tofsim::scenario::Loaded;
 use tofsim::scenario::drift::{Moment, Profile};
 use tofsim::sim::setup::Setup;
@@ -76,9 +76,7 @@ impl Drift {
         }
         let (moments, begin) = (profile.moments(), profile.moments()[0]);
         let point = |(index, &moment): (usize, &Moment)| {
-            if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-                return Err(Error::Interrupted);
-            }
+            poll_stop(stop)?;
             let rounds = ((moment.time_s - begin.time_s) / every_s).floor();
             let last = profile.at(begin.time_s + rounds * every_s);
             let rows = index as u64 * repeats..(index as u64 + 1) * repeats;

@@ -2,14 +2,13 @@
 
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde_json::json;
 
-use tofsim::error::{Error, Input};
+use tofsim::error::{Input, poll_stop};
 use tofsim_cli::verbs::scenes::Scenes;
 use tofsim_learn::dataset::grid::{DISTANCE, IRRADIANCE, MOST_ROWS, REFLECTANCE};
 use tofsim_learn::dataset::{BLOCK, Grid, GridPurpose, Rows, Sample, Subset};
@@ -69,9 +68,7 @@ impl Dataset {
         running::run(py, Terms { threads, progress: None }, move |watch| {
             let mut samples = Vec::new();
             for from in range.clone().step_by(BLOCK as usize) {
-                if watch.stop.load(Ordering::Relaxed) {
-                    return Err(Error::Interrupted);
-                }
+                poll_stop(Some(&watch.stop))?;
                 let block = from..range.end.min(from + BLOCK);
                 samples.extend(drawn.scenes.source.block(&drawn.rows, drawn.seed, block));
             }

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use tofsim::Setup;
-use tofsim::error::{Error, Input};
+use tofsim::error::{Input, poll_stop};
 use tofsim::sim::stepped::{SignalHandle, SteppedRun};
 
 use crate::arrays::table;
@@ -82,8 +82,8 @@ impl Device {
         running::run(py, Terms { threads: Some(1), progress: None }, move |watch| {
             let mut state = locked(&state);
             for edge in 0..edges {
-                if edge % BETWEEN == 0 && watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
-                    return Err(Error::Interrupted);
+                if edge % BETWEEN == 0 {
+                    poll_stop(Some(&watch.stop))?;
                 }
                 state.step();
             }
@@ -107,8 +107,8 @@ impl Device {
             let mut state = locked(&state);
             let mut values = Vec::new();
             for edge in 0..edges {
-                if edge % BETWEEN == 0 && watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
-                    return Err(Error::Interrupted);
+                if edge % BETWEEN == 0 {
+                    poll_stop(Some(&watch.stop))?;
                 }
                 state.step();
                 values.extend(handles.iter().map(|handle| state.run.value(*handle)));

@@ -1,4 +1,4 @@
-//! Light that comes back, and depths of histograms of one's own.
+//! Light that comes back, and depths of your own histograms.
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use tofsim::Setup;
-use tofsim::error::Input;
+use tofsim::error::{Input, poll_stop};
 use tofsim_cli::report::link_budget::LinkBudget;
 use tofsim_cli::report::writer::Findings;
 use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
@@ -63,9 +63,7 @@ pub fn estimate<'py>(
     let all = running::run(py, Terms { threads, progress: None }, move |watch| {
         let panel = Panel::new(&kinds, &setup)?;
         let one = |row: &Vec<u32>| {
-            if watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
-                return Err(tofsim::Error::Interrupted);
-            }
+            poll_stop(Some(&watch.stop))?;
             let mut estimates = vec![setup.estimate(row)];
             estimates.extend(panel.read(row));
             Ok(estimates)

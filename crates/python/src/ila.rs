@@ -1,13 +1,12 @@
 //! `tofsim.ila`: captures of logic analysers as arrays.
 
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use tofsim::error::{Error, Input};
+use tofsim::error::{Input, poll_stop};
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Column, open};
 use tofsim_cli::choice::RADIX;
@@ -67,8 +66,8 @@ pub fn read_ila<'py>(
         };
         let mut row = CaptureRow::default();
         while opened.rows.next(&mut row)? {
-            if read.samples.is_multiple_of(BETWEEN) && watch.stop.load(Ordering::Relaxed) {
-                return Err(Error::Interrupted);
+            if read.samples.is_multiple_of(BETWEEN) {
+                poll_stop(Some(&watch.stop))?;
             }
             read.take(&row);
         }

@@ -98,7 +98,7 @@ impl Plan {
         self.plan.points.count() as usize
     }
 
-    /// Works out some points; what a table takes of them.
+    /// Evaluates some points; returns their rows.
     #[pyo3(signature = (points, *, threads = None))]
     fn work(
         slf: &Bound<'_, Self>,

@@ -7,7 +7,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use tofsim::error::Input;
+use tofsim::error::{Input, poll_stop};
 use tofsim_captures::source::{Axis, Signal, SignalKind, Source};
 
 use crate::arrays::table;
@@ -63,9 +63,7 @@ pub fn read_waves(py: Python<'_>, path: PathBuf, names: Vec<String>) -> Result<B
         let mut cursor = source.read(&ids)?;
         let mut touched = Vec::new();
         while let Some(at) = cursor.peek()? {
-            if watch.stop.load(std::sync::atomic::Ordering::Relaxed) {
-                return Err(tofsim::Error::Interrupted);
-            }
+            poll_stop(Some(&watch.stop))?;
             touched.clear();
             cursor.take(|signal| touched.push(signal));
             for &signal in &touched {

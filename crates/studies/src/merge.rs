@@ -116,7 +116,8 @@ impl Shards {
         let csv = path.with_extension("csv");
         let count: u64 = self.tables.iter().map(|(_, table)| table.count).sum();
         let mut table = parquet_file::create(&path, &fields, vec![(ABOUT, self.about.clone())])?;
-        let mut text = CsvFile::create(&csv, comment, &fields)?;
+        let names = fields.iter().map(|field| field.name.as_str());
+        let mut text = CsvFile::create(&csv, comment, names)?;
         let shards = self.tables.len() as u64;
         for point in 0..count {
             let (from, shard) = &mut self.tables[(point % shards) as usize];

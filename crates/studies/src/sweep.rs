@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::PoisonError;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Error, Result, poll_stop};
 use tofsim::note::Note;
 
 use crate::header::header;
@@ -67,11 +67,9 @@ pub fn work_out(plan: &Plan, points: &[u64], stop: Option<&AtomicBool>) -> Resul
     points.par_iter().map(|point| entry(plan, *point, stop)).collect()
 }
 
-/// Works out one point, unless it is stopped.
+/// Evaluates one point, unless it is stopped.
 fn entry(plan: &Plan, point: u64, stop: Option<&AtomicBool>) -> Result<Entry> {
-    if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-        return Err(Error::Interrupted);
-    }
+    poll_stop(stop)?;
     let worked = work(plan, point, stop)?;
     Ok(Entry { cells: worked.row.cells, notes: worked.notes })
 }
@@ -203,6 +201,7 @@ impl Sweep<'_> {
     /// Writes the table of a journal.
     fn write(&self, folder: &Path, journal: &Journal) -> Result<Finished> {
         let fields = header(self.plan);
+        let names = fields.iter().map(|field| field.name.as_str());
         let is_whole = self.shard == Shard::WHOLE;
         let mut metadata = vec![(ABOUT, self.about.clone())];
         if !is_whole {
@@ -211,8 +210,7 @@ impl Sweep<'_> {
         let path = self.table(folder);
         let mut table = parquet_file::create(&path, &fields, metadata)?;
         let csv = path.with_extension("csv");
-        let mut text =
-            is_whole.then(|| CsvFile::create(&csv, &self.comment, &fields)).transpose()?;
+        let mut text = is_whole.then(|| CsvFile::create(&csv, &self.comment, names)).transpose()?;
         let mut finished = Finished::default();
         journal.in_order(|entry| {
             finished.add_notes(&entry);

@@ -1,8 +1,8 @@
 //! Simulation of one scenario with one seed.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Result, poll_stop};
 use tofsim::network::Histogram;
 use tofsim::note::{Note, NoteCode};
 use tofsim::scenario::Loaded;
@@ -95,9 +95,7 @@ impl<'a> Trial<'a> {
             Fidelity::Histogram => {
                 let histograms = Histograms::new(setup)?;
                 for index in 0..frames {
-                    if self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-                        return Err(Error::Interrupted);
-                    }
+                    poll_stop(self.stop)?;
                     take(&histograms.frame(index))?;
                 }
             }

@@ -1,17 +1,11 @@
 //! The estimator in the slot of the top: its clock edge, its outputs, and when it rests.
 
 use crate::firmware::histogram_builder;
-use crate::firmware::tof_top::slot::{Assumptions, EstimateWords, SlotEstimator, SlotIn, SlotOut};
+use crate::firmware::tof_top::slot::{Assumptions, EstimateWords, SlotEstimator, SlotOut};
 use crate::kernel::Clocked;
 
 use super::params::Params;
 use super::{In, LikelihoodEstimator, Registers, State, Wires};
-
-impl From<SlotIn> for In {
-    fn from(SlotIn { rst, algo_start, mode, count }: SlotIn) -> Self {
-        In { rst, algo_start, mode, count }
-    }
-}
 
 impl SlotEstimator for LikelihoodEstimator {
     type In = In;

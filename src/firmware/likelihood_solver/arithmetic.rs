@@ -1,5 +1,7 @@
 //! The product of two operands, its shift, and the sum within its limits.
 
+use strum::VariantArray;
+
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::tables::length;
 use crate::firmware::likelihood_estimator::words::{LEAST_SIGNAL, MOST_CHANCE, MOST_LEVEL};
@@ -36,7 +38,7 @@ impl Registers {
 
     /// The product as the instruction shifts it; a divisor is not rounded.
     pub(super) fn shift(&self, p: &Params, d: &mut Self) {
-        let by = match By::ALL[self.by.index() % By::ALL.len()] {
+        let by = match By::VARIANTS[self.by.index() % By::VARIANTS.len()] {
             By::Nothing => 0,
             By::Bits => self.bits.get(),
             By::Exponent => self.exponent.get(),
@@ -73,7 +75,7 @@ impl Registers {
         (d.past, d.opposite) = (self.beyond, (self.shifted.get() < 0) != self.minus);
         d.limits = U::new(self.instruction(6).clamp as u64);
 
-        let [least, most] = match Clamp::ALL[self.limits.index()] {
+        let [least, most] = match Clamp::VARIANTS[self.limits.index()] {
             Clamp::Growth if self.scarce || self.cut != 0 => HELD_GROWTH,
             clamp => p.limits(clamp),
         };

@@ -1,5 +1,7 @@
 //! The instruction set of the solver, and the words of its ROM.
 
+use strum::VariantArray;
+
 /// Operation of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Op {
@@ -17,8 +19,8 @@ pub enum Op {
     End,
 }
 
-/// Addition to a shift.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Addition to a shift, in the order of its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
 pub enum By {
     /// Nothing.
     Nothing,
@@ -34,13 +36,8 @@ pub enum By {
     Metres,
 }
 
-impl By {
-    /// All of them, in the order of their numbers.
-    pub const ALL: [By; 6] = [By::Nothing, By::Bits, By::Exponent, By::Cut, By::Both, By::Metres];
-}
-
-/// Within what limits a result is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Limits within which a result is kept, in the order of their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, VariantArray)]
 pub enum Clamp {
     /// Limits of the word.
     Word,
@@ -56,19 +53,6 @@ pub enum Clamp {
     Window,
     /// Limits of a step in log b.
     Growth,
-}
-
-impl Clamp {
-    /// All of them, in the order of their numbers.
-    pub const ALL: [Clamp; 7] = [
-        Clamp::Word,
-        Clamp::Positive,
-        Clamp::Signal,
-        Clamp::Ambient,
-        Clamp::Chance,
-        Clamp::Window,
-        Clamp::Growth,
-    ];
 }
 
 /// Number of the mark of a magnitude.

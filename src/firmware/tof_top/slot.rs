@@ -6,23 +6,45 @@ use fixed::{FixedI64, FixedU64};
 use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::kernel::U;
+use crate::signals;
 
 /// Standard deviation of a depth, with as many fraction bits as the depth word [2^-29 m].
 pub type Sigma = U<36>;
 /// Status word: each bit a reason to reject the depth (see [`Status`](super::status::Status)).
 pub type StatusBits = U<7>;
 
-/// Input ports of the slot; an estimator has those that it needs.
-#[derive(Clone, Copy, Debug)]
-pub struct SlotIn {
-    /// Synchronous reset.
-    pub rst: bool,
-    /// Starts an estimation.
-    pub algo_start: bool,
-    /// SPADs come back by themselves (MODE 1).
-    pub mode: bool,
-    /// Word of the histogram at `read_addr` [hits].
-    pub count: Count,
+signals! {
+    /// Input ports of the slot; an estimator has those that it needs.
+    pub struct SlotIn {
+        /// Synchronous reset.
+        pub rst: bool,
+        /// Starts an estimation.
+        pub algo_start: bool,
+        /// SPADs come back by themselves (MODE 1).
+        pub mode: bool,
+        /// Word of the histogram at `read_addr` [hits].
+        #[size(CountBits)]
+        pub count: Count,
+    }
+}
+
+signals! {
+    /// Input ports of an estimator that needs the histogram only.
+    pub struct HistogramIn {
+        /// Synchronous reset.
+        pub rst: bool,
+        /// Starts an estimation.
+        pub algo_start: bool,
+        /// Word of the histogram at `read_addr` [hits].
+        #[size(CountBits)]
+        pub count: Count,
+    }
+}
+
+impl From<SlotIn> for HistogramIn {
+    fn from(SlotIn { rst, algo_start, count, .. }: SlotIn) -> Self {
+        HistogramIn { rst, algo_start, count }
+    }
 }
 
 /// Outputs of the estimator in the slot; waveforms show that estimator's own.

@@ -10,10 +10,10 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, poll_stop};
 use crate::kernel::Time;
 use crate::scenario::effects::Method;
-use crate::sim::callback::{Callback, call, poll_stop};
+use crate::sim::callback::{Callback, call};
 use crate::sim::clockwork::Clockwork;
 use crate::sim::device::Off;
 use crate::sim::frames::Frame;

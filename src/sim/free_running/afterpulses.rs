@@ -60,7 +60,7 @@ pub struct Afterpulses {
     /// Mean time from the end of the dead time until they come, if there are enough: the time constant, where there is
     /// one [s].
     pub time_constant_s: Option<Measured>,
-    /// Chance that an avalanche traps a carrier, from both; not told by a mean over two kinds of traps [1].
+    /// Probability that an avalanche traps a carrier, from both; unknown with two kinds of traps [1].
     pub probability: Option<Measured>,
     /// What the scenario's keys come to, q [1].
     #[serde(rename = "expected_after_dead_time")]
@@ -83,7 +83,6 @@ pub fn afterpulses(diode: &FreeRunning, dark_hz: f64, counts: u64) -> Option<Aft
         return None;
     }
     let batch_s = counts as f64 / BATCHES as f64 / incident_hz;
-    let last_s = batch_s - window_s;
     let open_s = window_s - dead_s;
     let mut found = Sums::new(dead_s, LONGEST / incident_hz);
     let (mut rates, mut excesses) = (Vec::new(), Vec::new());
@@ -93,27 +92,10 @@ pub fn afterpulses(diode: &FreeRunning, dark_hz: f64, counts: u64) -> Option<Aft
         let rates_hz = [incident_hz - dark_hz, dark_hz];
         diode.counts(rates_hz, RUNS + batch, until, |at| times.push(at));
         let rate_hz = times.len() as f64 / batch_s;
-        let (mut begun, mut pairs) = (0u64, 0u64);
-        for (k, &time) in times.iter().enumerate().filter(|(_, time)| time.seconds() < last_s) {
-            begun += 1;
-            for &later in &times[k + 1..] {
-                let lag_s = (later - time).seconds();
-                if lag_s > window_s {
-                    break;
-                }
-                found.pairs[((lag_s / window_s * BINS as f64) as usize).min(BINS - 1)] += 1;
-                pairs += 1;
-            }
-        }
-        for pair in times.windows(2) {
-            found.interval((pair[1] - pair[0]).seconds(), window_s, dead_s);
-        }
-        // What has not come by the end belongs to the wait.
-        let last = times.last().copied().unwrap_or(Time::ZERO);
-        found.tail_s += ((until - last).seconds() - window_s).max(0.0);
-        found.begun += begun;
+        let followers = found.followers(&times, batch_s - window_s, window_s);
+        found.intervals(&times, until, (window_s, dead_s));
         rates.push(rate_hz);
-        excesses.push(pairs as f64 / begun.max(1) as f64 - rate_hz * open_s);
+        excesses.push(followers - rate_hz * open_s);
     }
     let (rate_hz, excess) = (Measured::of(&rates), Measured::of(&excesses));
     let followed = 1.0 + excess.value;
@@ -122,12 +104,9 @@ pub fn afterpulses(diode: &FreeRunning, dark_hz: f64, counts: u64) -> Option<Aft
     let tail_hz = rate(found.tail, found.tail_s);
     let mean_s = found.time_constant_s(after_dead_time.value, tail_hz.value, open_s);
     let time_constant_s = mean_s.map(|mean| Measured { se: mean.se * expected.scatter, ..mean });
-    let probability = time_constant_s.filter(|_| expected.is_of_one_kind).map(|constant| {
-        let [q, rest] = [after_dead_time.value, dead_s / constant.value];
-        let parts = [after_dead_time.se / q, rest * constant.se / constant.value];
-        let value = q * rest.exp();
-        Measured { value, se: value * parts[0].hypot(parts[1]) }
-    });
+    let probability = time_constant_s
+        .filter(|_| expected.is_of_one_kind)
+        .map(|constant| probability(after_dead_time, constant, dead_s));
     let bin_s = window_s / BINS as f64;
     let chance_pairs = found.begun as f64 * rate_hz.value * bin_s;
     // Nothing comes within the dead time, not even by chance.
@@ -151,6 +130,15 @@ pub fn afterpulses(diode: &FreeRunning, dark_hz: f64, counts: u64) -> Option<Aft
         expected: expected.after_dead_time,
         expected_time_s: expected.mean_s,
     })
+}
+
+/// Returns the probability that an avalanche traps a carrier, from that of an afterpulse after the dead time and the
+/// time constant [1].
+fn probability(after_dead_time: Measured, constant: Measured, dead_s: f64) -> Measured {
+    let [q, rest] = [after_dead_time.value, dead_s / constant.value];
+    let parts = [after_dead_time.se / q, rest * constant.se / constant.value];
+    let value = q * rest.exp();
+    Measured { value, se: value * parts[0].hypot(parts[1]) }
 }
 
 /// Returns the mean number of afterpulses, and of their afterpulses in turn, that follow an avalanche in each bin of
@@ -249,6 +237,31 @@ impl Sums {
             short: 0,
             short_s: 0.0,
         }
+    }
+
+    /// Adds the pairs of counts within the window, of counts before `last_s`. Returns the mean number of counts that
+    /// follow one [1].
+    fn followers(&mut self, times: &[Time], last_s: f64, window_s: f64) -> f64 {
+        let (mut begun, mut pairs) = (0u64, 0u64);
+        for (k, &time) in times.iter().enumerate().filter(|(_, time)| time.seconds() < last_s) {
+            begun += 1;
+            let lags_s = times[k + 1..].iter().map(|later| (*later - time).seconds());
+            for lag_s in lags_s.take_while(|lag_s| *lag_s <= window_s) {
+                self.pairs[((lag_s / window_s * BINS as f64) as usize).min(BINS - 1)] += 1;
+                pairs += 1;
+            }
+        }
+        self.begun += begun;
+        pairs as f64 / begun.max(1) as f64
+    }
+
+    /// Adds the intervals between the counts of a batch, and the wait from the last one to its end.
+    fn intervals(&mut self, times: &[Time], until: Time, (window_s, dead_s): (f64, f64)) {
+        for pair in times.windows(2) {
+            self.interval((pair[1] - pair[0]).seconds(), window_s, dead_s);
+        }
+        let last = times.last().copied().unwrap_or(Time::ZERO);
+        self.tail_s += ((until - last).seconds() - window_s).max(0.0);
     }
 
     fn interval(&mut self, interval_s: f64, window_s: f64, dead_s: f64) {

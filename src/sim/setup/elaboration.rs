@@ -22,9 +22,8 @@ use super::stimulus::stimulus;
 use super::{Setup, fits, recalibration};
 
 impl Setup {
-    /// Loads the files that the scenario names and works out what it sets, as [`Setup::new`], for who wants
-    /// histograms and not what the estimator makes of them: the network may be one for another histogram, and finds
-    /// nothing then.
+    /// Loads the files that the scenario names, and elaborates it, for histograms without depths: unlike
+    /// [`Setup::new`], it accepts a network for another histogram.
     ///
     /// # Errors
     /// When one of the files cannot be read or used.
@@ -50,18 +49,11 @@ impl Setup {
         if network.fits(&histogram) {
             estimators.depth_estimator = Arc::new(network.params(&histogram));
         }
+        let preloaded = matches!(histogram_source, HistogramSource::Preload(_));
         let params = Params {
             histogram,
-            frame_ctrl: frame_ctrl::Params {
-                shots_per_frame: scenario.firmware.shots_of_a_frame() as u32,
-                histogram,
-                preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
-                drain_cycles: scenario.firmware.drain_cycles,
-            },
-            vcsel_driver: vcsel_driver::Params {
-                periods: scenario.firmware.laser_periods.clone(),
-                pulse_half_cycles: scenario.firmware.pulse_half_cycles,
-            },
+            frame_ctrl: frame_ctrl(&scenario.firmware, histogram, preloaded),
+            vcsel_driver: vcsel_driver(&scenario.firmware),
             tdc: converter.tdc,
             tdc_calibration: converter.tdc_calibration,
             estimators,
@@ -69,13 +61,8 @@ impl Setup {
             code_source,
             histogram_source,
         };
-        fits::check(&name, &params)?;
         let slowest = converter.course.as_ref().map_or(1.0, |course| course.slowest);
-        let longest = params.tdc.delays.longest().fs() as f64 * slowest;
-        fits::check_pulses(&name, &scenario, Time::from_fs(longest.ceil() as u64))?;
-        if params.tdc_calibration.is_some() {
-            fits::check_ring(&name, &recalibration::ring(&scenario.tdc), &params.tdc, slowest)?;
-        }
+        check_fits(&name, &scenario, &params, slowest)?;
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
         let mut setup = Setup {
             name,
@@ -128,12 +115,40 @@ fn check_seed(name: &str, seed: u64) -> Result<()> {
     Err(fault.field("seed").value(seed).into())
 }
 
+/// Checks that the parts fit each other, with delays up to `slowest` times those of the chain.
+fn check_fits(name: &str, scenario: &Scenario, params: &Params, slowest: f64) -> Result<()> {
+    fits::check(name, params)?;
+    let longest = params.tdc.delays.longest().fs() as f64 * slowest;
+    fits::check_pulses(name, scenario, Time::from_fs(longest.ceil() as u64))?;
+    match params.tdc_calibration {
+        Some(_) => {
+            fits::check_ring(name, &recalibration::ring(&scenario.tdc), &params.tdc, slowest)
+        }
+        None => Ok(()),
+    }
+}
+
 fn network(scenario: &Scenario, files: &Source) -> Result<Network> {
     let folder = match files {
         Source::BuiltIn => None,
         Source::Folder(folder) => Some(folder.as_path()),
     };
     Network::find(&scenario.estimator.network, folder)
+}
+
+fn frame_ctrl(
+    keys: &scenario::Firmware,
+    histogram: histogram_builder::Params,
+    preloaded: bool,
+) -> frame_ctrl::Params {
+    let shots_per_frame = keys.shots_of_a_frame() as u32;
+    let drain_cycles = keys.drain_cycles;
+    frame_ctrl::Params { shots_per_frame, histogram, preloaded, drain_cycles }
+}
+
+fn vcsel_driver(keys: &scenario::Firmware) -> vcsel_driver::Params {
+    let (periods, pulse_half_cycles) = (keys.laser_periods.clone(), keys.pulse_half_cycles);
+    vcsel_driver::Params { periods, pulse_half_cycles }
 }
 
 /// The scale's words round half away from zero.

@@ -1,12 +1,12 @@
 //! Stream of changes from a reading thread to the comparison, in blocks.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Result, poll_stop};
 
 use super::guard::guarded;
 use super::state::SourceState;
@@ -159,9 +159,7 @@ impl Cursor {
     #[inline]
     pub fn peek(&mut self) -> Result<Option<u64>> {
         while self.instant == self.block.instants.len() {
-            if self.stop.load(Ordering::Relaxed) {
-                return Err(Error::Interrupted);
-            }
+            poll_stop(Some(&self.stop))?;
             self.block = match self.blocks.recv_timeout(LOOK) {
                 Ok(block) => block?,
                 Err(RecvTimeoutError::Timeout) => continue,
@@ -195,6 +193,10 @@ impl Cursor {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::Ordering;
+
+    use tofsim::error::Error;
+
     use super::*;
 
     #[test]

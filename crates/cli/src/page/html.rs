@@ -140,9 +140,10 @@ pub fn section(title: &str, inside: &str) -> String {
 }
 
 /// Numbers that a reader looks for first: what each is, and its value.
-pub fn tiles<'a>(tiles: impl IntoIterator<Item = (&'a str, String)>) -> String {
-    let tile = |(what, value): (&str, String)| {
-        format!("<div><b>{}</b><span>{}</span></div>\n", escaped(&value), escaped(what))
+pub fn tiles(tiles: impl IntoIterator<Item = (impl AsRef<str>, String)>) -> String {
+    let tile = |(what, value): (_, String)| {
+        let (value, what) = (escaped(&value), escaped(AsRef::as_ref(&what)));
+        format!("<div><b>{value}</b><span>{what}</span></div>\n")
     };
     let tiles: String = tiles.into_iter().map(tile).collect();
     format!("<div class=\"tiles\">\n{tiles}</div>\n")

@@ -4,76 +4,133 @@
 //! count), `coarse`, `code`, `bin`; where frames come in pairs also `laser_en` (1 in lit frames). What
 //! a shot does not have is empty (CSV) or null (Parquet). A photon that is given has no cause.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int32Type, Int64Type};
+use parquet::errors::Result as Written;
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Input, Result};
 use tofsim::files::output::OutputFile;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim_learn::dataset::parquet_table::{ParquetTable, RowGroup};
+use tofsim_studies::table::csv_file::CsvFile;
 
 use super::causes;
 
-const COLUMNS: &str = "frame,shot,arrival_ps,cause,n,coarse,code,bin";
+/// The columns, by name; the last one only where frames come in pairs.
+const COLUMNS: [(&str, Values); 9] = [
+    ("frame", Values::Number(|shot| shot.frame)),
+    ("shot", Values::Number(|shot| shot.shot)),
+    ("arrival_ps", Values::Time(|shot| shot.arrival_fs)),
+    ("cause", Values::Word(|shot| shot.cause.map(|cause| causes::name(Some(cause))))),
+    ("n", Values::Count(|shot| shot.n)),
+    ("coarse", Values::Count(|shot| shot.coarse)),
+    ("code", Values::Count(|shot| shot.code)),
+    ("bin", Values::Count(|shot| shot.code)),
+    ("laser_en", Values::Flag(|shot| shot.laser_en)),
+];
 
-/// The column of runs whose frames come in pairs.
-const LASER: &str = "laser_en";
+/// The values of a column.
+#[derive(Clone, Copy)]
+enum Values {
+    /// A number that every shot has.
+    Number(fn(&Shot) -> u64),
+    /// A time, if there is one [fs].
+    Time(fn(&Shot) -> Option<i64>),
+    /// A word, if there is one.
+    Word(fn(&Shot) -> Option<&'static str>),
+    /// A number, if there is one.
+    Count(fn(&Shot) -> Option<u64>),
+    /// A level that every shot has.
+    Flag(fn(&Shot) -> bool),
+}
 
-const SCHEMA: &str = "required int64 frame; required int64 shot; optional double arrival_ps;
-    optional binary cause (UTF8); optional int32 n; optional int32 coarse;
-    optional int32 code; optional int32 bin;";
+impl Values {
+    /// Declares the column in a Parquet schema.
+    fn declaration(self, name: &str) -> String {
+        match self {
+            Values::Number(_) => format!("required int64 {name}; "),
+            Values::Time(_) => format!("optional double {name}; "),
+            Values::Word(_) => format!("optional binary {name} (UTF8); "),
+            Values::Count(_) => format!("optional int32 {name}; "),
+            Values::Flag(_) => format!("required boolean {name}; "),
+        }
+    }
+
+    /// Writes the column of some shots.
+    fn fill(self, group: &mut RowGroup, shots: &[Shot]) -> Written<()> {
+        let shots = shots.iter();
+        match self {
+            Values::Number(of) => group.required::<Int64Type>(shots.map(|shot| of(shot) as i64)),
+            Values::Time(of) => {
+                group.optional::<DoubleType>(shots.map(|shot| of(shot).map(|fs| fs as f64 / 1e3)))
+            }
+            Values::Word(of) => {
+                group.optional::<ByteArrayType>(shots.map(|shot| of(shot).map(ByteArray::from)))
+            }
+            Values::Count(of) => {
+                group.optional::<Int32Type>(shots.map(|shot| of(shot).map(|number| number as i32)))
+            }
+            Values::Flag(of) => group.required::<BoolType>(shots.map(of)),
+        }
+    }
+
+    /// Returns the value of a shot, as CSV has it.
+    fn text(self, shot: &Shot) -> String {
+        match self {
+            Values::Number(of) => of(shot).to_string(),
+            Values::Time(of) => of(shot).map_or(String::new(), picoseconds),
+            Values::Word(of) => of(shot).unwrap_or_default().to_owned(),
+            Values::Count(of) => of(shot).map_or(String::new(), |number| number.to_string()),
+            Values::Flag(of) => u8::from(of(shot)).to_string(),
+        }
+    }
+}
 
 /// The file under construction; nothing is left of it unless [`Events::finish`] is called.
 pub struct Events {
+    path: PathBuf,
     file: EventFile,
-    /// Whether frames come in pairs.
-    pairs: bool,
+    columns: &'static [(&'static str, Values)],
 }
 
 enum EventFile {
-    Csv(OutputFile),
+    Csv(CsvFile),
     Parquet(Box<ParquetTable<Shot>>),
 }
 
 impl Events {
     /// Begins the file; its ending decides the format. With `pairs` it says of each shot whether the
-    /// laser was on. `record` goes into the first line of a CSV
-    /// and into Parquet's metadata.
+    /// laser was on. `record` goes into the first line of a CSV and into Parquet's metadata.
     pub fn create(path: &Path, pairs: bool, record: &str) -> Result<Self> {
-        let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+        let ending = path.extension().unwrap_or_default();
         let device = std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
         if !device && ending != "csv" && ending != "parquet" {
             let expected = "expected a name that ends in .csv or .parquet";
             return Err(Input::new("--events", expected).value(path.display()).into());
         }
-        let mut file = OutputFile::create(path)?;
+        let columns = &COLUMNS[..COLUMNS.len() - usize::from(!pairs)];
         let file = if ending == "parquet" {
-            let laser = if pairs { format!("required boolean {LASER};") } else { String::new() };
-            let schema = format!("message shots {{ {SCHEMA} {laser} }}");
+            let declared = columns.iter().map(|(name, values)| values.declaration(name));
+            let schema = format!("message shots {{ {} }}", declared.collect::<String>());
             let provenance = ("provenance", record.to_owned());
-            let fill = move |group: &mut RowGroup, shots: &[Shot]| columns(group, shots, pairs);
+            let fill = |group: &mut RowGroup, shots: &[Shot]| {
+                columns.iter().try_for_each(|(_, values)| values.fill(group, shots))
+            };
+            let file = OutputFile::create(path)?;
             EventFile::Parquet(Box::new(ParquetTable::create(file, &schema, [provenance], fill)?))
         } else {
-            let laser = if pairs { format!(",{LASER}") } else { String::new() };
-            writeln!(file, "# {record}\n{COLUMNS}{laser}").map_err(|error| fault(path, error))?;
-            EventFile::Csv(file)
+            let names = columns.iter().map(|(name, _)| *name);
+            EventFile::Csv(CsvFile::create(path, &format!("# {record}\n"), names)?)
         };
-        Ok(Events { file, pairs })
+        Ok(Events { path: path.to_owned(), file, columns })
     }
 
     /// Adds a row.
     pub fn write(&mut self, shot: &Shot) -> Result<()> {
         match &mut self.file {
             EventFile::Csv(file) => {
-                let laser = match (self.pairs, shot.laser_en) {
-                    (false, _) => "",
-                    (true, false) => ",0",
-                    (true, true) => ",1",
-                };
-                let written = writeln!(file, "{}{laser}", fields(shot).join(","));
-                written.map_err(|error| fault(file.target(), error))
+                file.record(self.columns.iter().map(|(_, values)| values.text(shot)))
             }
             EventFile::Parquet(table) => table.write(&[*shot]),
         }
@@ -81,53 +138,17 @@ impl Events {
 
     /// Puts the file in place, and returns its path.
     pub fn finish(self) -> Result<PathBuf> {
-        let file = match self.file {
-            EventFile::Csv(file) => file,
-            EventFile::Parquet(table) => table.finish()?,
-        };
-        let target = file.target().to_owned();
-        file.commit().map(|()| target)
+        match self.file {
+            EventFile::Csv(file) => file.finish()?,
+            EventFile::Parquet(table) => table.finish()?.commit()?,
+        }
+        Ok(self.path)
     }
-}
-
-/// Writes the columns of shots.
-fn columns(group: &mut RowGroup, shots: &[Shot], pairs: bool) -> parquet::errors::Result<()> {
-    let cause = |shot: &Shot| shot.cause.map(|cause| ByteArray::from(causes::name(Some(cause))));
-    let whole = |value: u64| value as i32;
-    let shots = || shots.iter();
-    group.required::<Int64Type>(shots().map(|shot| shot.frame as i64))?;
-    group.required::<Int64Type>(shots().map(|shot| shot.shot as i64))?;
-    let arrivals_ps = shots().map(|shot| shot.arrival_fs.map(|fs| fs as f64 / 1e3));
-    group.optional::<DoubleType>(arrivals_ps)?;
-    group.optional::<ByteArrayType>(shots().map(cause))?;
-    group.optional::<Int32Type>(shots().map(|shot| shot.n.map(whole)))?;
-    group.optional::<Int32Type>(shots().map(|shot| shot.coarse.map(whole)))?;
-    group.optional::<Int32Type>(shots().map(|shot| shot.code.map(whole)))?;
-    group.optional::<Int32Type>(shots().map(|shot| shot.code.map(whole)))?;
-    if pairs { group.required::<BoolType>(shots().map(|shot| shot.laser_en)) } else { Ok(()) }
-}
-
-fn fields(shot: &Shot) -> [String; 8] {
-    let number = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
-    [
-        shot.frame.to_string(),
-        shot.shot.to_string(),
-        shot.arrival_fs.map_or(String::new(), picoseconds),
-        shot.cause.map_or("", |cause| causes::name(Some(cause))).to_owned(),
-        number(shot.n),
-        number(shot.coarse),
-        number(shot.code),
-        number(shot.code),
-    ]
 }
 
 /// Femtoseconds as picoseconds with all three decimals.
 fn picoseconds(fs: i64) -> String {
     format!("{}{}.{:03}", if fs < 0 { "-" } else { "" }, fs.abs() / 1000, fs.abs() % 1000)
-}
-
-fn fault(path: &Path, error: io::Error) -> Error {
-    Error::io(path, "write")(io::Error::other(error.to_string()))
 }
 
 #[cfg(test)]

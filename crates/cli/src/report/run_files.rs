@@ -11,6 +11,7 @@ use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 
 use crate::record::Record;
+use crate::verbs::terminal::Console;
 
 use super::causes::{self, CAUSES, Causes};
 use super::events::Events;
@@ -67,7 +68,7 @@ impl<'a> RunFiles<'a> {
         Ok(RunFiles { folder, record, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
 
-    /// Whether [`RunFiles::shot`] has to be told of shots.
+    /// Returns whether [`RunFiles::shot`] needs the shots.
     pub fn want_shots(&self) -> bool {
         self.folder.is_some() || self.events.is_some() || self.wants_tdc
     }
@@ -145,9 +146,20 @@ impl<'a> RunFiles<'a> {
 /// The files of a run.
 pub struct Written {
     /// Files that the run wrote.
-    pub files: Vec<PathBuf>,
+    files: Vec<PathBuf>,
     /// Files of an older run beside them.
-    pub older: Vec<PathBuf>,
+    older: Vec<PathBuf>,
+}
+
+impl Written {
+    /// Prints which files were written, and which are of an older run.
+    pub fn report(&self, console: &Console) {
+        self.files.iter().for_each(|path| console.wrote(path));
+        for path in &self.older {
+            let path = path.display();
+            console.note(format_args!("{path} is of an older run: summary.json does not list it"));
+        }
+    }
 }
 
 /// Files in a folder that its summary lists, but for those of some names.

@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use serde_json::{Value, json};
 
 use tofsim::Note;
 use tofsim::sim::setup::Setup;
@@ -11,14 +10,35 @@ use tofsim::sim::shot_recorder::Shot;
 
 use crate::record::Record;
 
-use super::frame_log::FrameLog;
+use super::frame_log::{DepthSpread, FrameLog};
+use super::pairs::{PairLog, PairStatistics};
+use super::statistics::{EstimatorStatistics, OpinionStatistics};
 
 /// The object of `run --json` and `summary.json`, but for the frames.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// The keys before the frames.
-    head: Value,
+    schema: &'static str,
+    #[serde(flatten)]
+    record: Record,
+    /// Simulation fidelity.
+    fidelity: &'static str,
+    /// File of the waveform.
+    waves: Option<String>,
+    /// Notes on the validity of the results.
+    notes: Vec<Note>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    depth: Option<DepthSpread>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_opinion: Option<OpinionStatistics>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    estimators: Vec<EstimatorStatistics>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pairs: Option<PairStatistics>,
+    /// Files that belong to the run, if it has a folder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    files: Option<Vec<String>>,
     /// Results of the TDC, where the scenario asks for them.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tdc: Option<Vec<TdcSummary>>,
 }
 
@@ -46,35 +66,24 @@ impl Summary {
         shots: &[Shot],
         (record, notes): (&Record, &[Note]),
     ) -> Self {
-        let mut head = json!({
-            "schema": "tofsim.run/1",
-            "version": record.version,
-            "scenario": record.scenario,
-            "seed": record.seed,
-            "fidelity": fidelity,
-            "waves": waves,
-        });
-        record.put_into(&mut head, notes);
-        if let Some(depth) = log.spread() {
-            head["depth"] = json!(depth);
+        Summary {
+            schema: "tofsim.run/1",
+            record: record.clone(),
+            fidelity,
+            waves,
+            notes: notes.to_vec(),
+            depth: log.spread(),
+            second_opinion: log.second_opinion(),
+            estimators: log.estimators(),
+            pairs: log.pairs.as_ref().map(PairLog::statistics),
+            files: None,
+            tdc: setup.scenario.report.tdc.then(|| shots.iter().map(TdcSummary::new).collect()),
         }
-        if let Some(second) = log.second_opinion() {
-            head["second_opinion"] = json!(second);
-        }
-        let estimators = log.estimators();
-        if !estimators.is_empty() {
-            head["estimators"] = json!(estimators);
-        }
-        if let Some(pairs) = &log.pairs {
-            head["pairs"] = json!(pairs.statistics());
-        }
-        let tdc = setup.scenario.report.tdc.then(|| shots.iter().map(TdcSummary::new).collect());
-        Summary { head, tdc }
     }
 
     /// Names the files that belong to the run.
     pub fn list(&mut self, names: Vec<String>) {
-        self.head["files"] = json!(names);
+        self.files = Some(names);
     }
 
     /// Writes the run as one line of JSON, with the frames in it.
@@ -82,11 +91,10 @@ impl Summary {
     /// # Errors
     /// When the frames cannot be read back, or nothing be written to `out`.
     pub fn write(&self, log: &mut FrameLog, out: &mut impl Write) -> io::Result<()> {
-        let head = self.head.to_string();
+        let head = serde_json::to_string(self)?;
         write!(out, "{},\"frames\":[", &head[..head.len() - 1])?;
         log.copy_json(out)?;
-        let tdc = self.tdc.as_ref().map_or(String::new(), |tdc| format!(",\"tdc\":{}", json!(tdc)));
-        writeln!(out, "]{tdc}}}")
+        writeln!(out, "]}}")
     }
 }
 

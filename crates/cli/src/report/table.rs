@@ -9,13 +9,19 @@ use tofsim::sim::setup::Setup;
 use crate::text::table::{facts, grouped, number_or_dash, signed_or_dash, table};
 
 use super::frame_log::{DepthSpread, FrameLog};
-use super::summary::TdcSummary;
+use super::summary::{Summary, TdcSummary};
 use super::{pair_table, readings, statistics};
 
 /// Returns the results of a run in a dozen lines.
 ///
 /// `cycles` is what was simulated in the time `wall`; none for frames that were drawn at once.
-pub fn run(setup: &Setup, log: &FrameLog, cycles: Option<u64>, wall: Duration) -> String {
+pub fn run(
+    setup: &Setup,
+    log: &FrameLog,
+    summary: &Summary,
+    cycles: Option<u64>,
+    wall: Duration,
+) -> String {
     // A description is of the scenario as its file has it.
     let mut text = match &setup.set[..] {
         [] => format!("{}: {}\n\n", setup.name, setup.scenario.description),
@@ -44,7 +50,7 @@ pub fn run(setup: &Setup, log: &FrameLog, cycles: Option<u64>, wall: Duration) -
             format!("\n\n{} {things} drawn in {wall_ms:.1} ms\n", grouped(log.count))
         }
     };
-    text
+    text + &summary.tdc.as_deref().map_or(String::new(), tdc)
 }
 
 fn one_frame(setup: &Setup, frame: &Frame, log: &FrameLog) -> String {
@@ -99,7 +105,7 @@ fn below(own: &DepthSpread, cells: usize, log: &FrameLog) -> Vec<Vec<String>> {
 }
 
 /// Thesis Table 6.3.
-pub fn tdc(results: &[TdcSummary]) -> String {
+fn tdc(results: &[TdcSummary]) -> String {
     let number = |value: Option<u64>| value.map_or("-".to_owned(), |value| value.to_string());
     let rows = results.iter().map(|result| {
         [

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use serde_json::json;
+use strum::VariantArray;
 
 use tofsim::error::{Input, Result};
 use tofsim::scenario;
@@ -125,10 +126,9 @@ fn of(rows: &[Row]) -> Verdict {
 }
 
 /// Returns how many items have each verdict.
-pub fn tally(findings: &[Finding]) -> [(Verdict, usize); Verdict::ALL.len()] {
-    Verdict::ALL.map(|verdict| {
-        (verdict, findings.iter().filter(|finding| finding.verdict == verdict).count())
-    })
+pub fn tally(findings: &[Finding]) -> impl Iterator<Item = (Verdict, usize)> {
+    let count = |verdict| findings.iter().filter(|one| one.verdict == verdict).count();
+    Verdict::VARIANTS.iter().map(move |&verdict| (verdict, count(verdict)))
 }
 
 /// Rows of an item, as far as they are evaluated.
@@ -214,19 +214,10 @@ fn row(spec: &RowSpec, values: &Values) -> Result<Row> {
 
 /// Returns the object, without the record.
 pub fn json(findings: &[Finding], quick: bool) -> serde_json::Value {
-    let [same, differs, undecided, cannot_be_reproduced, nothing_to_reproduce] =
-        tally(findings).map(|(_, count)| count);
-    json!({
-        "schema": "tofsim.reproduce/1",
-        "quick": quick,
-        "rule": RULE,
-        "same": same,
-        "differs": differs,
-        "undecided": undecided,
-        "cannot_be_reproduced": cannot_be_reproduced,
-        "nothing_to_reproduce": nothing_to_reproduce,
-        "items": findings,
-    })
+    let mut object = json!({ "schema": "tofsim.reproduce/1", "quick": quick, "rule": RULE });
+    tally(findings).for_each(|(verdict, count)| object[verdict.key()] = json!(count));
+    object["items"] = json!(findings);
+    object
 }
 
 #[cfg(test)]

@@ -39,7 +39,7 @@ pub fn page(findings: &[Finding], record: &Record, quick: bool) -> String {
 }
 
 fn verdict(verdict: Verdict) -> String {
-    badge(verdict.class(), verdict.words())
+    badge(verdict.class(), &verdict.words())
 }
 
 fn contents(findings: &[Finding]) -> String {

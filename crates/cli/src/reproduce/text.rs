@@ -16,7 +16,7 @@ pub fn overview(findings: &[Finding]) -> String {
     let rows = findings.iter().map(|one| {
         let (same, all) = one.score();
         let score = if all == 0 { String::new() } else { format!("{same} of {all}") };
-        [one.id.clone(), one.verdict.words().to_owned(), score, shortened(&one.title)]
+        [one.id.clone(), one.verdict.words(), score, shortened(&one.title)]
     });
     format!(
         "{}\n\n{}\n",
@@ -41,7 +41,7 @@ pub fn in_full(findings: &[Finding]) -> String {
 fn rows(finding: &Finding) -> String {
     let row = |row: &Row| {
         let [what, thesis, ours] = row.cells();
-        [what, thesis, ours, row.verdict.map_or("", Verdict::words).to_owned()]
+        [what, thesis, ours, row.verdict.map_or(String::new(), Verdict::words)]
     };
     match finding.rows.as_slice() {
         [] => String::new(),
@@ -64,9 +64,7 @@ fn wrapped() -> Table {
 
 /// Formats the number of items of each verdict.
 fn counts(findings: &[Finding]) -> String {
-    let counts =
-        tally(findings).map(|(verdict, count)| [count.to_string(), verdict.words().to_owned()]);
-    plain(counts)
+    plain(tally(findings).map(|(verdict, count)| [count.to_string(), verdict.words()]))
 }
 
 /// At most as much of a title as fits beside the rest.

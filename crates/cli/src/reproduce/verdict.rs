@@ -1,10 +1,12 @@
 //! Comparison of the thesis's value with ours, by a stated rule.
 
 use serde::Serialize;
+use strum::{IntoStaticStr, VariantArray};
 
-/// Verdict of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+/// Verdict of a comparison, in the order in which they are counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, IntoStaticStr, VariantArray)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
 pub enum Verdict {
     /// Equal, or no further apart than the thesis rounds and chance explains.
     Same,
@@ -18,28 +20,18 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// All verdicts.
-    pub const ALL: [Verdict; 5] = [
-        Verdict::Same,
-        Verdict::Differs,
-        Verdict::Undecided,
-        Verdict::CannotBeReproduced,
-        Verdict::NothingToReproduce,
-    ];
-
     fn of(is_same: bool) -> Self {
         if is_same { Verdict::Same } else { Verdict::Differs }
     }
 
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Verdict::Same => "same",
-            Verdict::Differs => "differs",
-            Verdict::Undecided => "undecided",
-            Verdict::CannotBeReproduced => "cannot be reproduced",
-            Verdict::NothingToReproduce => "nothing to reproduce",
-        }
+    /// Returns its key in the JSON object.
+    pub fn key(self) -> &'static str {
+        self.into()
+    }
+
+    /// Returns it in words.
+    pub fn words(self) -> String {
+        self.key().replace('_', " ")
     }
 
     /// Its class on a page.

@@ -1,13 +1,13 @@
 //! `tofsim dataset`: histograms in bulk, for training and tests.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use tofsim::Note;
-use tofsim::error::{Error, Result};
+use tofsim::error::{Result, poll_stop};
 use tofsim::files::folder::FolderLock;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
@@ -103,9 +103,7 @@ fn write(
 ) -> Result<Vec<PathBuf>> {
     let mut next = blocks.next();
     while let Some(block) = next {
-        if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-            return Err(Error::Interrupted);
-        }
+        poll_stop(stop)?;
         let (written, drawn) = rayon::join(|| files.write(&block), || blocks.next());
         written?;
         done(block.len() as u64);

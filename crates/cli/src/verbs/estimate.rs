@@ -5,26 +5,25 @@ use std::path::PathBuf;
 
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::FirmwareEstimator;
-use tofsim::network::estimate;
 use tofsim::scenario;
-use tofsim::sim::disagreements::Disagreements;
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
 use tofsim_learn::dataset::labelled::histograms;
 use tofsim_learn::dataset::sensor::Layout;
-use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
-use tofsim_learn::quantize::{LikelihoodExplainer, explain};
+use tofsim_learn::estimation::EstimatorKind;
 
 use crate::choice::words;
-use crate::report::estimates::{EstimateFindings, Numbers, Row};
+use crate::report::estimates::EstimateFindings;
 use crate::report::statistics::second_opinion;
 use crate::report::writer::Report;
 
 use super::draws::from_here;
 use super::terminal::Console;
 
+mod reading;
 mod sensor;
 
+use reading::Reading;
 use sensor::{Request, Sensor};
 
 /// Estimate depths of histograms, bit for bit as the firmware does
@@ -73,75 +72,23 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
         return sensor.run(&request, &setup, console);
     }
     setup.check_estimator()?;
-    let network = &setup.network;
-    let size = setup.params.histogram;
-    let params = &setup.params.estimators.depth_estimator;
-    let is_network = setup.params.estimator == FirmwareEstimator::Network;
     let mut notes = args.notes(&setup)?;
     console.print_notes(&notes)?;
     let second = second_opinion(&setup, &mut notes, console);
-    let panel = Panel::new(&args.estimator, &setup)?;
-    let explainer = args.explains_likelihood(&setup).then(|| LikelihoodExplainer::new(&setup));
-    let explainer = explainer.transpose()?;
+    let explains = (args.explains_network(&setup), args.explains_likelihood(&setup));
     let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
-    let mut rows = Vec::new();
-    let mut disagreements = Disagreements::of_histograms();
-    let shots = setup.shots(1);
-    let mut crowded = None;
+    let mut reading = Reading::new(&setup, &args.estimator, second, explains)?;
     for (path, file) in args.files.iter().zip(&names) {
-        for histogram in histograms(path, size)? {
-            let histogram = histogram?;
-            let index = rows.len();
-            let hits: u64 = histogram.iter().map(|&count| u64::from(count)).sum();
-            crowded = crowded.or((hits > shots).then_some((index, hits)));
-            let words = setup.estimate_words(&histogram);
-            let own = Estimate::of_words(setup.params.estimator, &words);
-            let second_opinion = second.as_ref().map(|second| {
-                let opinion = second.of_histogram(&histogram);
-                let own_m = words.depth_m().to_num();
-                disagreements.add_depth(second, (index as u64, own_m), &opinion);
-                opinion
-            });
-            let sums = is_network.then(|| estimate(params, &histogram).l1_in);
-            let l1_in =
-                sums.map(|sums| sums[..params.neurons()].iter().map(|sum| sum.get()).collect());
-            let explanation = args.explains_network(&setup).then(|| explain(network, &histogram));
-            let likelihood_explanation =
-                explainer.as_ref().map(|explainer| explainer.explain(&histogram));
-            let estimates = panel.read(&histogram);
-            rows.push(Row {
-                index,
-                file,
-                numbers: Numbers { estimate: own, l1_in },
-                second_opinion,
-                estimates,
-                explanation,
-                likelihood_explanation,
-            });
+        for histogram in histograms(path, setup.params.histogram)? {
+            reading.take(file, &histogram?);
         }
     }
-    let mut late = second.as_ref().map_or(Vec::new(), |second| disagreements.notes(second));
-    late.extend(crowded.map(|(index, hits)| {
-        let text = format!("histogram {index} has {hits} hits, more than its shots");
-        let expected = format!("{hits} or more");
-        Note::new(
-            NoteCode::EstimatorOutsideModel,
-            "firmware.shots_per_frame",
-            shots as f64,
-            expected,
-            text,
-        )
-    }));
+    let late = reading.notes();
     console.print_notes(&late)?;
     notes.extend(late);
     let (several, explain) = (names.len() > 1, args.explain);
-    let findings = EstimateFindings {
-        network: is_network.then_some(network),
-        sensor: None,
-        rows,
-        several,
-        explain,
-    };
+    let network = reading.is_network.then_some(&setup.network);
+    let findings = EstimateFindings { network, sensor: None, rows: reading.rows, several, explain };
     Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)
 }
 

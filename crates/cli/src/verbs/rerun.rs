@@ -219,7 +219,7 @@ fn without_folder(bytes: Vec<u8>) -> Vec<u8> {
     keys.replace_all(&text, name).into_owned().into_bytes()
 }
 
-/// A word of a command; the shots of a run, which it writes where it is told, go into a folder.
+/// A word of a command, with the file of `--events` in a folder.
 fn with_events_in(folder: &Path, word: &str) -> String {
     let name = word.strip_prefix("--events=").and_then(|path| Path::new(path).file_name());
     name.map_or(word.to_owned(), |name| format!("--events={}", folder.join(name).display()))

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::hierarchy;
@@ -13,7 +14,7 @@ use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
-use tofsim::sim::{Run, Stepping};
+use tofsim::sim::{Outcome, Run, Stepping};
 use tofsim::waves::{Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::notes::notes_of_firmware;
 use tofsim_learn::estimation::{EstimatorKind, Needs, Panel};
@@ -21,7 +22,7 @@ use tofsim_learn::estimation::{EstimatorKind, Needs, Panel};
 use crate::choice::{self, Fidelity, WaveformChoice, seed, words};
 use crate::record::Record;
 use crate::report::frame_log::FrameLog;
-use crate::report::run_files::{RunFiles, Written};
+use crate::report::run_files::RunFiles;
 use crate::report::statistics::second_opinion;
 use crate::report::summary::Summary;
 use crate::report::table;
@@ -104,49 +105,23 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;
     let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
-    let plan = |format| WavePlan::new(args, format, &setup, frames);
-    let plan = waves.map(plan).transpose()?;
+    let plan = waves.map(|format| WavePlan::new(args, format, &setup, frames)).transpose()?;
     let home = plan.as_ref().and_then(|plan| plan.path.parent()).or(args.output.as_deref());
     let _held = home.map(FolderLock::take).transpose()?;
-    let (folder, events) = (args.output.as_deref(), args.events.as_deref());
     let record = Record::new(&setup, &console.command);
-    let mut files = RunFiles::new(folder, events, &record, &setup)?;
+    let mut files = RunFiles::new(args.output.as_deref(), args.events.as_deref(), &record, &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(&record, &setup)).transpose()?;
     use_threads(args.threads)?;
+    let mut log = args.log(&setup, &mut notes, console)?;
 
-    let stop = stop_signal();
     let progress = console.progress(frames, "frames");
-    let panel = Panel::new(&args.estimator, &setup)?;
-    let limit_m = 1e-3 * args.outlier_limit_mm;
-    let wants_second = !args.no_second_opinion;
-    let second = wants_second.then(|| second_opinion(&setup, &mut notes, console)).flatten();
-    let json = args.json || folder.is_some();
-    let mut log = FrameLog::new(&setup, json, (panel, second), limit_m);
+    let began = Instant::now();
     let mut take_frame = |frame: &Frame| {
         progress.inc(1);
         log.push(&setup, frame)
     };
-    let sees_shots = args.fidelity == Fidelity::Cycle && files.want_shots();
-    let wants_all_shots = files.want_all_shots();
-    let mut take_shot = |shot: &Shot| files.shot(shot);
-    let watch = Observers {
-        waves,
-        shots: sees_shots.then_some(&mut take_shot),
-        frames: Some(&mut take_frame),
-        stop: stop.as_deref(),
-    };
-    let began = Instant::now();
-    let stepping = match args.fidelity {
-        Fidelity::Shot => Stepping::LeapShots,
-        _ => Stepping::SkipIdle,
-    };
-    let run = || Run::new(&setup).stepping(stepping);
-    // On several threads unless there is a waveform or every shot is wanted.
-    let outcome = match histograms {
-        Some(histograms) => histograms.many(frames, watch)?,
-        None if watch.waves.is_some() || wants_all_shots => run().observe(frames, watch)?,
-        None => run().many(frames, watch)?,
-    };
+    let outcome =
+        args.simulate(&setup, histograms, (frames, &mut take_frame), waves, &mut files)?;
     let wall = began.elapsed();
     progress.finish_and_clear();
     log.settle(&setup)?;
@@ -161,30 +136,57 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
     let written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;
     let waves = plan.map(|plan| plan.path.display().to_string());
-    let fidelity = args.fidelity.name();
     let about = (&record, &notes[..]);
-    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
-    let Written { files, older } = files.finish(&setup, &mut log, &summary, written)?;
-    for path in files {
-        console.wrote(&path);
-    }
-    for path in older {
-        console.note(format_args!(
-            "{} is of an older run: summary.json does not list it",
-            path.display()
-        ));
-    }
+    let summary = Summary::new(&setup, args.fidelity.name(), waves, &log, files.tdc(), about);
+    files.finish(&setup, &mut log, &summary, written)?.report(console);
     if args.json {
         return print_with(|out| summary.write(&mut log, out));
     }
-    let mut text = table::run(&setup, &log, (!is_drawn).then_some(outcome.cycles), wall);
-    if let Some(results) = &summary.tdc {
-        text += &table::tdc(results);
-    }
-    console.report(&text)
+    let cycles = (!is_drawn).then_some(outcome.cycles);
+    console.report(&table::run(&setup, &log, &summary, cycles, wall))
 }
 
 impl Args {
+    /// Returns the log of the frames, with the estimators that look at them.
+    fn log(&self, setup: &Setup, notes: &mut Vec<Note>, console: &Console) -> Result<FrameLog> {
+        let panel = Panel::new(&self.estimator, setup)?;
+        let wants_second = !self.no_second_opinion;
+        let second = wants_second.then(|| second_opinion(setup, notes, console)).flatten();
+        let json = self.json || self.output.is_some();
+        Ok(FrameLog::new(setup, json, (panel, second), 1e-3 * self.outlier_limit_mm))
+    }
+
+    /// Simulates so many frames: on several threads unless there is a waveform or every shot is wanted.
+    fn simulate(
+        &self,
+        setup: &Setup,
+        histograms: Option<Histograms>,
+        (count, take_frame): (u64, &mut dyn FnMut(&Frame) -> Result<()>),
+        waves: Option<(Waves, Vec<Window>)>,
+        files: &mut RunFiles,
+    ) -> Result<Outcome> {
+        let sees_shots = self.fidelity == Fidelity::Cycle && files.want_shots();
+        let wants_all_shots = files.want_all_shots();
+        let mut take_shot = |shot: &Shot| files.shot(shot);
+        let stop = stop_signal();
+        let watch = Observers {
+            waves,
+            shots: sees_shots.then_some(&mut take_shot),
+            frames: Some(take_frame),
+            stop: stop.as_deref(),
+        };
+        let stepping = match self.fidelity {
+            Fidelity::Shot => Stepping::LeapShots,
+            _ => Stepping::SkipIdle,
+        };
+        let run = || Run::new(setup).stepping(stepping);
+        match histograms {
+            Some(histograms) => histograms.many(count, watch),
+            None if watch.waves.is_some() || wants_all_shots => run().observe(count, watch),
+            None => run().many(count, watch),
+        }
+    }
+
     /// The format of the waveform, if there is one.
     fn waves_format(&self) -> Result<WaveformChoice> {
         match (self.fidelity, self.waves) {

@@ -1,5 +1,6 @@
 //! A drift against a reckoning by hand, and against a calibration that follows.
 
+use tofsim::error::Error;
 use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::scenario;
 

@@ -1,12 +1,12 @@
 //! Measures the variants of a scenario, each once.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
 use tofsim::Note;
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Input, Result, poll_stop};
 use tofsim::scenario::Loaded;
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::Setup;
@@ -221,9 +221,7 @@ impl Plan {
         }
         let (seed, mut of) = (self.setup.scenario.seed, Vec::with_capacity(frames as usize));
         for first in (0..frames).step_by(BLOCK as usize) {
-            if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-                return Err(Error::Interrupted);
-            }
+            poll_stop(stop)?;
             let block = first..frames.min(first + BLOCK);
             let count = block.end - block.start;
             let drawn = block.into_par_iter().map(|frame| error_mm(&histograms.drawn(seed, frame)));

@@ -57,7 +57,7 @@ impl Panel {
         Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
     }
 
-    /// Adds one, which may be of one's own making; it is the last to be asked.
+    /// Adds an estimator, such as a custom one, after all others.
     pub fn add(&mut self, estimator: Box<dyn Estimator>) {
         self.estimators.push(estimator);
     }

@@ -1,10 +1,10 @@
 //! The errors of estimators, histogram by histogram.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Result, poll_stop};
 use tofsim::network::Histogram;
 
 use crate::dataset::{HistogramSource, Pairs, Rows, Scene};
@@ -70,9 +70,7 @@ impl Evaluation {
         let needs_dark = first.iter().any(|one| one.needs_dark());
         let pairs = needs_dark.then(|| Pairs::new(source)).transpose()?;
         for block in source.blocks(rows, seed) {
-            if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-                return Err(Error::Interrupted);
-            }
+            poll_stop(stop)?;
             let drawn = pairs.map_or(Vec::new(), |pairs| pairs.draw(&block));
             for (place, column) in columns.iter_mut().enumerate() {
                 let errors = block.par_iter().enumerate().map(|(k, sample)| {

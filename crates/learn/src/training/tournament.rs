@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Result, poll_stop};
 use tofsim::network::float::Float;
 
 use crate::quantize::Circuit;
@@ -29,7 +29,7 @@ use super::state::{BestBlock, CurvePoint, TournamentState};
 pub struct Watch<'a> {
     /// Set when the user interrupts.
     pub stop: Option<&'a AtomicBool>,
-    /// Is told of work done [histograms times epochs].
+    /// Called with the work done [histograms times epochs].
     pub done: &'a (dyn Fn(u64) + Sync),
     /// When to come back, so that the state can be saved; at least one epoch is made before.
     pub until: Option<Instant>,
@@ -186,9 +186,7 @@ impl<'a> Tournament<'a> {
             let held_out = held_out.map(|data| data.problem(recipe, scaling, &others, None));
             let problem = data.problem(recipe, scaling, &weights, held_out.as_ref());
             while candidate.made < epochs {
-                if watch.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-                    return Err(Error::Interrupted);
-                }
+                poll_stop(watch.stop)?;
                 if is_late() {
                     return Ok(());
                 }

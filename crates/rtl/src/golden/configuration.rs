@@ -62,7 +62,7 @@ pub const REORDERED: Configuration = Configuration {
     ..DEFAULTS
 };
 
-/// Ages that the firmware works out, from few hits.
+/// Ages that the firmware computes, from few hits.
 pub const CALIBRATED: Configuration = Configuration {
     name: "calibrated",
     set: &["tdc.recalibrate_frames=6", "tdc.calibration_hits_log2=10", "tdc.ring_ns=30"],

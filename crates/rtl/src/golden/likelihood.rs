@@ -1,7 +1,7 @@
 //! Estimations of the likelihood estimator one after the other, for it and for each of its blocks.
 //!
 //! The histograms are drawn from scenes of the scenario's instrument, near and far, bright and dark, until one shows
-//! what its kind is for: each reason not to believe a depth, alone, or a word on either side of a limit. Between them
+//! what its kind is for: each reason to reject a depth, alone, or a word on either side of a limit. Between them
 //! stand extreme ones: empty, full, all hits in one bin, every other bin full, random. Now and then an estimation is
 //! started while one is busy, or a reset cuts it short, in each state in turn.
 
@@ -14,6 +14,7 @@ use tofsim::sim::setup::Setup;
 
 mod kinds;
 mod outcome;
+pub mod part;
 
 use kinds::*;
 use outcome::Outcome;

@@ -3,14 +3,16 @@
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tdc_decoder::Decoder;
-use tofsim::firmware::tof_top::{CodeSource, FirmwareEstimator, HistogramSource, Params};
+use tofsim::firmware::tof_top::Params;
 use tofsim::firmware::{
     centroid_estimator, depth_estimator, likelihood_estimator, pll, tdc_calibration, vcsel_driver,
 };
-use tofsim::kernel::U;
 use tofsim::kernel::sizes::{Size, Sizes};
 use tofsim::network::mem::{self, Mem, digits, lines};
-use tofsim::sim::setup::Setup;
+
+mod whole;
+
+pub use whole::{tof_top, tof_top_in_full};
 
 /// A parameter's value.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,9 +56,6 @@ pub type Parameters = Vec<(&'static str, Parameter)>;
 
 /// Parameters that say what a design has. Benches set them before those that say how large it is.
 const OPTIONS: [&str; 5] = ["Neurons", "CountStages", "Decoder", "Order", "Calibrated"];
-
-/// Verilog of the whole firmware.
-const TOF_TOP: &str = include_str!("../../../../rtl_ref/tof_top.v");
 
 /// Names of the parameters that a module's Verilog declares, in its order.
 pub fn declared(verilog: &'static str) -> impl Iterator<Item = &'static str> {
@@ -210,73 +209,6 @@ pub fn of_likelihood(params: &Params, verilog: &'static str) -> Parameters {
     let own =
         likelihood_estimator(&params.estimators.likelihood_estimator).into_iter().filter(declares);
     sized(params, verilog).into_iter().chain(own).collect()
-}
-
-/// Parameters of the whole firmware. The memory of an unused stand-in is loaded too: zeros.
-pub fn tof_top(setup: &Setup) -> Parameters {
-    use Parameter::{Memory, Number};
-    let params = &setup.params;
-    let mut list = vec![
-        ("ShotsPerFrame", Number(params.frame_ctrl.shots_per_frame.into())),
-        ("LockTime", Number(setup.pll().locked_at.ps())),
-    ];
-    list.extend(clocks(&setup.scenario.pll.params()));
-    list.extend(depth_estimator(&params.estimators.depth_estimator));
-    list.extend([
-        ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder))),
-        ("DelaysFile", Memory(tap_delays(&params.tdc.delays))),
-    ]);
-    list.extend(options(params, TOF_TOP));
-    list.extend(params.tdc_calibration.iter().flat_map(tdc_calibration));
-    list.extend(sized(params, TOF_TOP));
-    let (preloads_codes, rom) = match &params.code_source {
-        CodeSource::Tdc => (false, &[U::new(0)][..]),
-        CodeSource::Preload(rom) => (true, &rom[..]),
-    };
-    let (preloads_histogram, words) = match &params.histogram_source {
-        HistogramSource::Builder => (false, &vec![U::new(0); params.histogram.bins][..]),
-        HistogramSource::Preload(rom) => (true, &rom[..]),
-    };
-    list.extend([
-        ("CodeSource", Number(preloads_codes.into())),
-        ("Codes", Number(rom.len() as u64)),
-        ("CodeFile", Memory(codes(rom, &params.histogram))),
-        ("HistogramSource", Number(preloads_histogram.into())),
-        ("HistogramFile", Memory(histogram(words, &params.histogram))),
-    ]);
-    if params.estimator != FirmwareEstimator::default() {
-        list.push(("Estimator", Number(params.estimator.number())));
-    }
-    match params.estimator {
-        FirmwareEstimator::Centroid => {
-            list.extend(centroid_estimator(&params.estimators.centroid_estimator));
-        }
-        FirmwareEstimator::LikelihoodEstimator => {
-            list.extend(likelihood_estimator(&params.estimators.likelihood_estimator));
-        }
-        // The others have no parameters but sizes and memories, which are there already.
-        _ => {}
-    }
-    list
-}
-
-/// Parameters of the whole firmware, also where they are the default.
-pub fn tof_top_in_full(setup: &Setup) -> Parameters {
-    let params = &setup.params;
-    let mut list = tof_top(setup);
-    let every = [
-        every_clock(&setup.scenario.pll.params()),
-        all(params, OPTIONS.into_iter()),
-        tdc_calibration(&tdc_calibration::Params::stand_in(&params.tdc)),
-        all(params, sizes_of(TOF_TOP)),
-        vec![("Estimator", Parameter::Number(params.estimator.number()))],
-        centroid_estimator(&params.estimators.centroid_estimator),
-        likelihood_estimator(&params.estimators.likelihood_estimator),
-    ];
-    let is_new = |(name, _): &(&str, Parameter)| list.iter().all(|(known, _)| known != name);
-    let others: Vec<_> = every.concat().into_iter().filter(is_new).collect();
-    list.extend(others);
-    list
 }
 
 /// When each tap is reached after a change of `tdc_stop`, in the order of the taps [fs].

@@ -5,13 +5,13 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Input, Result, poll_stop};
 
 /// A program and the Debian package that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,10 +149,7 @@ pub fn run(mut command: Command, folder: &Path, limits: &Limits) -> Result<Finis
         if let Some(status) = child.try_wait().map_err(fault)? {
             break End::Exit(status.success());
         }
-        if limits.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
-            kill(child.as_mut());
-            return Err(Error::Interrupted);
-        }
+        poll_stop(limits.stop).inspect_err(|_| kill(child.as_mut()))?;
         let length = out.metadata().map_or(written, |file| file.len());
         if length != written {
             (written, spoke) = (length, Instant::now());

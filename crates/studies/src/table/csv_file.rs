@@ -5,7 +5,7 @@ use std::path::Path;
 use tofsim::error::{Error, Result};
 use tofsim::files::output::OutputFile;
 
-use super::{Field, Row};
+use super::Row;
 
 /// A CSV file under construction, which is removed unless it is finished.
 pub struct CsvFile {
@@ -14,16 +14,20 @@ pub struct CsvFile {
 }
 
 impl CsvFile {
-    /// Begins a file; `comment` is its first line, including the line feed.
+    /// Begins a file with columns of these names; `comment` is its first line, including the line feed.
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn create(path: &Path, comment: &str, fields: &[Field]) -> Result<Self> {
+    pub fn create<'a>(
+        path: &Path,
+        comment: &str,
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Self> {
         use std::io::Write;
         let mut file = OutputFile::create(path)?;
         file.write_all(comment.as_bytes()).map_err(Error::io(path, "write"))?;
         let mut csv = CsvFile { writer: csv::Writer::from_writer(file), path: path.to_owned() };
-        csv.record(fields.iter().map(|field| field.name.clone()))?;
+        csv.record(names)?;
         Ok(csv)
     }
 
@@ -35,7 +39,11 @@ impl CsvFile {
         self.record(row.cells.iter().map(super::Cell::text))
     }
 
-    fn record(&mut self, cells: impl Iterator<Item = String>) -> Result<()> {
+    /// Writes the cells of a row.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn record(&mut self, cells: impl IntoIterator<Item = impl AsRef<[u8]>>) -> Result<()> {
         let written = self.writer.write_record(cells);
         written.map_err(|error| Error::io(&self.path, "write")(std::io::Error::other(error)))
     }

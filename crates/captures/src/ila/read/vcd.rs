@@ -19,6 +19,9 @@ const MARKS: [&str; 3] = ["_TRIGGER", "_WINDOW", "_GAP"];
 /// Largest number of samples if only the VCD determines it; Vivado's buffers have 2^17.
 const DEEPEST: u64 = 1 << 20;
 
+/// Place and width of each variable by its identifier.
+type Ids<'a> = HashMap<&'a str, (usize, u32)>;
+
 /// Contents of a file.
 #[derive(Debug, Default)]
 pub(super) struct Vcd {
@@ -33,11 +36,21 @@ impl Vcd {
     /// Parses a file.
     pub(super) fn read(source: &str, text: &str) -> Result<Self> {
         let mut vcd = Vcd::default();
-        let mut ids: HashMap<&str, (usize, u32)> = HashMap::new();
-        let mut marks = HashMap::new();
-        let mut sample = 0;
         let mut lines = (1..).zip(text.lines());
-        for (number, line) in lines.by_ref() {
+        let ids = vcd.declarations(source, &mut lines)?;
+        vcd.changes.resize(vcd.columns.len() + MARKS.len(), Vec::new());
+        vcd.changes(source, lines, &ids)?;
+        Ok(vcd)
+    }
+
+    /// Parses the declarations. Returns place and width of each variable by its identifier.
+    fn declarations<'a>(
+        &mut self,
+        source: &str,
+        lines: &mut impl Iterator<Item = (usize, &'a str)>,
+    ) -> Result<Ids<'a>> {
+        let (mut ids, mut marks) = (Ids::new(), HashMap::new());
+        for (number, line) in lines {
             let fault = |expected: &str| Input::new(source, expected).at(number, 1).value(line);
             let mut words = line.split_ascii_whitespace();
             match words.next() {
@@ -64,12 +77,22 @@ impl Vcd {
             if *width != column.width.to_string() {
                 return Err(fault("expected a range as wide as the variable").into());
             }
-            ids.insert(id, (vcd.columns.len(), column.width));
-            vcd.columns.push(column);
+            ids.insert(id, (self.columns.len(), column.width));
+            self.columns.push(column);
         }
-        let probes = vcd.columns.len();
+        let probes = self.columns.len();
         ids.extend(marks.into_iter().map(|(id, mark)| (id, (probes + mark, 1))));
-        vcd.changes.resize(probes + MARKS.len(), Vec::new());
+        Ok(ids)
+    }
+
+    /// Parses the changes.
+    fn changes<'a>(
+        &mut self,
+        source: &str,
+        lines: impl Iterator<Item = (usize, &'a str)>,
+        ids: &Ids,
+    ) -> Result<()> {
+        let mut sample = 0;
         for (number, line) in lines {
             let fault = |expected: &str| Input::new(source, expected).at(number, 1).value(line);
             let (digits, id) = match line.as_bytes().first() {
@@ -77,10 +100,10 @@ impl Vcd {
                 Some(b'#') => {
                     let next = line[1..].trim().parse();
                     sample = next.map_err(|_| fault("expected the number of a sample"))?;
-                    if sample < vcd.last {
+                    if sample < self.last {
                         return Err(fault("expected a sample after those before").into());
                     }
-                    vcd.last = sample;
+                    self.last = sample;
                     continue;
                 }
                 Some(b'b') => line[1..].trim().split_once(' ').unwrap_or_default(),
@@ -92,9 +115,9 @@ impl Vcd {
             let Some(value) = bits(digits, width) else {
                 return Err(fault(&format!("expected {width} bits at most, each 0 or 1")).into());
             };
-            vcd.changes[variable].push((sample, value));
+            self.changes[variable].push((sample, value));
         }
-        Ok(vcd)
+        Ok(())
     }
 
     /// Copies a probe to the channels from `low` on; its last value extends to the end.

@@ -127,7 +127,7 @@ impl ReplayFiles {
         })
     }
 
-    /// Name of the list that stands beside.
+    /// Name of the list beside it.
     fn list(&self, kind: ReplayKind) -> String {
         format!("{}.{kind}.csv", self.stem)
     }

@@ -1,5 +1,7 @@
 use super::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::sync::atomic::Ordering;
+use tofsim::error::Error;
 use tofsim::scenario;
 
 fn plan(keys: &[&str], kind: EstimatorKind) -> Plan {

@@ -5,6 +5,7 @@ use crate::dataset::HistogramSource;
 use crate::training::checkpoint::{self, CheckpointOf};
 use crate::training::data::TrainingScenes;
 use std::sync::Mutex;
+use tofsim::error::Error;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 

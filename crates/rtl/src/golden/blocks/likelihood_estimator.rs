@@ -4,6 +4,7 @@ use tofsim::firmware::likelihood_estimator::In;
 
 use crate::golden::configuration;
 use crate::golden::likelihood::Estimations;
+use crate::golden::likelihood::part::vectors;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
@@ -36,6 +37,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.likelihood_estimator.rise(&i, &setting.setup.params.estimators.likelihood_estimator);
     }
-    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
-    Ok(Vectors { parameters, ..run.vectors(estimations.coverage()) })
+    vectors(run, spec, setting, estimations.coverage())
 }

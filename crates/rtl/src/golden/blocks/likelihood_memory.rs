@@ -4,6 +4,7 @@ use tofsim::firmware::likelihood_estimator::Wires;
 use tofsim::firmware::likelihood_memory::In;
 
 use crate::golden::likelihood::Estimations;
+use crate::golden::likelihood::part::vectors;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
@@ -31,6 +32,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&own);
         run.top.likelihood_estimator.rise(&i, &setting.setup.params.estimators.likelihood_estimator);
     }
-    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
-    Ok(Vectors { parameters, ..run.vectors([kinds]) })
+    vectors(run, spec, setting, [kinds])
 }

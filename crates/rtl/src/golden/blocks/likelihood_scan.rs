@@ -1,46 +1,33 @@
 //! Blocks of loads, and bins of scans, as measured and of every size, with many ties.
 
-use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::likelihood_estimator::{LikelihoodEstimator, Wires};
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_scan::In;
 
-use crate::golden::likelihood::Estimations;
+use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.likelihood_estimator.likelihood_scan.rise(&i, &at.params.estimators.likelihood_estimator);
-    })),
+    model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_scan", "likelihood_estimator.likelihood_scan", record)
 };
 
+const PART: Part<In> = Part {
+    wires: Wires::likelihood_scan,
+    rise: |estimator, i, params| estimator.likelihood_scan.rise(i, params),
+};
+
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false);
-    let mut run = Recorder::new(spec, setting, In::list());
     let mut scores = Cover::new("score in 256ths, above none", 0..4);
     let mut lone = Cover::new("lone", 0..2);
-    let mut drawn = Drawn::default();
-    for _ in 0..setting.cycles() {
-        let estimator = &run.top.likelihood_estimator;
+    let see = |estimator: &LikelihoodEstimator, _: &In, _| {
         let now = &estimator.likelihood_scan.registers;
         scores.see((now.best_score.get().max(0) >> 8) as u64);
         lone.see(now.lone.into());
-        let params = &*setting.setup.params.estimators.likelihood_estimator;
-        if estimations.over(estimator, setting.cycles()) {
-            let own = drawn.next(&setting.setup.params.histogram, &mut run.draw);
-            run.line(&own);
-            let scan = &mut run.top.likelihood_estimator.likelihood_scan;
-            scan.rise(&own, params);
-            continue;
-        }
-        let i = estimations.next(estimator, &mut run.draw);
-        let own = Wires::likelihood_scan(&run.top.likelihood_estimator, &i);
-        run.line(&own);
-        run.top.likelihood_estimator.rise(&i, params);
-    }
-    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
-    Ok(Vectors { parameters, ..run.vectors([scores, lone]) })
+    };
+    let (mut drawn, histogram) = (Drawn::default(), setting.histogram());
+    let run = PART.record(spec, setting, see, |_, _, draw| drawn.next(&histogram, draw));
+    vectors(run, spec, setting, [scores, lone])
 }
 
 /// Loads and short scans that are drawn, in turn.

@@ -1,6 +1,6 @@
 //! All programs, with what comes of loads, scans and fits, and with operands of every size.
 
-use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::likelihood_estimator::{LikelihoodEstimator, Wires};
 use tofsim::firmware::likelihood_estimator::words::SCARCE;
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_solver::In;
@@ -8,44 +8,32 @@ use tofsim::firmware::likelihood_solver::program::{
     AMBIENT_PROGRAM, END_PROGRAM, PROGRAM, START_PROGRAM, STEP_PROGRAM,
 };
 
-use crate::golden::likelihood::Estimations;
+use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.likelihood_estimator.likelihood_solver.rise(&i, &at.params.estimators.likelihood_estimator);
-    })),
+    model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_solver", "likelihood_estimator.likelihood_solver", record)
 };
 
+const PART: Part<In> = Part {
+    wires: Wires::likelihood_solver,
+    rise: |estimator, i, params| estimator.likelihood_solver.rise(i, params),
+};
+
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false);
-    let mut run = Recorder::new(spec, setting, In::list());
     let mut counters = Cover::new("instruction", 0..PROGRAM.len() as u64);
-    let mut running = false;
-    for _ in 0..setting.cycles() {
-        let estimator = &run.top.likelihood_estimator;
-        counters.see(estimator.likelihood_solver.counter());
-        let params = &*setting.setup.params.estimators.likelihood_estimator;
-        if estimations.over(estimator, setting.cycles()) {
-            running &= !estimator.likelihood_solver.registers.ran;
-            let mut own = operands(&setting.setup.params.histogram, &mut run.draw);
-            own.run = !running && run.draw.one_in(3);
-            running = (running || own.run) && !own.rst;
-            run.line(&own);
-            let solver = &mut run.top.likelihood_estimator.likelihood_solver;
-            solver.rise(&own, params);
-            continue;
-        }
-        let i = estimations.next(estimator, &mut run.draw);
-        let own = Wires::likelihood_solver(&run.top.likelihood_estimator, &i);
-        run.line(&own);
-        run.top.likelihood_estimator.rise(&i, params);
-    }
-    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
-    Ok(Vectors { parameters, ..run.vectors([counters]) })
+    let see = |estimator: &LikelihoodEstimator, _: &In, _| counters.see(estimator.likelihood_solver.counter());
+    let (mut running, histogram) = (false, setting.histogram());
+    let run = PART.record(spec, setting, see, |estimator, _, draw| {
+        running &= !estimator.likelihood_solver.registers.ran;
+        let mut own = operands(&histogram, draw);
+        own.run = !running && draw.one_in(3);
+        running = (running || own.run) && !own.rst;
+        own
+    });
+    vectors(run, spec, setting, [counters])
 }
 
 /// Draws a program and its operands.

@@ -1,45 +1,32 @@
 //! Terms of the bins of scans, fits and checks, and terms of every size.
 
-use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::likelihood_estimator::{LikelihoodEstimator, Wires};
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_sums::In;
 
-use crate::golden::likelihood::Estimations;
+use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.likelihood_estimator.likelihood_sums.tick(&i, &at.params.estimators.likelihood_estimator);
-    })),
+    model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_sums", "likelihood_estimator.likelihood_sums", record)
 };
 
+const PART: Part<In> = Part {
+    wires: Wires::likelihood_sums,
+    rise: |estimator, i, params| estimator.likelihood_sums.tick(i, params),
+};
+
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false);
-    let mut run = Recorder::new(spec, setting, In::list());
     let mut checks = Cover::new("phase x 2 + check", 0..4);
     let mut fars = Cover::new("far", 0..2);
-    let mut drawn = Drawn::default();
-    for _ in 0..setting.cycles() {
-        let estimator = &run.top.likelihood_estimator;
+    let see = |estimator: &LikelihoodEstimator, own: &In, alone: bool| {
         fars.see(estimator.likelihood_sums.far.into());
-        let params = &*setting.setup.params.estimators.likelihood_estimator;
-        if estimations.over(estimator, setting.cycles()) {
-            let own = drawn.next(&setting.setup.params.histogram, &mut run.draw);
-            run.line(&own);
-            let sums = &mut run.top.likelihood_estimator.likelihood_sums;
-            sums.tick(&own, params);
-            continue;
-        }
-        let i = estimations.next(estimator, &mut run.draw);
-        let own = Wires::likelihood_sums(&run.top.likelihood_estimator, &i);
-        checks.see(bits([own.phase, own.check]));
-        run.line(&own);
-        run.top.likelihood_estimator.rise(&i, params);
-    }
-    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
-    Ok(Vectors { parameters, ..run.vectors([checks, fars]) })
+        checks.see_if(!alone, bits([own.phase, own.check]));
+    };
+    let (mut drawn, histogram) = (Drawn::default(), setting.histogram());
+    let run = PART.record(spec, setting, see, |_, _, draw| drawn.next(&histogram, draw));
+    vectors(run, spec, setting, [checks, fars])
 }
 
 /// Lines in which what is on the way comes to its sum, with nothing after it.

@@ -1,50 +1,40 @@
 //! Bins of scans and fits, as the estimator's memory hands them on, and bins around the ends of the pulse's ROM,
 //! with words of every size.
 
-use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::likelihood_estimator::{LikelihoodEstimator, Wires};
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::likelihood_terms::In;
 
-use crate::golden::likelihood::Estimations;
+use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    model: Some(Model::new::<In>(|at| {
-        let i = at.input();
-        at.top.likelihood_estimator.likelihood_terms.tick(&i, &at.params.estimators.likelihood_estimator);
-    })),
+    model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_terms", "likelihood_estimator.likelihood_terms", record)
 };
 
+const PART: Part<In> = Part {
+    wires: Wires::likelihood_terms,
+    rise: |estimator, i, params| estimator.likelihood_terms.tick(i, params),
+};
+
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false);
-    let mut run = Recorder::new(spec, setting, In::list());
     let mut predicted = Cover::new("bits of an expected count", [0].into_iter().chain(10..24));
     let mut shares = Cover::new("share in 16ths", 0..17);
-    let mut own = In::default();
-    for _ in 0..setting.cycles() {
-        let estimator = &run.top.likelihood_estimator;
+    let see = |estimator: &LikelihoodEstimator, _: &In, _| {
         let now = &estimator.likelihood_terms;
         predicted.see(u64::from(u64::BITS - now.predicted.get().leading_zeros()));
         shares.see(now.share.get() >> 8);
-        let params = &*setting.setup.params.estimators.likelihood_estimator;
-        if estimations.over(estimator, setting.cycles()) {
-            own.phase = !own.phase;
-            if !own.phase {
-                draw(&mut own, params, &mut run.draw);
-            }
-            run.line(&own);
-            let terms = &mut run.top.likelihood_estimator.likelihood_terms;
-            terms.tick(&own, params);
-            continue;
+    };
+    let params = &*setting.setup.params.estimators.likelihood_estimator;
+    let run = PART.record(spec, setting, see, |_, mut own, random| {
+        own.phase = !own.phase;
+        if !own.phase {
+            draw(&mut own, params, random);
         }
-        let i = estimations.next(estimator, &mut run.draw);
-        own = Wires::likelihood_terms(&run.top.likelihood_estimator, &i);
-        run.line(&own);
-        run.top.likelihood_estimator.rise(&i, params);
-    }
-    let parameters = parameters::of_likelihood(&setting.setup.params, spec.verilog);
-    Ok(Vectors { parameters, ..run.vectors([predicted, shares]) })
+        own
+    });
+    vectors(run, spec, setting, [predicted, shares])
 }
 
 /// Draws a word, and now and then another point.
