@@ -24,9 +24,14 @@ pub struct BlockReport {
 }
 
 impl BlockReport {
-    /// Returns whether the block does not do what it should; one that was not run is not said to.
+    /// Returns whether nothing is wrong: it passes, or the design need not have it.
+    pub fn is_good(&self) -> bool {
+        matches!(self.verdict, Verdict::Pass | Verdict::NotRun { .. })
+    }
+
+    /// Returns whether the block does not do what it should; one that could not be checked is not said to.
     pub fn failed(&self) -> bool {
-        !matches!(self.verdict, Verdict::Pass | Verdict::NotRun { .. })
+        !self.is_good() && !matches!(self.verdict, Verdict::NotChecked { .. })
     }
 
     /// Returns whether it never came to an end.
@@ -34,12 +39,12 @@ impl BlockReport {
         matches!(self.verdict, Verdict::Hangs { .. } | Verdict::TimedOut { .. })
     }
 
-    /// Of a block that was not run.
-    pub fn not_run(name: &str, reason: String) -> Self {
+    /// Creates the report on a block that was not run, or could not be checked.
+    pub fn without_run(name: &str, verdict: Verdict) -> Self {
         BlockReport {
             name: name.to_owned(),
             cycles: 0,
-            verdict: Verdict::NotRun { reason },
+            verdict,
             around: Vec::new(),
             wave: None,
             coverage: (0, 0),
@@ -63,9 +68,9 @@ impl BlockReport {
                 "hangs after cycle {cycle}: nothing has moved for {seconds} s, something goes round \
                  without a delay",
             ),
-            Verdict::NotRun { reason } => reason.clone(),
-            Verdict::TimedOut { seconds } => {
-                format!("the bench has not ended in {seconds} s and was killed")
+            Verdict::NotRun { reason } | Verdict::NotChecked { reason } => reason.clone(),
+            Verdict::TimedOut { after } => {
+                format!("the bench has not ended after {after} and was killed")
             }
             Verdict::Broke { message } => format!("the bench broke off: {}", message.trim()),
         }
@@ -86,6 +91,7 @@ impl BlockReport {
             Verdict::Differs { .. } => "differs",
             Verdict::Hangs { .. } => "hangs",
             Verdict::NotRun { .. } => "not run",
+            Verdict::NotChecked { .. } => "not checked",
             Verdict::TimedOut { .. } => "timed out",
             Verdict::Broke { .. } => "broke off",
         }

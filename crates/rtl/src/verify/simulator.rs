@@ -9,7 +9,7 @@ use std::process::Command;
 use tofsim::error::{Error, Result, read_text};
 
 use super::interface::{Interface, icarus, verilator};
-use super::process::{self, Finished, IVERILOG, Limits, VERILATOR, VVP};
+use super::process::{self, Finished, IVERILOG, Limits, Tool, VERILATOR, VVP};
 use super::rtl::Rtl;
 
 /// A simulator.
@@ -37,6 +37,18 @@ impl Simulator {
             Simulator::Icarus => "icarus",
             Simulator::Verilator => "verilator",
         }
+    }
+
+    /// Checks that it is installed.
+    ///
+    /// # Errors
+    /// When a program of it is not on the PATH.
+    pub fn check_is_installed(self) -> Result<()> {
+        let tools: &[Tool] = match self {
+            Simulator::Icarus => &[IVERILOG, VVP],
+            Simulator::Verilator => &[VERILATOR],
+        };
+        tools.iter().try_for_each(Tool::check_is_installed)
     }
 
     /// Compiles `top`, which is in `bench`, with the design's files, to run in `folder`.

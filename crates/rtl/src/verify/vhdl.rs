@@ -13,7 +13,7 @@ use tofsim::files::output::{create_directory, write_bytes};
 
 use crate::golden::parameters::Parameter;
 
-use super::process::{End, GHDL, Limits, SHELL};
+use super::process::{GHDL, Limits, SHELL};
 use super::rtl::{Rtl, Source};
 
 /// A generic and its value.
@@ -130,9 +130,9 @@ fn synthesise(
         let field = format!("entity {entity}, generic {name}");
         return Err(Input::new(&rtl.source, "no such generic").field(field).into());
     }
-    let what = match finished.end {
-        End::Exit(_) => "GHDL does not synthesise it",
-        _ => "GHDL took too long to synthesise it",
+    let what = match finished.end.killed() {
+        None => "GHDL does not synthesise it".to_owned(),
+        Some(why) => format!("GHDL {why}"),
     };
     let message: Vec<_> = (refused.lines())
         .chain(made.output.lines().filter(|_| !made.success()))

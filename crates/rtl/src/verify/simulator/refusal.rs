@@ -2,7 +2,7 @@
 
 use tofsim::error::Input;
 
-use crate::verify::process::{End, Finished};
+use crate::verify::process::Finished;
 use crate::verify::rtl::Rtl;
 
 /// Lines of a simulator's message that are passed on.
@@ -61,12 +61,14 @@ pub fn of(rtl: &Rtl, top: &str, finished: &Finished) -> Input {
     if let Some(module) = lines().find_map(unknown) {
         return Input::new(&rtl.source, format!("it has no module `{module}`"));
     }
-    let what = match finished.end {
-        End::Exit(_) => "the simulator does not take it",
-        _ => "the simulator took too long to compile it",
-    };
+    if let Some(why) = finished.end.killed() {
+        return Input::new(
+            &rtl.source,
+            format!("the simulator's compilation {why} (--time-limit)"),
+        );
+    }
     let hint = lines().find_map(|line| HINTS.iter().find(|(text, _)| line.contains(text)));
     let hint = hint.map_or(String::new(), |(_, hint)| format!(" ({hint})"));
     let message = errors[..errors.len().min(LINES)].join("\n");
-    Input::new(&rtl.source, format!("{what}{hint}:\n{message}"))
+    Input::new(&rtl.source, format!("the simulator does not take it{hint}:\n{message}"))
 }
