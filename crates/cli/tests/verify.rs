@@ -9,7 +9,10 @@ use serde_json::Value;
 
 use crate::common;
 
+mod early;
 mod foreign;
+mod inputs;
+mod sources;
 mod stranger;
 mod unchecked;
 mod whole;

@@ -6,6 +6,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use tofsim::error::{Error, Input, Result};
+use tofsim::{Note, NoteCode};
 use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::{BlockReport, Verdict};
 
@@ -85,6 +86,27 @@ pub fn not_checked(reports: &[BlockReport]) -> Vec<Error> {
         .collect()
 }
 
+/// Returns the note on an input that nothing drives, of the design's module for a block.
+pub fn open_input(block: &str, input: &str) -> Note {
+    let key = format!("block.{block}.tie.{input}");
+    let text = "nothing drives this input, which tofsim's block does not have";
+    Note::new(NoteCode::OpenInput, key, "open", "a constant in the map", text)
+}
+
+/// Returns the notes on some blocks, each once whatever configurations were checked.
+pub fn notes(reports: &[BlockReport]) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for report in reports {
+        let block = report.name.split('.').next().unwrap_or_default();
+        for note in report.open.iter().map(|input| open_input(block, input)) {
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
+    }
+    notes
+}
+
 /// Returns the faults of some blocks, each with the names of the blocks that have it.
 fn by_reason<'a>(reports: impl Iterator<Item = &'a BlockReport>) -> Vec<(String, String)> {
     let mut reasons: Vec<(String, String)> = Vec::new();
@@ -140,12 +162,17 @@ impl Findings for Verified<'_> {
                 "goals": { "met": met, "of": of, "missed": missed(report) },
             })
         };
-        json!({
+        let mut object = json!({
             "rtl": self.rtl,
             "simulator": self.simulator,
             "passed": self.blocks.iter().all(BlockReport::is_good),
             "blocks": self.blocks.iter().map(block).collect::<Vec<_>>(),
-        })
+        });
+        let notes = notes(self.blocks);
+        if !notes.is_empty() {
+            object["notes"] = json!(notes);
+        }
+        object
     }
 
     fn text(&self) -> String {

@@ -19,7 +19,7 @@ use tofsim_rtl::verify::{
 };
 
 use crate::choice::{self, words};
-use crate::report::verification::{CycleCounts, Verified, not_checked, write_junit};
+use crate::report::verification::{CycleCounts, Verified, not_checked, notes, write_junit};
 use crate::report::writer::Report;
 use crate::text::table::coloured;
 use crate::text::wrap::message;
@@ -105,6 +105,7 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
         let (rtl, blocks) = &blocks(args, console)?;
         let verified = Verified { rtl, simulator: args.simulator.name(), blocks };
         Report::without_record(verified).deliver(None, args.json, console)?;
+        console.print_notes(&notes(blocks))?;
         let failed = blocks.iter().any(BlockReport::failed);
         let mut faults = not_checked(blocks);
         let last = if failed { None } else { faults.pop() };

@@ -62,7 +62,7 @@ impl BlockCheck<'_> {
         }
         let mut bench = Bench::new(&vectors);
         bench.fixed = candidate.fixed;
-        bench.past = candidate.past(task, &vectors.sizes);
+        bench.past = candidate.past;
         let top = vectors.bench_module();
         let mut sources = vec![work.join(&top).with_extension("v")];
         if let Some(map) = &candidate.map {
@@ -80,6 +80,7 @@ impl BlockCheck<'_> {
             cycles: vectors.stimulus.rows(),
             verdict,
             around: Vec::new(),
+            open: candidate.open,
             wave: None,
             coverage: (coverage.clone().map(Cover::met).sum(), coverage.map(Cover::cases).sum()),
             missed: missed

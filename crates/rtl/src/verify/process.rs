@@ -1,15 +1,15 @@
 //! Runs other people's programs: with a time limit, and never leaving a child behind.
 
+mod limits;
 mod processor_time;
 mod watch;
 
 use std::ffi::OsStr;
-use std::fmt;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -17,7 +17,10 @@ use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
 
 use tofsim::error::{Error, Input, Result};
 
+use limits::LONGEST;
 use watch::Watch;
+
+pub use limits::{End, Limits, Overrun};
 
 /// A program and the Debian package that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,74 +54,8 @@ pub struct Finished {
     pub output: String,
 }
 
-/// Way in which a program ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// Itself, and whether it says that all went well.
-    Exit(bool),
-    /// Killed because its time was up.
-    OutOfTime(Overrun),
-    /// Killed because it had written nothing for so long.
-    Stalled(Duration),
-    /// Killed because it had written too much.
-    Wild,
-}
-
-/// A time that a program has used up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overrun {
-    /// Processor time, of the program and its children.
-    Processor(Duration),
-    /// Time by the clock, of a program that waits for something or has hardly been given a processor.
-    Clock(Duration),
-}
-
-/// When to give up.
-#[derive(Clone, Copy, Debug)]
-pub struct Limits<'a> {
-    /// Processor time that a program may take with its children, so that a busy machine is no fault of its own, or
-    /// [`SHARE`] times as long by the clock.
-    pub time: Duration,
-    /// Time for which it may write nothing, if it is one that reports progress; measured as `time` is.
-    pub silence: Option<Duration>,
-    /// Set from outside to stop.
-    pub stop: Option<&'a AtomicBool>,
-}
-
-/// Output beyond this is taken as a program gone wild [bytes].
-const LONGEST: u64 = 64 << 20;
 /// First and longest time between two looks at a program.
 const NAP: (Duration, Duration) = (Duration::from_millis(1), Duration::from_millis(20));
-/// Time by the clock for a second of processor time, at most.
-pub const SHARE: u32 = 8;
-
-impl Limits<'_> {
-    /// So long, whatever it writes.
-    pub const fn new(time: Duration) -> Self {
-        Limits { time, silence: None, stop: None }
-    }
-}
-
-impl fmt::Display for Overrun {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Overrun::Processor(time) => write!(f, "{} s of processor time", time.as_secs_f64()),
-            Overrun::Clock(time) => write!(f, "{} s", time.as_secs_f64()),
-        }
-    }
-}
-
-impl End {
-    /// Returns why it was killed, as the end of a sentence about it, if it was.
-    pub fn killed(&self) -> Option<String> {
-        match self {
-            End::Exit(_) => None,
-            End::OutOfTime(overrun) => Some(format!("has not ended after {overrun}")),
-            End::Stalled(time) => Some(format!("has written nothing for {} s", time.as_secs_f64())),
-            End::Wild => Some(format!("has written more than {} MiB", LONGEST >> 20)),
-        }
-    }
-}
 
 impl Finished {
     /// Returns whether it ended by itself and says that all went well.
@@ -225,6 +162,7 @@ fn text(mut file: File) -> std::io::Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::AtomicBool;
     use std::time::Instant;
 
     fn limits(seconds: f64) -> Limits<'static> {

@@ -15,6 +15,8 @@ pub struct BlockReport {
     pub verdict: Verdict,
     /// The cycles around the first mismatch, as rows of a table; none without one.
     pub around: Vec<Vec<String>>,
+    /// Inputs of the module that ours lacks and no map ties: nothing drives them.
+    pub open: Vec<String>,
     /// The waveform of both sides.
     pub wave: Option<PathBuf>,
     /// Goals of the stimulus met, and goals.
@@ -46,6 +48,7 @@ impl BlockReport {
             cycles: 0,
             verdict,
             around: Vec::new(),
+            open: Vec::new(),
             wave: None,
             coverage: (0, 0),
             missed: Vec::new(),

@@ -209,7 +209,8 @@ fn a_missing_module_is_named() {
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.path.ends_with("spad_control.v"));
     let error = cycle_counts(&rtl, &kc705(), &limits(), |_| {}).unwrap_err();
-    assert_eq!(error.to_string(), "rtl_ref: it has no module `spad_control`");
+    let error = error.to_string();
+    assert!(error.starts_with("rtl_ref: module = spad_control: no such module"), "{error}");
 }
 
 #[test]

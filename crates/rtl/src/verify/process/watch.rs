@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
+use super::limits::{End, LONGEST, Limits, Overrun, SHARE};
 use super::processor_time;
-use super::{End, LONGEST, Limits, Overrun, SHARE};
 
 /// Most processors that a program is taken to use at once, for the time to the next look at what it has used.
 const PROCESSORS: u32 = 4;
