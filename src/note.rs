@@ -37,6 +37,8 @@ pub enum NoteCode {
     Comparison,
     /// A scenario key was given by its former name.
     RenamedKey,
+    /// Nothing drives an input of a design under test.
+    OpenInput,
 }
 
 impl fmt::Display for NoteCode {

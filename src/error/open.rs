@@ -147,35 +147,55 @@ impl Read for Opened {
     }
 }
 
+/// Byte order mark, which some editors write before a text.
+const MARK: char = '\u{feff}';
 /// Size limit of an input [bytes].
 const LONGEST: u64 = 1 << 28;
+/// Size limit of what is read of a device, which need not have an end [bytes].
+const LONGEST_OF_DEVICE: u64 = 1 << 20;
 
 /// Reads a file or a pipe of at most 256 MiB.
 ///
 /// # Errors
 /// If it cannot be read or is too long.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
     let file = open(path)?;
-    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(Error::io(path, "read"))?;
-    if bytes.len() as u64 > LONGEST {
-        Err(Input::new(path.display(), "expected 256 MiB at most").into())
+    let found = match &file {
+        Opened::File(file) => Some(file.metadata().map_err(Error::io(path, "read"))?),
+        Opened::Pipe(_) => None,
+    };
+    let is_device = found.as_ref().is_some_and(|found| !found.is_file() && !found.is_dir());
+    let (longest, expected) = if is_device {
+        (LONGEST_OF_DEVICE, "expected a file or a pipe; of a device at most 1 MiB is read")
     } else {
-        Ok(bytes)
+        (LONGEST, "expected 256 MiB at most")
+    };
+    let mut bytes = Vec::new();
+    let is_longer = found.is_some_and(|found| found.len() > longest);
+    if !is_longer {
+        file.take(longest + 1).read_to_end(&mut bytes).map_err(Error::io(path, "read"))?;
     }
+    if is_longer || bytes.len() as u64 > longest {
+        return Err(Input::new(path.display(), expected).into());
+    }
+    Ok(bytes)
 }
 
-/// Reads a file or a pipe of at most 256 MiB as UTF-8.
+/// Reads a file or a pipe of at most 256 MiB as UTF-8, without the byte order mark that it may begin with.
 ///
 /// # Errors
 /// If it cannot be read, is too long, or is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String> {
-    String::from_utf8(read_bytes(path)?).map_err(|error| {
+    let mut text = String::from_utf8(read_bytes(path)?).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
         let (line, column) = line_and_column(&text, valid);
-        Input::new(path.display(), "expected UTF-8 text").at(line, column).into()
-    })
+        Input::new(path.display(), "expected UTF-8 text").at(line, column)
+    })?;
+    if text.starts_with(MARK) {
+        text.drain(..MARK.len_utf8());
+    }
+    Ok(text)
 }
 
 #[cfg(unix)]
@@ -190,6 +210,28 @@ mod tests {
         let path = folder.join("pipe");
         assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
         path
+    }
+
+    #[test]
+    fn a_device_without_an_end_and_a_file_that_is_too_long_are_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let long = folder.path().join("long");
+        fs::File::create(&long).unwrap().set_len(LONGEST + 1).unwrap();
+        for (path, expected) in
+            [(Path::new("/dev/zero"), "of a device at most"), (&long, "256 MiB")]
+        {
+            let error = read_bytes(path).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+        assert_eq!(read_bytes(Path::new("/dev/null")).unwrap(), b"");
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_part_of_a_text() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        fs::write(&path, "\u{feff}a\u{feff}").unwrap();
+        assert_eq!(read_text(&path).unwrap(), "a\u{feff}");
     }
 
     #[test]

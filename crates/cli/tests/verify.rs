@@ -9,8 +9,12 @@ use serde_json::Value;
 
 use crate::common;
 
+mod early;
 mod foreign;
+mod inputs;
+mod sources;
 mod stranger;
+mod unchecked;
 mod whole;
 
 const OWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rtl_ref");
@@ -228,7 +232,7 @@ fn a_bench_that_never_ends_is_killed_at_its_time_limit() {
     assert!(begin.elapsed().as_secs() < 60);
     assert_eq!(output.status.code(), Some(1));
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(text.contains("has not ended in 1 s and was killed"), "{text}");
+    assert!(text.contains("has not ended after 1 s of processor time and was killed"), "{text}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use tofsim::error::Result;
 use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
 use tofsim_captures::source::Axis;
 
-use crate::text::junit::{self, JunitCase};
+use crate::text::junit::{self, JunitCase, JunitOutcome};
 use crate::text::table::{coloured, counted, grouped, table};
 
 use super::writer::Findings;
@@ -237,16 +237,16 @@ pub fn write_junit(path: &Path, result: &Comparison) -> Result<()> {
                 format!("{} of {} differ: {}", pair.differing, pair.compared, pair.overview);
             (first_line(result, pair), count)
         });
-        JunitCase { name: pair.name.clone(), failure, skipped: None }
+        JunitCase { name: pair.name.clone(), outcome: JunitOutcome::of(failure) }
     };
     let findings: Vec<_> = result.findings.iter().map(|f| f.text.as_str()).collect();
     let differs = !result.differences.is_empty();
     let failure = differs.then(|| (result.differences.join("; "), findings.join("\n")));
-    let structure = JunitCase { name: "structure".to_owned(), failure, skipped: None };
-    let words = result.beats.as_ref().map(|found| JunitCase {
-        name: "beats".to_owned(),
-        failure: beats::first_line(result, found).map(|first| (first, beats::counts(result))),
-        skipped: None,
+    let structure = JunitCase { name: "structure".to_owned(), outcome: JunitOutcome::of(failure) };
+    let words = result.beats.as_ref().map(|found| {
+        let first = beats::first_line(result, found);
+        let failure = first.map(|first| (first, beats::counts(result)));
+        JunitCase { name: "beats".to_owned(), outcome: JunitOutcome::of(failure) }
     });
     let cases = result.pairs.iter().map(pair).chain([structure]).chain(words);
     junit::write(path, "tofsim compare", format!("tofsim compare {a} {b}"), cases)

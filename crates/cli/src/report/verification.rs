@@ -5,11 +5,12 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use tofsim::error::Result;
+use tofsim::error::{Error, Input, Result};
+use tofsim::{Note, NoteCode};
 use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::{BlockReport, Verdict};
 
-use crate::text::junit::{self, JunitCase};
+use crate::text::junit::{self, JunitCase, JunitOutcome};
 use crate::text::table::{coloured_ends, grouped, table};
 
 use super::sheet::Sheet;
@@ -46,7 +47,7 @@ fn text(reports: &[BlockReport]) -> String {
         .words("verdict", verdict)
         .table();
     let words: Vec<_> = reports.iter().map(verdict).collect();
-    let good = reports.iter().map(|report| !report.failed());
+    let good = reports.iter().map(BlockReport::is_good);
     let verdicts: Vec<_> = words.iter().map(String::as_str).zip(good).collect();
     let mut text = coloured_ends(&table_of_all, &verdicts, &stdout()) + "\n";
     for report in reports.iter().filter(|report| report.failed()) {
@@ -71,18 +72,52 @@ fn text(reports: &[BlockReport]) -> String {
 
 /// Returns the blocks that were not run, a line for each reason.
 fn not_run(reports: &[BlockReport]) -> String {
-    let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
+    let is_not_run = |report: &&BlockReport| matches!(report.verdict, Verdict::NotRun { .. });
+    let reasons = by_reason(reports.iter().filter(is_not_run)).into_iter();
+    reasons.map(|(reason, names)| format!("\nnot run: {names}: {reason}\n")).collect()
+}
+
+/// Returns an error for each reason for which blocks could not be checked, which names the blocks.
+pub fn not_checked(reports: &[BlockReport]) -> Vec<Error> {
+    let not = |report: &&BlockReport| matches!(report.verdict, Verdict::NotChecked { .. });
+    let reasons = by_reason(reports.iter().filter(not)).into_iter();
+    reasons
+        .map(|(reason, names)| Input::new(names, format!("not checked: {reason}")).into())
+        .collect()
+}
+
+/// Returns the note on an input that nothing drives, of the design's module for a block.
+pub fn open_input(block: &str, input: &str) -> Note {
+    let key = format!("block.{block}.tie.{input}");
+    let text = "nothing drives this input, which tofsim's block does not have";
+    Note::new(NoteCode::OpenInput, key, "open", "a constant in the map", text)
+}
+
+/// Returns the notes on some blocks, each once whatever configurations were checked.
+pub fn notes(reports: &[BlockReport]) -> Vec<Note> {
+    let mut notes = Vec::new();
     for report in reports {
-        let Verdict::NotRun { reason } = &report.verdict else { continue };
-        match reasons.iter_mut().find(|(other, _)| other == reason) {
-            Some((_, names)) => names.push(&report.name),
-            None => reasons.push((reason, vec![&report.name])),
+        let block = report.name.split('.').next().unwrap_or_default();
+        for note in report.open.iter().map(|input| open_input(block, input)) {
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
         }
     }
-    let line = |(reason, names): &(&str, Vec<&str>)| {
-        format!("\nnot run: {}: {reason}\n", names.join(", "))
-    };
-    reasons.iter().map(line).collect()
+    notes
+}
+
+/// Returns the faults of some blocks, each with the names of the blocks that have it.
+fn by_reason<'a>(reports: impl Iterator<Item = &'a BlockReport>) -> Vec<(String, String)> {
+    let mut reasons: Vec<(String, String)> = Vec::new();
+    for report in reports {
+        let reason = report.fault();
+        match reasons.iter_mut().find(|(other, _)| *other == reason) {
+            Some((_, names)) => *names += &format!(", {}", report.name),
+            None => reasons.push((reason, report.name.clone())),
+        }
+    }
+    reasons
 }
 
 /// Returns the verdict, and whether the stimulus was too short.
@@ -127,12 +162,17 @@ impl Findings for Verified<'_> {
                 "goals": { "met": met, "of": of, "missed": missed(report) },
             })
         };
-        json!({
+        let mut object = json!({
             "rtl": self.rtl,
             "simulator": self.simulator,
-            "passed": !self.blocks.iter().any(BlockReport::failed),
+            "passed": self.blocks.iter().all(BlockReport::is_good),
             "blocks": self.blocks.iter().map(block).collect::<Vec<_>>(),
-        })
+        });
+        let notes = notes(self.blocks);
+        if !notes.is_empty() {
+            object["notes"] = json!(notes);
+        }
+        object
     }
 
     fn text(&self) -> String {
@@ -147,8 +187,12 @@ impl Findings for Verified<'_> {
 pub fn write_junit(path: &Path, simulator: &str, reports: &[BlockReport]) -> Result<()> {
     let case = |report: &BlockReport| JunitCase {
         name: report.name.clone(),
-        failure: report.failed().then(|| (report.fault(), around(report))),
-        skipped: matches!(report.verdict, Verdict::NotRun { .. }).then(|| report.fault()),
+        outcome: match &report.verdict {
+            Verdict::Pass => JunitOutcome::Success,
+            Verdict::NotRun { reason } => JunitOutcome::Skipped(reason.clone()),
+            Verdict::NotChecked { reason } => JunitOutcome::Error(reason.clone()),
+            _ => JunitOutcome::Failure(report.fault(), around(report)),
+        },
     };
     let suite = format!("tofsim verify {simulator}");
     junit::write(path, "tofsim verify", suite, reports.iter().map(case))

@@ -11,10 +11,44 @@ use tofsim::files::output::write_bytes;
 pub struct JunitCase {
     /// Name of the case.
     pub name: String,
-    /// If it failed: why in a line, and at length.
-    pub failure: Option<(String, String)>,
-    /// If it was not run: why.
-    pub skipped: Option<String>,
+    /// How it came out.
+    pub outcome: JunitOutcome,
+}
+
+/// Outcome of a case.
+pub enum JunitOutcome {
+    /// It is as it should be.
+    Success,
+    /// It failed: why in a line, and at length.
+    Failure(String, String),
+    /// It could not be checked, for this reason.
+    Error(String),
+    /// It was not run, for this reason.
+    Skipped(String),
+}
+
+impl JunitOutcome {
+    /// A failure, if there is one: why in a line, and at length.
+    pub fn of(failure: Option<(String, String)>) -> Self {
+        failure.map_or(JunitOutcome::Success, |(line, all)| JunitOutcome::Failure(line, all))
+    }
+
+    fn status(self) -> TestCaseStatus {
+        let (mut status, reason) = match self {
+            JunitOutcome::Success => return TestCaseStatus::success(),
+            JunitOutcome::Failure(line, all) => {
+                let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+                status.set_description(all);
+                (status, line)
+            }
+            JunitOutcome::Error(reason) => {
+                (TestCaseStatus::non_success(NonSuccessKind::Error), reason)
+            }
+            JunitOutcome::Skipped(reason) => (TestCaseStatus::skipped(), reason),
+        };
+        status.set_message(reason);
+        status
+    }
 }
 
 /// Writes one suite as a document of its own.
@@ -28,18 +62,8 @@ pub fn write(
     cases: impl IntoIterator<Item = JunitCase>,
 ) -> Result<()> {
     let mut suite = TestSuite::new(suite);
-    for JunitCase { name, failure, skipped } in cases {
-        let mut status = match (&failure, &skipped) {
-            (Some(_), _) => TestCaseStatus::non_success(NonSuccessKind::Failure),
-            (None, Some(_)) => TestCaseStatus::skipped(),
-            (None, None) => TestCaseStatus::success(),
-        };
-        if let Some((message, description)) = failure {
-            status.set_message(message).set_description(description);
-        } else if let Some(reason) = skipped {
-            status.set_message(reason);
-        }
-        suite.add_test_case(TestCase::new(name, status));
+    for JunitCase { name, outcome } in cases {
+        suite.add_test_case(TestCase::new(name, outcome.status()));
     }
     let mut report = Report::new(report);
     report.add_test_suite(suite);

@@ -82,7 +82,12 @@ pub fn present<'a, T>(
     let missing: Vec<_> = missing.into_iter().map(name).collect();
     let (source, missing) = (&rtl.source, missing.join(", "));
     if there.is_empty() {
-        let expected = format!("expected one of the modules {missing}{or}");
+        let declared = match rtl.modules().into_iter().collect::<Vec<_>>().join(", ") {
+            names if names.is_empty() => "none".to_owned(),
+            names => names,
+        };
+        let expected =
+            format!("expected one of the modules {missing}{or}; the files declare {declared}");
         return Err(Input::new(source, expected).into());
     }
     if !missing.is_empty() {

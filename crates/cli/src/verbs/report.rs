@@ -16,6 +16,7 @@ use tofsim_learn::characterisation::Characterisation;
 use tofsim_learn::error_budget::Plan;
 use tofsim_learn::estimation::EstimatorKind;
 use tofsim_learn::estimation::notes::notes_of_firmware;
+use tofsim_rtl::verify::BlockReport;
 
 use crate::choice::{seed, threads};
 use crate::page::trace::{Trace, captured, wavejson};
@@ -267,7 +268,7 @@ impl Parts<'_> {
             let (source, blocks) = verify::blocks(&args, &console)?;
             let (counted, counts) = verify::cycle_counts(&args, &console)?;
             let passed =
-                blocks.iter().all(|block| !block.failed()) && counts.iter().all(|one| one.holds());
+                blocks.iter().all(BlockReport::is_good) && counts.iter().all(|one| one.holds());
             let blocks = Verified { rtl: &source, simulator: "icarus", blocks: &blocks };
             let counts = CycleCounts { rtl: &counted, counts: &counts };
             Ok((blocks.object(), counts.object(), passed))

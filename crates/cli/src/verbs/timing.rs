@@ -46,7 +46,7 @@ pub struct Args {
     /// Number of placements, with seeds from 1 on
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
     seeds: u32,
-    /// Time limit of each run of a tool
+    /// Limit of the processor time of each run of a tool
     #[arg(long, value_name = "SECONDS", default_value_t = 1200,
         value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,

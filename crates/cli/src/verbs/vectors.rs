@@ -17,6 +17,7 @@ use tofsim_rtl::verify::{Dut, RtlMap, Simulator, Task};
 
 use crate::choice::{self, seed, words};
 use crate::record::Record;
+use crate::report::verification::open_input;
 
 use super::design::Design;
 use super::terminal::Console;
@@ -121,7 +122,9 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
         bench.language = args.language;
         bench.about = json!(record(&setting, &console.command, spec));
         if let Some(dut) = &dut {
-            dut.fit(&mut bench, &task, &scratch.path().join(spec.name), &folder)?;
+            let open = dut.fit(&mut bench, &task, &scratch.path().join(spec.name), &folder)?;
+            let open = open.iter().map(|input| open_input(spec.name, input));
+            console.print_notes(&open.collect::<Vec<_>>())?;
         }
         bench.write(&folder)?;
         console.detail(format_args!("{}: {} cycles", spec.name, vectors.stimulus.rows()));

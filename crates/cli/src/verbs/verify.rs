@@ -8,18 +8,21 @@ use std::time::Duration;
 use clap::{Args as _, Command, FromArgMatches};
 use rayon::prelude::*;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::{Error, Input, Result};
 use tofsim::files::staged::ScratchFolder;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::task::{DEFAULT, run_all};
-use tofsim_rtl::verify::{BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, strays};
+use tofsim_rtl::verify::{
+    BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, Verdict, strays,
+};
 
 use crate::choice::{self, words};
-use crate::report::verification::{CycleCounts, Verified, write_junit};
+use crate::report::verification::{CycleCounts, Verified, not_checked, notes, write_junit};
 use crate::report::writer::Report;
 use crate::text::table::coloured;
+use crate::text::wrap::message;
 
 use super::design::{Design, present};
 use super::terminal::{Console, stop_signal};
@@ -32,7 +35,7 @@ use super::vectors::{From, find};
 /// which is in the program. VHDL goes through GHDL's synthesis to Verilog. Simulators and GHDL must be on PATH.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Exit status: 0 all pass, 1 a block differs, 2 a block could not be checked."
+    after_help = "Exit status: 0 all pass, 1 a block differs, 2 none differs, but one could not be checked."
 )]
 pub struct Args {
     #[command(flatten)]
@@ -62,7 +65,7 @@ pub struct Args {
     /// Stop at the first mismatch, without a waveform
     #[arg(long)]
     fail_fast: bool,
-    /// Time limit of each compilation and simulation
+    /// Limit of the processor time of each compilation and simulation
     #[arg(long, value_name = "SECONDS", default_value_t = 300,
         value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,
@@ -102,19 +105,29 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
         let (rtl, blocks) = &blocks(args, console)?;
         let verified = Verified { rtl, simulator: args.simulator.name(), blocks };
         Report::without_record(verified).deliver(None, args.json, console)?;
-        blocks.iter().any(BlockReport::failed)
+        console.print_notes(&notes(blocks))?;
+        let failed = blocks.iter().any(BlockReport::failed);
+        let mut faults = not_checked(blocks);
+        let last = if failed { None } else { faults.pop() };
+        faults.iter().for_each(|fault| message(format_args!("tofsim: {fault}")));
+        if let Some(fault) = last {
+            return Err(fault);
+        }
+        failed
     };
     Ok(ExitCode::from(u8::from(failed)))
 }
 
-/// Checks the blocks that are asked for; where the design comes from, and how each came out.
+/// Checks the blocks that are asked for; where the design comes from, and how each came out, be it that it could not
+/// be checked.
 ///
 /// # Errors
-/// When one cannot be checked.
+/// When the sources or the map cannot be read, the simulator is missing, or the user stops everything.
 pub fn blocks(args: &Args, console: &Console) -> Result<(String, Vec<BlockReport>)> {
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
     let work = ScratchFolder::new()?;
     let rtl = args.rtl(&work, console)?;
+    args.simulator.check_is_installed()?;
     let stop = stop_signal();
     let limits = args.limits(stop.as_deref());
     let tasks = tasks(args, map.as_ref(), &rtl, console)?;
@@ -128,15 +141,21 @@ pub fn blocks(args: &Args, console: &Console) -> Result<(String, Vec<BlockReport
     let over = AtomicBool::new(false);
     let one = |task: &&Task| {
         if over.load(Ordering::Relaxed) {
-            return Ok(BlockReport::not_run(&task.name, "another differs: --fail-fast".to_owned()));
+            let reason = "another differs: --fail-fast".to_owned();
+            return Ok(BlockReport::without_run(&task.name, Verdict::NotRun { reason }));
         }
-        let report = check.run(task, &work.path().join(&task.name));
-        if let Ok(report) = &report {
-            let word = coloured(report.word(), !report.failed(), &std::io::stderr());
-            console.note(format_args!("{}: {word}", task.name));
-            over.fetch_or(args.fail_fast && report.failed(), Ordering::Relaxed);
-        }
-        report
+        let report = match check.run(task, &work.path().join(&task.name)) {
+            Err(Error::Interrupted) => return Err(Error::Interrupted),
+            Err(fault) => {
+                let reason = fault.to_string();
+                BlockReport::without_run(&task.name, Verdict::NotChecked { reason })
+            }
+            Ok(report) => report,
+        };
+        let word = coloured(report.word(), report.is_good(), &std::io::stderr());
+        console.note(format_args!("{}: {word}", task.name));
+        over.fetch_or(args.fail_fast && report.failed(), Ordering::Relaxed);
+        Ok(report)
     };
     let reports = run_all(&tasks, |tasks| tasks.par_iter().map(one).collect())?;
 

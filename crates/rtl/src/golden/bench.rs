@@ -13,7 +13,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use allowances::{Allowances, RESETS};
+use allowances::{Allowances, resets_in};
 use columns::{looks, pieces, show};
 use steps::{steps, wait};
 
@@ -125,13 +125,8 @@ impl<'a> Bench<'a> {
         let (vectors, spec) = (self.vectors, self.vectors.spec);
         let ports = spec.ports(&vectors.sizes);
         let parameters: Vec<_> = self.set().map(parameter).collect();
-        let past = self.past.iter().map(|port| {
-            if port.output {
-                port.connection()
-            } else {
-                format!(".{}({{{}{{1'b1}}}})", port.name, port.width)
-            }
-        });
+        let past =
+            self.past.iter().map(|port| if port.output { port.connection() } else { port.ones() });
         let connected = ports.iter().map(Port::connection).chain(past);
         let connected: Vec<_> = connected.map(|port| format!("    {port}")).collect();
         let columns = vectors.expected.columns();
@@ -153,7 +148,8 @@ impl<'a> Bench<'a> {
             cycles = vectors.stimulus.rows(),
             first_edge = vectors.first_edge.fs(),
             period = vectors.period().fs(),
-            signals = signals(vectors, &ports) + &self.past_signals(),
+            signals =
+                signals(vectors, &ports) + &self.past_signals() + self.allowed.declaration(vectors),
             module = self.module,
             parameters = parameter_list(&parameters, "  "),
             ports = connected.join(",\n"),
@@ -161,7 +157,7 @@ impl<'a> Bench<'a> {
             line_out = range(vectors.expected.width() as u32),
             looks = looks(vectors),
             got = pieces("got", vectors.expected.width()),
-            allowances = allowances.collect::<String>(),
+            allowances = self.allowed.search(vectors) + &allowances.collect::<String>(),
             beat = BEAT,
             quiet = self.allowed.quiet(vectors),
             resets = self.resets(),
@@ -199,19 +195,15 @@ impl<'a> Bench<'a> {
 
     /// Statements for a line that resets the block: which lines are compared from then on.
     fn resets(&self) -> String {
-        let columns = self.vectors.stimulus.columns().iter();
-        let resets = columns.filter(|column| RESETS.contains(&column.name.as_str()));
-        let levels: Vec<_> =
-            resets.map(|column| format!("stimulus[cycle][{}]", column.low)).collect();
         let Allowances { settle, .. } = self.allowed;
-        match levels.as_slice() {
-            [] => String::new(),
-            levels => format!(
-                "    if ({})\n      quiet = quiet < 0 ? {} : quiet < {settle} ? {settle} : quiet;\n",
-                levels.join(" || "),
-                self.allowed.quiet_after_first(),
-            ),
+        let levels = resets_in("cycle", self.vectors);
+        if levels.is_empty() {
+            return String::new();
         }
+        format!(
+            "    if ({levels})\n      quiet = quiet < 0 ? {} : quiet < {settle} ? {settle} : quiet;\n",
+            self.allowed.quiet_after_first(),
+        )
     }
 }
 

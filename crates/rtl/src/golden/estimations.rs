@@ -46,6 +46,8 @@ pub struct Estimations {
     /// Cycles for which a slower estimator is left alone after an estimation, and those still to come.
     slack: u64,
     rest: u64,
+    /// Cycles before the end of an estimation in which a faster estimator has ended its own.
+    lead: u64,
     line: usize,
     done: Cover,
     starts: Cover,
@@ -63,6 +65,7 @@ impl Estimations {
             cut: None,
             slack: setting.slack,
             rest: 0,
+            lead: setting.lead,
             line: 0,
             done: Cover::new("estimations of histogram", 0..special),
             starts: Cover::new("start in part, with algo_done (4), idle (5)", 0..6),
@@ -76,7 +79,8 @@ impl Estimations {
         let rst = self.line == FIRST_RESET || phase.is_some() && phase == self.cut;
         self.line += 1;
         self.rest = if phase.is_some() { self.slack } else { self.rest.saturating_sub(1) };
-        let algo_start = draw.one_in(3) && self.rest == 0;
+        let has_led = phase.is_some_and(|phase| phase < end && phase + self.lead >= end);
+        let algo_start = draw.one_in(3) && self.rest == 0 && !has_led;
         let part = match phase {
             Some(phase) => self.parts.iter().take_while(|part| part.end <= phase).count(),
             None => PARTS + 1,

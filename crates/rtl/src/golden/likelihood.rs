@@ -51,6 +51,8 @@ pub struct Estimations<'a> {
     cuts: bool,
     line: usize,
     over: bool,
+    /// Whether the estimator under test may be faster: then ours is started only when it is idle.
+    leads: bool,
     starts: Cover,
     resets: Cover,
     seen: Cover,
@@ -73,6 +75,7 @@ impl<'a> Estimations<'a> {
             cuts,
             line: 0,
             over: false,
+            leads: setting.lead > 0,
             starts: Cover::new("start in state", states.clone()),
             resets: Cover::new("reset in state but idle", states.skip(1)),
             modes: Cover::new("shots armed and not", if cuts { 0..2 } else { 0..0 }),
@@ -97,7 +100,7 @@ impl<'a> Estimations<'a> {
             self.modes.see(block.registers.status.get() >> 6);
         }
         let idle = block.state() == State::Idle;
-        let algo_start = draw.one_in(if idle { 3 } else { 64 });
+        let algo_start = draw.one_in(if idle { 3 } else { 64 }) && (idle || !self.leads);
         self.starts.see_if(algo_start && !rst, state);
         self.resets.see_if(rst, state);
         if rst {

@@ -40,6 +40,11 @@ impl Port {
         format!("{} wire {}{}", self.direction(), range(self.width), self.name)
     }
 
+    /// Its connection to ones, which it must not look at.
+    pub fn ones(&self) -> String {
+        format!(".{}({{{}{{1'b1}}}})", self.name, self.width)
+    }
+
     /// Its connection to a signal of its name.
     pub fn connection(&self) -> String {
         format!(".{0}({0})", self.name)

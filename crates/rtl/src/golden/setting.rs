@@ -55,6 +55,9 @@ pub struct Setting {
     /// Clock cycles that the estimator under test may take longer than ours; so long it is not
     /// started again.
     pub slack: u64,
+    /// Clock cycles that the estimator under test may be faster than ours; ours is not started so shortly before its
+    /// end, because that one has ended.
+    pub lead: u64,
 }
 
 impl Setting {
@@ -97,6 +100,7 @@ impl Setting {
             constants: Constants::These(BTreeSet::new()),
             reads_apart: false,
             slack: 0,
+            lead: 0,
         }
     }
 

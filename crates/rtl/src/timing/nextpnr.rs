@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::digest::digest_of;
 
-use crate::verify::process::{End, Tool};
+use crate::verify::process::Tool;
 
 use super::block::{TimedBlock, required_mhz};
 use super::paths::{Hop, TimedPath};
@@ -187,10 +187,9 @@ fn place(
     let finished = tool.run(design.work, args, &design.limits)?;
     let fault = |why: String| Input::new(&design.rtl.source, why).field(block.name);
     if !finished.success() {
-        let why = match finished.end {
-            End::Exit(_) => finished.error().unwrap_or("ended without a report").to_owned(),
-            _ => format!("has no result after {} s", design.limits.time.as_secs_f64()),
-        };
+        let why = finished.end.killed();
+        let why =
+            why.unwrap_or_else(|| finished.error().unwrap_or("ended without a report").to_owned());
         return Err(fault(format!("{}, seed {seed}: {why}", tool.program)).into());
     }
     let text = std::fs::read_to_string(&file).map_err(Error::io(&file, "read"))?;

@@ -73,7 +73,7 @@ impl BlockMap {
     /// Lets the bench allow what the map says, and writes the adapter into `folder`.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// When it cannot be written, or a latency is impossible.
     pub(super) fn apply(
         &self,
         bench: &mut Bench,
@@ -88,6 +88,7 @@ impl BlockMap {
             settle: self.settle,
             ..Allowances::default()
         };
+        self.check_latencies(bench.vectors, &bench.allowed)?;
         for port in spec.ports(&bench.vectors.sizes) {
             let is_there = found.ports.contains_key(self.theirs(&port.name));
             if port.output && !is_there && !self.is_made(&port.name) {
@@ -102,13 +103,14 @@ impl BlockMap {
         bench.constants = parameters.filter(|ours| self.parameter(ours).is_none()).collect();
         bench.module = format!("{}_adapter", spec.name);
         let path = folder.join(format!("{}.v", bench.module));
-        let text = self.text(bench, spec, found);
+        let past: Vec<_> = bench.past.drain(..).filter(|port| !port.output).collect();
+        let text = self.text(bench, spec, found, &past);
         write_bytes(&path, text)?;
         Ok(path)
     }
 
-    /// The adapter.
-    fn text(&self, bench: &Bench, spec: &Spec, found: &Interface) -> String {
+    /// The adapter, which drives inputs for neurons past the last as the bench does without a map.
+    fn text(&self, bench: &Bench, spec: &Spec, found: &Interface, past: &[Port]) -> String {
         let ports = spec.ports(&bench.vectors.sizes);
         let declare = |port: &Port| format!("    {}", port.declaration());
         let parameter = |name| format!("    parameter {name} = 0");
@@ -124,6 +126,8 @@ impl BlockMap {
                 connected.push(format!("        .{theirs}({signal})"));
             }
         }
+        connected.extend(self.ties(found));
+        connected.extend(past.iter().map(|port| format!("        {}", port.ones())));
         let sizes = &bench.vectors.sizes;
         let (bins, bits) = (self.bins(sizes), sizes.count_bits);
         let whole = bits * bins as u32;

@@ -41,6 +41,10 @@ pub(super) struct Candidate<'a> {
     pub(super) rtl: Cow<'a, Rtl>,
     /// Ports and parameters of the module.
     pub(super) found: Interface,
+    /// Ports for neurons past the last, or for a calibration that there is none of.
+    pub(super) past: Vec<Port>,
+    /// Inputs that nothing drives.
+    pub(super) open: Vec<String>,
     /// Its part of the map.
     pub(super) map: Option<BlockMap>,
     /// True if it has its parameters already: one in VHDL has been given them as generics.
@@ -89,8 +93,9 @@ impl<'a> Candidate<'a> {
             let ports = map.as_ref().map(|map| map.wanted(spec, &vectors.sizes, found));
             ports.unwrap_or_else(|| spec.ports(&vectors.sizes))
         };
+        let tied = map.iter().flat_map(|map| map.tie.keys().cloned());
         let ports: Vec<_> =
-            wanted(&Interface::default()).into_iter().map(|port| port.name).collect();
+            (wanted(&Interface::default()).into_iter().map(|port| port.name)).chain(tied).collect();
         let generics: Vec<_> = set.iter().map(|(_, theirs, value)| (*theirs, *value)).collect();
         let rtl = vhdl::as_verilog(rtl, &module, &generics, &ports, work, limits)?;
         let mut found = dut.simulator.interface(work, &module, &[], &rtl, limits)?;
@@ -105,31 +110,36 @@ impl<'a> Candidate<'a> {
             }
         }
         let word = vectors.sizes.count_bits;
-        found.check_ports(&rtl.source, &module, (&wanted(&found), word))?;
-        Ok(Ok(Candidate { rtl, found, map, fixed }))
+        let wanted = wanted(&found);
+        found.check_ports(&rtl.source, &module, (&wanted, word))?;
+        let past = past(&found, task, &vectors.sizes);
+        let is_tied = |name: &str| map.as_ref().is_some_and(|map| map.is_tied(name));
+        let is_set = |name: &str| is_tied(name) || has(&wanted, name);
+        let past: Vec<_> = past.into_iter().filter(|port| !is_set(&port.name)).collect();
+        let open = found.open_inputs(|name| is_set(name) || has(&past, name));
+        if let Some(map) = &map {
+            map.check_ties(spec.name, &wanted, &found)?;
+        }
+        Ok(Ok(Candidate { rtl, found, past, open, map, fixed }))
     }
 }
 
-impl Candidate<'_> {
-    /// The ports that it has for neurons past the last, and for a calibration that there is none of, where no map
-    /// says what it has.
-    pub(super) fn past(&self, task: &Task, sizes: &Sizes) -> Vec<Port> {
-        let used = task.spec.ports(sizes);
-        let is_past = |port: &Port| {
-            let has = |found: &PortShape| (found.output, found.width) == (port.output, port.width);
-            self.found.ports.get(&port.name).is_some_and(has)
-                && !used.iter().any(|used| used.name == port.name)
-        };
-        let most = Sizes { neurons: MOST_NEURONS as u32, ..*sizes };
-        let calibrated = Sizes { calibrates: true, ..*sizes };
-        let all = if self.map.is_none() { task.spec.ports(&most) } else { Vec::new() };
-        let inputs = task
-            .spec
-            .ports(&calibrated)
-            .into_iter()
-            .filter(|port| !port.output && self.map.is_none());
-        all.into_iter().chain(inputs).filter(is_past).collect()
-    }
+/// Returns whether a port has that name.
+fn has(ports: &[Port], name: &str) -> bool {
+    ports.iter().any(|port| port.name == name)
+}
+
+/// The ports that a module has for neurons past the last, and for a calibration that there is none of.
+fn past(found: &Interface, task: &Task, sizes: &Sizes) -> Vec<Port> {
+    let used = task.spec.ports(sizes);
+    let is_past = |port: &Port| {
+        let fits = |found: &PortShape| (found.output, found.width) == (port.output, port.width);
+        found.ports.get(&port.name).is_some_and(fits) && !has(&used, &port.name)
+    };
+    let most = Sizes { neurons: MOST_NEURONS as u32, ..*sizes };
+    let calibrated = Sizes { calibrates: true, ..*sizes };
+    let inputs = task.spec.ports(&calibrated).into_iter().filter(|port| !port.output);
+    task.spec.ports(&most).into_iter().chain(inputs).filter(is_past).collect()
 }
 
 /// A parameter that ports may depend on, if it is one.
@@ -142,11 +152,17 @@ fn shape<'a>((ours, theirs, value): &Set<'a>) -> Option<(&'a str, u64)> {
 
 impl Dut<'_> {
     /// Fits a bench of a task's block to the design's module, for any simulator: what lies between the
-    /// two is written into `folder`. The module is looked at in `work`.
+    /// two is written into `folder`. The module is looked at in `work`. Returns its inputs that nothing drives.
     ///
     /// # Errors
     /// When the module is not there or cannot be compiled, has other ports or parameters, or is in VHDL.
-    pub fn fit(&self, bench: &mut Bench, task: &Task, work: &Path, folder: &Path) -> Result<()> {
+    pub fn fit(
+        &self,
+        bench: &mut Bench,
+        task: &Task,
+        work: &Path,
+        folder: &Path,
+    ) -> Result<Vec<String>> {
         let fault = |expected: String| Input::new(&self.rtl.source, expected).field(task.spec.name);
         create_directory(work)?;
         let candidate = Candidate::find(self, task, bench.vectors, work)?.map_err(fault)?;
@@ -155,10 +171,11 @@ impl Dut<'_> {
             return Err(fault(expected.to_owned()).into());
         }
         if let Some(map) = &candidate.map {
+            bench.past = candidate.past;
             create_directory(folder)?;
             map.apply(bench, task.spec, &candidate.found, folder)?;
         }
-        Ok(())
+        Ok(candidate.open)
     }
 
     /// Returns why the design cannot be what a task is about, if it cannot.

@@ -12,7 +12,7 @@ use crate::golden::cover::Cover;
 use super::candidate::{Candidate, Dut};
 use super::data;
 use super::observed::Observed;
-use super::process::Limits;
+use super::process::{End, Limits, Overrun};
 use super::report::BlockReport;
 use super::simulator::Compiled;
 use super::task::Task;
@@ -52,7 +52,9 @@ impl BlockCheck<'_> {
         let vectors = (task.spec.record)(task.spec, &task.setting)?;
         let candidate = match Candidate::find(&self.dut, task, &vectors, work)? {
             Ok(candidate) => candidate,
-            Err(reason) => return Ok(BlockReport::not_run(&task.name, reason)),
+            Err(reason) => {
+                return Ok(BlockReport::without_run(&task.name, Verdict::NotRun { reason }));
+            }
         };
         if candidate.fixed && self.registers {
             let expected = "expected a module in Verilog: the registers of VHDL have no names here";
@@ -60,7 +62,7 @@ impl BlockCheck<'_> {
         }
         let mut bench = Bench::new(&vectors);
         bench.fixed = candidate.fixed;
-        bench.past = candidate.past(task, &vectors.sizes);
+        bench.past = candidate.past;
         let top = vectors.bench_module();
         let mut sources = vec![work.join(&top).with_extension("v")];
         if let Some(map) = &candidate.map {
@@ -78,6 +80,7 @@ impl BlockCheck<'_> {
             cycles: vectors.stimulus.rows(),
             verdict,
             around: Vec::new(),
+            open: candidate.open,
             wave: None,
             coverage: (coverage.clone().map(Cover::met).sum(), coverage.map(Cover::cases).sum()),
             missed: missed
@@ -101,6 +104,12 @@ impl BlockCheck<'_> {
         let mut finished = compiled.run(&options, &limits)?;
         if data::bring(&compiled.folder, self.dut.rtl, &finished.output)? {
             finished = compiled.run(&options, &limits)?;
+        }
+        if let (End::OutOfTime(Overrun::Clock(_)), Some(why)) =
+            (finished.end, finished.end.killed())
+        {
+            // Nor is it the design's fault.
+            return Err(Input::new(&self.dut.rtl.source, format!("the bench {why}")).into());
         }
         let verdict = Verdict::read(&finished.output, finished.end);
         if verdict != Verdict::Pass {

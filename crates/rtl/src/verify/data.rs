@@ -1,13 +1,13 @@
 //! The files that a design reads while it is simulated, such as the words of a ROM.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Component, Path};
 
-use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::create_directory;
+use tofsim::error::{Input, Result, read_bytes};
+use tofsim::files::output::{create_directory, write_bytes};
 
 use super::rtl::Rtl;
+use super::rtl::mirror::unmarked;
 
 /// Copies what a simulation in `work` has not found from beside the sources, or from the current
 /// folder, and says whether there was anything.
@@ -24,7 +24,7 @@ pub(super) fn bring(work: &Path, rtl: &Rtl, said: &str) -> Result<bool> {
             beside.iter().copied().chain([Path::new("")]).map(|place| place.join(name));
         if let Some(from) = places.find(|from| from.is_file() && !to.exists()) {
             create_directory(to.parent().unwrap_or(work))?;
-            fs::copy(&from, &to).map_err(Error::io(&from, "read"))?;
+            write_bytes(&to, unmarked(&read_bytes(&from)?))?;
             brought = true;
         }
     }

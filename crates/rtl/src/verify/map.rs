@@ -65,7 +65,10 @@ pub struct BlockMap {
     /// Our outputs that are not compared; they need not exist.
     pub ignore: Vec<String>,
     /// Clock cycles that our outputs come later there (less than 0: earlier).
+    #[schemars(with = "BTreeMap<String, ClockCycles>")]
     pub latency: BTreeMap<String, i64>,
+    /// Their inputs that ours lacks, by their names, and the constant that each is tied to.
+    pub tie: BTreeMap<String, u64>,
     /// Outputs that are compared only where another port of one bit is high in the reference, by our
     /// names or theirs.
     pub valid: BTreeMap<String, String>,
@@ -82,7 +85,19 @@ pub struct BlockMap {
     #[serde(skip)]
     #[schemars(skip)]
     pub(super) design: Design,
+    /// The file, for messages.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub(super) source: String,
 }
+
+/// A latency, as the schema has it.
+#[derive(JsonSchema)]
+#[schemars(inline)]
+#[expect(dead_code, reason = "only its schema is of use")]
+struct ClockCycles(
+    #[schemars(range(min = -10_000, max = 10_000), extend("unit" = "clock cycles"))] i64,
+);
 
 impl RtlMap {
     /// Reads and checks a map file.
@@ -98,6 +113,7 @@ impl RtlMap {
         let mut map: RtlMap = checked.read()?;
         for (name, block) in &mut map.block {
             block.design = map.design.clone();
+            block.source = source.to_owned();
             let Some(spec) = blocks::find(name) else {
                 let names = BLOCKS.iter().map(|spec| spec.name);
                 let fault = unknown("block", name, names);
@@ -112,7 +128,10 @@ impl RtlMap {
 
     /// The setting that the design's module of a block can be held to.
     pub fn fit(&self, spec: &Spec, setting: &Setting) -> Setting {
-        let latency = self.block.values().flat_map(|block| block.latency.values());
+        let most =
+            |latencies: &mut dyn Iterator<Item = i64>| latencies.max().unwrap_or(0).max(0) as u64;
+        let all = self.block.values().flat_map(|block| block.latency.values());
+        let own = self.block.get(spec.name).into_iter().flat_map(|block| block.latency.values());
         let design = &self.design;
         let empty = |block: &BlockMap| {
             let left_out = block.parameters.iter().filter(|(_, theirs)| theirs.is_empty());
@@ -126,7 +145,8 @@ impl RtlMap {
         Setting {
             taps: design.taps.map_or(setting.taps, |taps| setting.taps.min(taps)),
             bins: design.bins.map_or(setting.bins, |bins| setting.bins.min(bins as u64)),
-            slack: latency.copied().max().unwrap_or(0).max(0) as u64,
+            slack: most(&mut all.copied()),
+            lead: most(&mut own.map(|latency| -latency)),
             shots_per_frame: design.shots_per_frame,
             constants,
             reads_apart: self.block.get(spec.name).is_some_and(|block| block.reads_apart()),

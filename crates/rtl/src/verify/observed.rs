@@ -65,6 +65,7 @@ impl<'a> Observed<'a> {
         let (vectors, allowed) = (self.bench.vectors, &self.bench.allowed);
         let row = usize::try_from(cycle as i64 - allowed.delay(&column.name)).ok();
         let row = row.filter(|row| *row < vectors.expected.rows());
+        let row = row.filter(|_| !allowed.is_cut(cycle, &column.name, vectors));
         let is_valid = |row: &usize| {
             let table = |name| match name {
                 "stimulus" => &vectors.stimulus,

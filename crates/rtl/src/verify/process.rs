@@ -1,17 +1,25 @@
 //! Runs other people's programs: with a time limit, and never leaving a child behind.
 
+mod limits;
+mod processor_time;
+mod watch;
+
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::sync::atomic::AtomicBool;
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
 
 use tofsim::error::{Error, Input, Result, poll_stop};
+
+use limits::LONGEST;
+use watch::Watch;
+
+pub use limits::{End, Limits, Overrun};
 
 /// A program and the Debian package that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,44 +53,8 @@ pub struct Finished {
     pub output: String,
 }
 
-/// Way in which a program ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// Itself, and whether it says that all went well.
-    Exit(bool),
-    /// Killed because this time was up.
-    OutOfTime(Duration),
-    /// Killed because it had written nothing for so long.
-    Stalled(Duration),
-    /// Killed because it had written too much.
-    Wild,
-}
-
-/// When to give up.
-#[derive(Clone, Copy, Debug)]
-pub struct Limits<'a> {
-    /// Time that a program may take.
-    pub time: Duration,
-    /// Time for which it may write nothing, if it is one that reports progress: processor time, so that a
-    /// busy machine is no fault of its own, or four times as long by the clock.
-    pub silence: Option<Duration>,
-    /// Set from outside to stop.
-    pub stop: Option<&'a AtomicBool>,
-}
-
-/// Output beyond this is taken as a program gone wild [bytes].
-const LONGEST: u64 = 64 << 20;
 /// First and longest time between two looks at a program.
 const NAP: (Duration, Duration) = (Duration::from_millis(1), Duration::from_millis(20));
-/// Time by the clock for a second of processor time, at most.
-const SHARE: u32 = 4;
-
-impl Limits<'_> {
-    /// So long, whatever it writes.
-    pub const fn new(time: Duration) -> Self {
-        Limits { time, silence: None, stop: None }
-    }
-}
 
 impl Finished {
     /// Returns whether it ended by itself and says that all went well.
@@ -103,6 +75,19 @@ impl Tool {
         std::env::split_paths(&path).any(|it| it.join(self.program).is_file())
     }
 
+    /// Checks that it is on the PATH.
+    ///
+    /// # Errors
+    /// When it is not, with the command that installs it.
+    pub fn check_is_installed(&self) -> Result<()> {
+        if self.is_installed() { Ok(()) } else { Err(self.missing()) }
+    }
+
+    fn missing(&self) -> Error {
+        let expected = format!("not found on PATH; install it: apt-get install {}", self.package);
+        Input::new(self.program, expected).into()
+    }
+
     /// Runs it in `folder` until it ends or its time is up; then it is killed with its children.
     ///
     /// # Errors
@@ -117,9 +102,7 @@ impl Tool {
         command.args(args);
         run(command, folder, limits).map_err(|error| match error {
             Error::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
-                let expected =
-                    format!("not found on PATH; install it: apt-get install {}", self.package);
-                Input::new(self.program, expected).into()
+                self.missing()
             }
             error => error,
         })
@@ -141,29 +124,14 @@ pub fn run(mut command: Command, folder: &Path, limits: &Limits) -> Result<Finis
     command.stdout(both(&out).map_err(fault)?).stderr(both(&out).map_err(fault)?);
     let mut child =
         CommandWrap::from(command).wrap(ProcessGroup::leader()).spawn().map_err(fault)?;
-    let begin = Instant::now();
-    let id = child.id();
-    let (mut written, mut spoke, mut spent) = (0, begin, Duration::ZERO);
+    let (id, mut watch) = (child.id(), Watch::new(limits));
     let mut nap = NAP.0;
     let end = loop {
         if let Some(status) = child.try_wait().map_err(fault)? {
             break End::Exit(status.success());
         }
         poll_stop(limits.stop).inspect_err(|_| kill(child.as_mut()))?;
-        let length = out.metadata().map_or(written, |file| file.len());
-        if length != written {
-            (written, spoke) = (length, Instant::now());
-            spent = processor_time(id).unwrap_or_default();
-        }
-        let silence = limits.silence.filter(|&limit| {
-            let works = || processor_time(id).is_none_or(|time| time.saturating_sub(spent) > limit);
-            spoke.elapsed() > limit * SHARE || spoke.elapsed() > limit && works()
-        });
-        let out_of_time = begin.elapsed() > limits.time;
-        let reason = (out_of_time.then_some(End::OutOfTime(limits.time)))
-            .or(silence.map(End::Stalled))
-            .or((length > LONGEST).then_some(End::Wild));
-        if let Some(reason) = reason {
+        if let Some(reason) = watch.look(id, out.metadata().map_or(0, |file| file.len())) {
             kill(child.as_mut());
             break reason;
         }
@@ -171,15 +139,6 @@ pub fn run(mut command: Command, folder: &Path, limits: &Limits) -> Result<Finis
         nap = (nap * 2).min(NAP.1);
     };
     Ok(Finished { end, output: text(out).map_err(fault)? })
-}
-
-/// Processor time that a process has had, where the system tells.
-fn processor_time(id: u32) -> Option<Duration> {
-    // Of what follows the name in brackets, the 12th and 13th are user and system time [1/100 s].
-    let stat = std::fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
-    let fields: Vec<_> = stat.rsplit_once(')')?.1.split_whitespace().collect();
-    let ticks = |field: usize| fields.get(field)?.parse::<u64>().ok();
-    Some(Duration::from_millis(10 * (ticks(11)? + ticks(12)?)))
 }
 
 /// Ends a program and its children; one that has just ended by itself is as good.
@@ -199,6 +158,8 @@ fn text(mut file: File) -> std::io::Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::AtomicBool;
+    use std::time::Instant;
 
     fn limits(seconds: f64) -> Limits<'static> {
         Limits::new(Duration::from_secs_f64(seconds))
@@ -217,8 +178,8 @@ mod tests {
     fn a_program_that_never_ends_is_killed_with_its_children() {
         let folder = tempfile::tempdir().unwrap();
         let child = "sh -c 'echo $$ > pid; exec sleep 60' & echo begun; sleep 60; true";
-        let finished = SHELL.run(folder.path(), ["-c", child], &limits(1.0)).unwrap();
-        assert_eq!(finished.end, End::OutOfTime(Duration::from_secs(1)));
+        let finished = SHELL.run(folder.path(), ["-c", child], &limits(0.25)).unwrap();
+        assert_eq!(finished.end.killed().unwrap(), "has not ended after 2 s");
         assert_eq!(finished.output, "begun\n");
         let pid = std::fs::read_to_string(folder.path().join("pid")).unwrap();
         let lives = || {
@@ -231,6 +192,17 @@ mod tests {
             sleep(NAP.1);
         }
         assert!(!lives(), "a child is left");
+    }
+
+    #[test]
+    fn what_it_and_its_children_use_of_a_processor_counts_and_waiting_does_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let run = |script| SHELL.run(folder.path(), ["-c", script], &limits(0.5)).unwrap();
+        assert!(run("sleep 1.5").success());
+        for script in ["while :; do :; done", "sh -c 'while :; do :; done' & sleep 60; true"] {
+            let why = run(script).end.killed().unwrap();
+            assert_eq!(why, "has not ended after 0.5 s of processor time", "{script}");
+        }
     }
 
     #[test]

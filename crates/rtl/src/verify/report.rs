@@ -15,6 +15,8 @@ pub struct BlockReport {
     pub verdict: Verdict,
     /// The cycles around the first mismatch, as rows of a table; none without one.
     pub around: Vec<Vec<String>>,
+    /// Inputs of the module that ours lacks and no map ties: nothing drives them.
+    pub open: Vec<String>,
     /// The waveform of both sides.
     pub wave: Option<PathBuf>,
     /// Goals of the stimulus met, and goals.
@@ -24,9 +26,14 @@ pub struct BlockReport {
 }
 
 impl BlockReport {
-    /// Returns whether the block does not do what it should; one that was not run is not said to.
+    /// Returns whether nothing is wrong: it passes, or the design need not have it.
+    pub fn is_good(&self) -> bool {
+        matches!(self.verdict, Verdict::Pass | Verdict::NotRun { .. })
+    }
+
+    /// Returns whether the block does not do what it should; one that could not be checked is not said to.
     pub fn failed(&self) -> bool {
-        !matches!(self.verdict, Verdict::Pass | Verdict::NotRun { .. })
+        !self.is_good() && !matches!(self.verdict, Verdict::NotChecked { .. })
     }
 
     /// Returns whether it never came to an end.
@@ -34,13 +41,14 @@ impl BlockReport {
         matches!(self.verdict, Verdict::Hangs { .. } | Verdict::TimedOut { .. })
     }
 
-    /// Of a block that was not run.
-    pub fn not_run(name: &str, reason: String) -> Self {
+    /// Creates the report on a block that was not run, or could not be checked.
+    pub fn without_run(name: &str, verdict: Verdict) -> Self {
         BlockReport {
             name: name.to_owned(),
             cycles: 0,
-            verdict: Verdict::NotRun { reason },
+            verdict,
             around: Vec::new(),
+            open: Vec::new(),
             wave: None,
             coverage: (0, 0),
             missed: Vec::new(),
@@ -63,9 +71,9 @@ impl BlockReport {
                 "hangs after cycle {cycle}: nothing has moved for {seconds} s, something goes round \
                  without a delay",
             ),
-            Verdict::NotRun { reason } => reason.clone(),
-            Verdict::TimedOut { seconds } => {
-                format!("the bench has not ended in {seconds} s and was killed")
+            Verdict::NotRun { reason } | Verdict::NotChecked { reason } => reason.clone(),
+            Verdict::TimedOut { after } => {
+                format!("the bench has not ended after {after} and was killed")
             }
             Verdict::Broke { message } => format!("the bench broke off: {}", message.trim()),
         }
@@ -86,6 +94,7 @@ impl BlockReport {
             Verdict::Differs { .. } => "differs",
             Verdict::Hangs { .. } => "hangs",
             Verdict::NotRun { .. } => "not run",
+            Verdict::NotChecked { .. } => "not checked",
             Verdict::TimedOut { .. } => "timed out",
             Verdict::Broke { .. } => "broke off",
         }

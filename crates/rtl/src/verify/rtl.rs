@@ -1,6 +1,7 @@
 //! The design under test: source files of the user's, or our own, which are in the program.
 
 pub mod file_list;
+pub mod mirror;
 mod order;
 pub mod scan;
 mod search;
@@ -9,7 +10,7 @@ mod source;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Input, Result, hint};
 use tofsim::files::output::write_bytes;
 
 use crate::golden::blocks;
@@ -44,7 +45,12 @@ pub struct Rtl {
     pub options: Listed,
     /// Their origin, for people.
     pub source: String,
+    /// Length of all of them [bytes].
+    length: u64,
 }
+
+/// Most that sources may have in all [bytes].
+const LONGEST: u64 = 1 << 29;
 
 impl Rtl {
     /// The sources of a folder and all below it.
@@ -102,6 +108,11 @@ impl Rtl {
     }
 
     fn add(&mut self, path: &Path, found: bool) -> Result<()> {
+        self.length += path.metadata().map_err(Error::io(path, "read"))?.len();
+        if self.length > LONGEST {
+            let expected = format!("expected sources of {} MiB at most in all", LONGEST >> 20);
+            return Err(Input::new(&self.source, expected).value(path.display()).into());
+        }
         let source = Source::read(path, found)?;
         let files = if source.is_vhdl() { &mut self.vhdl } else { &mut self.files };
         if !files.iter().any(|file| file.path == source.path) {
@@ -163,6 +174,30 @@ impl Rtl {
     pub fn needed(&self, text: &str) -> Result<Vec<&Source>> {
         let (name, files, includes) = (&self.source, &self.files, &self.options.includes);
         Tree { name, files, includes }.needed(&Scan::verilog(text).words)
+    }
+
+    /// Returns those files and the ones that they include, and the files of libraries.
+    pub fn with_included(&self, files: &[&Source]) -> BTreeSet<PathBuf> {
+        let (name, includes) = (&self.source, &self.options.includes);
+        let tree = Tree { name, files: &self.files, includes };
+        let own = files.iter().map(|file| file.path.clone());
+        own.chain(tree.included(files)).chain(self.options.library_files.iter().cloned()).collect()
+    }
+
+    /// Names of the modules and entities that the files declare, sorted.
+    pub fn modules(&self) -> BTreeSet<&str> {
+        let sources = self.files.iter().chain(&self.vhdl);
+        sources.flat_map(|source| &source.scan.modules).map(|it| it.name.as_str()).collect()
+    }
+
+    /// Explains that there is no such module: which name is most like it, and which there are.
+    pub fn lacks(&self, module: &str) -> String {
+        let (hint, names) = hint(module, self.modules());
+        if names.is_empty() {
+            format!("no such module{hint}; the files declare none")
+        } else {
+            format!("no such module{hint}; the files declare {names}")
+        }
     }
 
     /// Our own, written into `folder`.

@@ -1,15 +1,20 @@
 //! The two simulators: how each compiles a bench, runs it, and tells the ports of a module.
 
+mod arguments;
+mod job;
 mod refusal;
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use arguments::SourceOptions;
+use job::Job;
+
 use tofsim::error::{Error, Result, read_text};
 
 use super::interface::{Interface, icarus, verilator};
-use super::process::{self, Finished, IVERILOG, Limits, VERILATOR, VVP};
+use super::process::{self, Finished, IVERILOG, Limits, Tool, VERILATOR, VVP};
 use super::rtl::Rtl;
 
 /// A simulator.
@@ -20,6 +25,18 @@ pub enum Simulator {
     /// Verilator: compiles for seconds, then runs fast.
     Verilator,
 }
+
+/// Ways to compile a design that a simulator refuses: a simulator, whether Verilog is read as SystemVerilog, and what
+/// the user has to do.
+const WAYS: [(Simulator, bool, &str); 3] = [
+    (
+        Simulator::Icarus,
+        true,
+        "Icarus Verilog accepts these files as SystemVerilog: name them .sv, or put -sv into a file list",
+    ),
+    (Simulator::Verilator, false, "Verilator accepts these files: verify --simulator verilator"),
+    (Simulator::Icarus, false, "Icarus Verilog accepts these files: verify --simulator icarus"),
+];
 
 /// A compiled bench.
 #[derive(Clone, Debug)]
@@ -39,6 +56,18 @@ impl Simulator {
         }
     }
 
+    /// Checks that it is installed.
+    ///
+    /// # Errors
+    /// When a program of it is not on the PATH.
+    pub fn check_is_installed(self) -> Result<()> {
+        let tools: &[Tool] = match self {
+            Simulator::Icarus => &[IVERILOG, VVP],
+            Simulator::Verilator => &[VERILATOR],
+        };
+        tools.iter().try_for_each(Tool::check_is_installed)
+    }
+
     /// Compiles `top`, which is in `bench`, with the design's files, to run in `folder`.
     ///
     /// # Errors
@@ -52,20 +81,21 @@ impl Simulator {
         registers: bool,
         limits: &Limits,
     ) -> Result<Compiled> {
-        let (program, mut args) = match self {
-            Simulator::Icarus => {
-                let program = folder.join("bench.vvp");
-                (program.clone(), icarus_args(top, &program))
-            }
+        let program = folder.join(match self {
+            Simulator::Icarus => "bench.vvp",
+            Simulator::Verilator => "obj_dir/bench",
+        });
+        let action = match self {
+            Simulator::Icarus => arguments::icarus(top, &program),
             Simulator::Verilator => {
-                let more = ["-Mdir", "obj_dir", "-o", "bench"].map(OsString::from);
-                (folder.join("obj_dir/bench"), verilator_args("--binary", top, more))
+                arguments::verilator("--binary", top, ["-Mdir", "obj_dir", "-o", "bench"])
             }
         };
-        args.extend(registers.then(|| "-DREGISTERS".into()));
-        args.extend(bench.iter().map(OsString::from));
         let texts: Result<String> = bench.iter().map(|file| read_text(file)).collect();
-        self.make(folder, top, &texts?, args, rtl, limits)?;
+        let mut job = Job::new(folder, top, &texts?, rtl, limits)?;
+        job.first.extend(registers.then(|| "-DREGISTERS".into()));
+        job.first.extend(bench.iter().map(OsString::from));
+        self.make(&job, action)?;
         Ok(Compiled { simulator: self, folder: folder.to_owned(), program })
     }
 
@@ -81,19 +111,20 @@ impl Simulator {
         rtl: &Rtl,
         limits: &Limits,
     ) -> Result<Interface> {
-        let (output, mut args, set) = match self {
+        let (output, mut action, set) = match self {
             Simulator::Icarus => {
                 let output = folder.join("ports.vvp");
-                (output.clone(), icarus_args(module, &output), format!("-P{module}."))
+                (output.clone(), arguments::icarus(module, &output), format!("-P{module}."))
             }
             Simulator::Verilator => {
                 let output = folder.join("ports.xml");
-                let more = ["--xml-output".into(), output.clone().into()];
-                (output, verilator_args("--xml-only", module, more), "-G".to_owned())
+                let mut action = arguments::verilator("--xml-only", module, ["--xml-output"]);
+                action.push(output.clone().into());
+                (output, action, "-G".to_owned())
             }
         };
-        args.extend(parameters.iter().map(|(name, value)| format!("{set}{name}={value}").into()));
-        self.make(folder, module, module, args, rtl, limits)?;
+        action.extend(parameters.iter().map(|(name, value)| format!("{set}{name}={value}").into()));
+        self.make(&Job::new(folder, module, module, rtl, limits)?, action)?;
         let bytes = std::fs::read(&output).map_err(Error::io(&output, "read"))?;
         let text = String::from_utf8_lossy(&bytes);
         match self {
@@ -102,53 +133,54 @@ impl Simulator {
         }
     }
 
-    /// Compiles what `text` needs of the design with those arguments, of which `top` is one.
-    fn make(
-        self,
-        folder: &Path,
-        top: &str,
-        text: &str,
-        mut args: Vec<OsString>,
-        rtl: &Rtl,
-        limits: &Limits,
-    ) -> Result<()> {
-        let needed = rtl.needed(text)?;
-        let options = &rtl.options;
-        if needed.is_empty() && options.libraries.is_empty() && options.library_files.is_empty() {
-            return Err(refusal::no_module(rtl, top).into());
-        }
-        let (tool, suffix, library) = match self {
-            Simulator::Icarus => (IVERILOG, "-Y", "-l"),
-            Simulator::Verilator => (VERILATOR, "+libext+", "-v"),
-        };
-        if self == Simulator::Icarus {
-            let is_system_verilog = rtl.options.system_verilog
-                || needed.iter().any(|source| source.is_system_verilog());
-            args.push(if is_system_verilog { "-g2012" } else { "-g2005" }.into());
-        }
-        let joined = |option: &str, value: &OsString| {
-            let mut word = OsString::from(option);
-            word.push(value);
-            word
-        };
-        args.extend(options.includes.iter().map(|folder| joined("-I", &folder.into())));
-        args.extend(options.defines.iter().map(|define| joined("-D", &define.into())));
-        for folder in &options.libraries {
-            args.extend(["-y".into(), folder.into()]);
-        }
-        if !options.libraries.is_empty() {
-            args.extend(rtl.suffixes().iter().map(|end| joined(suffix, &end.into())));
-        }
-        for file in &options.library_files {
-            args.extend([library.into(), file.into()]);
-        }
-        args.extend(needed.iter().map(|source| OsString::from(&source.path)));
-        let finished = tool.run(folder, args, limits)?;
+    /// Compiles a design, which those arguments begin with.
+    fn make(self, job: &Job, mut args: Vec<OsString>) -> Result<()> {
+        let (tool, options) = self.compiler();
+        args.extend(job.arguments(&options, job.is_system_verilog()));
+        let mut finished = tool.run(job.folder, args, job.limits)?;
+        finished.output = job.with_originals(&finished.output);
         if finished.success() && !refusal::lacks_macro(&finished) {
-            Ok(())
-        } else {
-            Err(refusal::of(rtl, top, &finished).into())
+            return Ok(());
         }
+        Err(refusal::of(job.rtl, job.top, &finished, || self.other_way(job)).into())
+    }
+
+    /// Its compiler, and the compiler's options for sources.
+    fn compiler(self) -> (Tool, SourceOptions) {
+        match self {
+            Simulator::Icarus => (IVERILOG, arguments::ICARUS),
+            Simulator::Verilator => (VERILATOR, arguments::VERILATOR),
+        }
+    }
+
+    /// Returns how a design that this simulator refuses can be compiled, if it can.
+    fn other_way(self, job: &Job) -> Option<&'static str> {
+        let is_system_verilog = job.is_system_verilog();
+        let is_other = |(simulator, as_system_verilog, _): &&(Simulator, bool, &str)| {
+            if *as_system_verilog {
+                self == *simulator && !is_system_verilog
+            } else {
+                self != *simulator
+            }
+        };
+        let mut ways = WAYS.iter().filter(is_other);
+        let way = ways.find(|(simulator, as_system_verilog, _)| {
+            simulator.accepts(job, is_system_verilog || *as_system_verilog)
+        });
+        way.map(|(_, _, hint)| *hint)
+    }
+
+    /// Returns whether it is installed and takes a design, without compiling it.
+    fn accepts(self, job: &Job, is_system_verilog: bool) -> bool {
+        let (tool, options) = self.compiler();
+        let mut args = match self {
+            Simulator::Icarus => arguments::icarus(job.top, Path::new("null")),
+            Simulator::Verilator => arguments::verilator("--lint-only", job.top, []),
+        };
+        args.extend((self == Simulator::Icarus).then(|| "-tnull".into()));
+        args.extend(job.arguments(&options, is_system_verilog));
+        let finished = tool.run(job.folder, args, job.limits);
+        finished.is_ok_and(|finished| finished.success() && !refusal::lacks_macro(&finished))
     }
 }
 
@@ -170,28 +202,4 @@ impl Compiled {
         command.args(args);
         process::run(command, &self.folder, limits)
     }
-}
-
-/// Icarus's arguments to compile `top` into a file, but for the sources.
-fn icarus_args(top: &str, output: &Path) -> Vec<OsString> {
-    let mut args = ["-grelative-include", "-s", top, "-o"].map(OsString::from).to_vec();
-    args.push(output.into());
-    args
-}
-
-/// Verilator's arguments to do something with `top`, but for the sources. It takes the first of two modules
-/// of one name, and warns only, where Icarus refuses them.
-fn verilator_args<const N: usize>(action: &str, top: &str, more: [OsString; N]) -> Vec<OsString> {
-    let args = [
-        action,
-        "--timing",
-        "--relative-includes",
-        "-Wno-fatal",
-        "-Wno-lint",
-        "-Wno-style",
-        "-Werror-MODDUP",
-        "--top-module",
-        top,
-    ];
-    args.map(OsString::from).into_iter().chain(more).collect()
 }

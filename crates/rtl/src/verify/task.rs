@@ -9,6 +9,7 @@ use crate::golden::spec::Spec;
 
 use super::map::RtlMap;
 use super::report::BlockReport;
+use super::verdict::Verdict;
 
 /// One thing to check.
 #[derive(Clone, Debug)]
@@ -102,7 +103,8 @@ pub fn run_all(
             match tasks.iter().zip(&reports).find_map(hangs) {
                 Some(inner) => {
                     let reason = format!("{inner}, which is in it, does not come to an end");
-                    reports[n] = Some(BlockReport::not_run(&task.name, reason));
+                    let verdict = Verdict::NotRun { reason };
+                    reports[n] = Some(BlockReport::without_run(&task.name, verdict));
                 }
                 None => level.push(n),
             }

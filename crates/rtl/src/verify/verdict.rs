@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::process::End;
+use super::process::{End, Overrun};
 
 /// The first line on which the two sides differ.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -45,8 +45,13 @@ pub enum Verdict {
     },
     /// The bench did not end in time.
     TimedOut {
-        /// The limit [s].
-        seconds: u64,
+        /// The time that it was given.
+        after: Overrun,
+    },
+    /// The block could not be checked: it is not known whether it is as it should be.
+    NotChecked {
+        /// The fault that kept it from being checked.
+        reason: String,
     },
     /// The bench broke off.
     Broke {
@@ -63,7 +68,7 @@ impl Verdict {
             output.lines().rev().find_map(cycle).unwrap_or(0)
         };
         match end {
-            End::OutOfTime(limit) => return Verdict::TimedOut { seconds: limit.as_secs() },
+            End::OutOfTime(after) => return Verdict::TimedOut { after },
             End::Stalled(limit) => {
                 return Verdict::Hangs { seconds: limit.as_secs(), cycle: reached() };
             }
@@ -131,8 +136,9 @@ mod tests {
         let output = "cycle 0\ncycle 100\nmismatch: nothing yet\n";
         let stalled = Verdict::read(output, End::Stalled(Duration::from_secs(20)));
         assert_eq!(stalled, Verdict::Hangs { seconds: 20, cycle: 100 });
-        let late = Verdict::read(output, End::OutOfTime(Duration::from_secs(300)));
-        assert_eq!(late, Verdict::TimedOut { seconds: 300 });
+        let after = Overrun::Processor(Duration::from_secs(300));
+        let late = Verdict::read(output, End::OutOfTime(after));
+        assert_eq!(late, Verdict::TimedOut { after });
     }
 
     #[test]

@@ -6,15 +6,20 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
-use std::path::Path;
+use std::iter;
+use std::path::{Path, PathBuf};
 
 use tofsim::error::{Input, Result, read_text};
 use tofsim::files::output::{create_directory, write_bytes};
 
 use crate::golden::parameters::Parameter;
 
-use super::process::{End, GHDL, Limits, SHELL};
+use super::process::{GHDL, Limits, SHELL};
+use super::rtl::mirror::Mirror;
 use super::rtl::{Rtl, Source};
+
+/// Options of GHDL's analysis: VHDL-2008, with the packages of Synopsys (`std_logic_unsigned` and the like) in `ieee`.
+const OPTIONS: [&str; 2] = ["--std=08", "-fsynopsys"];
 
 /// A generic and its value.
 pub type Generic<'a> = (&'a str, &'a Parameter);
@@ -83,9 +88,15 @@ fn entities(rtl: &Rtl, module: &str) -> Result<Vec<String>> {
 /// Tells GHDL of all files, which it then analyses in an order of its own; what it says of those that it
 /// does not take, which need not matter.
 fn import(rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<String> {
+    let paths = rtl.vhdl.iter().map(|file| file.path.clone()).collect();
+    let mirror = Mirror::of(&paths, &unmarked(folder))?;
+    let place = |file: &Source| match &mirror {
+        Some(mirror) => OsString::from(mirror.path(&file.path)),
+        None => OsString::from(&file.path),
+    };
     let run = |files: &[Source]| {
-        let files = files.iter().map(|file| OsString::from(&file.path));
-        GHDL.run(folder, ["-i", "--std=08"].map(OsString::from).into_iter().chain(files), limits)
+        let options = iter::once("-i").chain(OPTIONS).map(OsString::from);
+        GHDL.run(folder, options.chain(files.iter().map(place)), limits)
     };
     if run(&rtl.vhdl)?.success() {
         return Ok(String::new());
@@ -101,6 +112,11 @@ fn import(rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<String> {
     Ok(refused)
 }
 
+/// Folder for copies of files without a byte order mark.
+fn unmarked(folder: &Path) -> PathBuf {
+    folder.join("unmarked")
+}
+
 fn synthesise(
     rtl: &Rtl,
     entity: &str,
@@ -111,13 +127,13 @@ fn synthesise(
 ) -> Result<String> {
     const OUTPUT: &str = "synthesised.v";
     // Without it, GHDL 2.0 takes the body of a package for older than the package.
-    let made = GHDL.run(folder, ["-m", "--std=08", entity], limits)?;
+    let made = GHDL.run(folder, iter::once("-m").chain(OPTIONS).chain([entity]), limits)?;
     // What GHDL says must not come between the Verilog.
     let script = format!("exec \"$@\" > {OUTPUT}");
     let set = generics.iter().map(|(name, value)| format!("-g{name}={}", value.vhdl()));
-    let args =
-        ["-c", &script, "sh", GHDL.program, "synth", "--std=08", "--latches", "--out=verilog"];
-    let args = args.map(str::to_owned).into_iter().chain(set).chain([entity.to_owned()]);
+    let args = ["-c", &script, "sh", GHDL.program, "synth", "--latches", "--out=verilog"];
+    let args = args.into_iter().chain(OPTIONS).map(str::to_owned);
+    let args = args.chain(set).chain([entity.to_owned()]);
     let finished = SHELL.run(folder, args, limits)?;
     if finished.success() {
         return read_text(&folder.join(OUTPUT));
@@ -130,16 +146,17 @@ fn synthesise(
         let field = format!("entity {entity}, generic {name}");
         return Err(Input::new(&rtl.source, "no such generic").field(field).into());
     }
-    let what = match finished.end {
-        End::Exit(_) => "GHDL does not synthesise it",
-        _ => "GHDL took too long to synthesise it",
+    let what = match finished.end.killed() {
+        None => "GHDL does not synthesise it".to_owned(),
+        Some(why) => format!("GHDL {why}"),
     };
     let message: Vec<_> = (refused.lines())
         .chain(made.output.lines().filter(|_| !made.success()))
         .chain(finished.output.lines())
         .take(12)
         .collect();
-    let expected = format!("{what}:\n{}", message.join("\n"));
+    let message = message.join("\n").replace(&unmarked(folder).display().to_string(), "");
+    let expected = format!("{what}:\n{message}");
     Err(Input::new(&rtl.source, expected).field("entity").value(entity).into())
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use tofsim::error::{Input, Result};
 
-use super::process::{End, Limits, YOSYS};
+use super::process::{Limits, YOSYS};
 use super::rtl::Rtl;
 
 /// Its arguments for those sources that something which names the identifiers of `text` needs, with one more
@@ -51,9 +51,9 @@ pub fn synthesise(
     if finished.success() {
         return Ok(());
     }
-    let why = match finished.end {
-        End::Exit(_) => finished.error().unwrap_or("Yosys ended without a netlist").to_owned(),
-        _ => format!("Yosys has no netlist after {} s", limits.time.as_secs_f64()),
+    let why = match finished.end.killed() {
+        None => finished.error().unwrap_or("Yosys ended without a netlist").to_owned(),
+        Some(why) => format!("Yosys {why}"),
     };
     Err(Input::new(&rtl.source, why).field(field).into())
 }

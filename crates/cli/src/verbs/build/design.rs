@@ -99,7 +99,7 @@ pub fn verify(site: &Site) -> Result<Outcome> {
             ..report
         }),
     );
-    let failed = reports.iter().filter(|report| report.failed()).count();
+    let failed = reports.iter().filter(|report| !report.is_good()).count();
     let cycles: usize = reports.iter().map(|report| report.cycles).sum();
     let summary =
         format!("{} of {} benches pass, {cycles} cycles", reports.len() - failed, reports.len());

@@ -26,6 +26,19 @@ pub struct Allowances {
 /// Inputs that reset a block: after a line with one, a pipeline may have to settle.
 pub const RESETS: [&str; 2] = ["rst", "rst_late"];
 
+/// Columns of the stimulus that reset a block.
+pub fn resets(vectors: &Vectors) -> Vec<&Column> {
+    let columns = vectors.stimulus.columns().iter();
+    columns.filter(|column| RESETS.contains(&column.name.as_str())).collect()
+}
+
+/// Verilog that is true if a line of the stimulus resets the block.
+pub fn resets_in(line: &str, vectors: &Vectors) -> String {
+    let levels = resets(vectors).into_iter();
+    let levels: Vec<_> = levels.map(|column| format!("stimulus[{line}][{}]", column.low)).collect();
+    levels.join(" || ")
+}
+
 /// Place of the level by which a column is compared or not.
 #[derive(Clone, Copy, Debug)]
 pub struct Valid<'a> {
@@ -62,8 +75,13 @@ impl Allowances {
         let mut text = String::new();
         let delay = self.delay(&column.name);
         if delay != 0 {
+            let cut = if delay < 0 && !resets(vectors).is_empty() {
+                format!(" && next_reset >= cycle - ({delay})")
+            } else {
+                String::new()
+            };
             text += &format!(
-                "    if (cycle - ({delay}) >= 0 && cycle - ({delay}) < Cycles)\n      \
+                "    if (cycle - ({delay}) >= 0 && cycle - ({delay}) < Cycles{cut})\n      \
                  want[{place}] = expected[cycle - ({delay})][{place}];\n    \
                  else\n      want[{place}] = got[{place}];\n",
             );
@@ -80,6 +98,42 @@ impl Allowances {
             text += &format!("    if (!{table}[{at}][{low}]) want[{place}] = got[{place}];\n");
         }
         text
+    }
+
+    /// Returns whether an output comes earlier than the reference, and so before a reset that the reference has had.
+    fn leads(&self, vectors: &Vectors) -> bool {
+        self.delays.values().any(|delay| *delay < 0) && !resets(vectors).is_empty()
+    }
+
+    /// Verilog that declares the next line with a reset, if an output needs it.
+    pub fn declaration(&self, vectors: &Vectors) -> &'static str {
+        if self.leads(vectors) {
+            "  integer next_reset = 0;  // first line from this one on that resets the block\n"
+        } else {
+            ""
+        }
+    }
+
+    /// Verilog that looks for the next line with a reset, if an output needs it.
+    pub fn search(&self, vectors: &Vectors) -> String {
+        if !self.leads(vectors) {
+            return String::new();
+        }
+        let levels = resets_in("next_reset", vectors);
+        format!(
+            "    while (next_reset < cycle || next_reset < Cycles && !({levels}))\n      \
+             next_reset = next_reset + 1;\n",
+        )
+    }
+
+    /// Returns whether a reset lies between a line and the one of the reference that it is compared with, which comes
+    /// later: the reference has lost what the line shows.
+    pub fn is_cut(&self, cycle: usize, name: &str, vectors: &Vectors) -> bool {
+        let lead = usize::try_from(-self.delay(name)).unwrap_or(0);
+        let lines = cycle..(cycle + lead).min(vectors.stimulus.rows());
+        lines
+            .into_iter()
+            .any(|line| resets(vectors).iter().any(|column| vectors.stimulus.row(line)[column.low]))
     }
 
     /// Lines that are not compared to begin with: until the registers have been reset (-1), or have

@@ -5,7 +5,7 @@ use std::path::Path;
 use tofsim::error::Result;
 use tofsim::files::output::write_bytes;
 
-use crate::verify::process::{End, Finished, Limits, YOSYS};
+use crate::verify::process::{Finished, Limits, YOSYS};
 use crate::verify::rtl::Rtl;
 use crate::verify::yosys;
 
@@ -64,7 +64,7 @@ fn ask(
 ) -> Result<Answer> {
     let mut args = yosys::sources(rtl, promise.properties.text, folder, None)?;
     args.extend(["-p".into(), script(promise, number).into()]);
-    Ok(answer(promise, &YOSYS.run(folder, args, limits)?, limits))
+    Ok(answer(promise, &YOSYS.run(folder, args, limits)?))
 }
 
 /// Commands for Yosys. A module that is left open is one that it does not know.
@@ -89,10 +89,10 @@ fn script(promise: &Promise, number: u64) -> String {
     lines.join("\n")
 }
 
-fn answer(promise: &Promise, finished: &Finished, limits: &Limits) -> Answer {
+fn answer(promise: &Promise, finished: &Finished) -> Answer {
     let says = |text| finished.output.contains(text);
-    if !matches!(finished.end, End::Exit(_)) {
-        Answer::Stuck(format!("Yosys has no answer after {} s", limits.time.as_secs_f64()))
+    if let Some(why) = finished.end.killed() {
+        Answer::Stuck(format!("Yosys {why}"))
     } else if says("Induction step proven: SUCCESS!") {
         Answer::Holds
     } else if says("proof finished - model found for base case: FAIL!") {

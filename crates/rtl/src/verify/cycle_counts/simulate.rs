@@ -5,7 +5,7 @@ use std::path::Path;
 use tofsim::error::{Input, Result};
 use tofsim::files::output::write_bytes;
 
-use crate::verify::process::{End, Limits};
+use crate::verify::process::Limits;
 use crate::verify::rtl::Rtl;
 use crate::verify::simulator::Simulator;
 
@@ -49,10 +49,8 @@ pub fn measure(
         let bench = [folder.join(bench)];
         let compiled = Simulator::Icarus.compile(folder, name, &bench, rtl, false, limits)?;
         let run = compiled.run(&[], limits)?;
-        if !matches!(run.end, End::Exit(_)) {
-            let seconds = limits.time.as_secs_f64();
-            let expected = format!("{name} has not ended after {seconds} s of simulation");
-            return Err(Input::new(&rtl.source, expected).into());
+        if let Some(why) = run.end.killed() {
+            return Err(Input::new(&rtl.source, format!("{name} {why}")).into());
         }
         run.output.lines().filter_map(count).for_each(|(key, count)| measured.add(key, count));
     }

@@ -209,7 +209,8 @@ fn a_missing_module_is_named() {
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.path.ends_with("spad_control.v"));
     let error = cycle_counts(&rtl, &kc705(), &limits(), |_| {}).unwrap_err();
-    assert_eq!(error.to_string(), "rtl_ref: it has no module `spad_control`");
+    let error = error.to_string();
+    assert!(error.starts_with("rtl_ref: module = spad_control: no such module"), "{error}");
 }
 
 #[test]
@@ -233,7 +234,7 @@ fn a_simulation_that_never_ends_is_stopped() {
         .unwrap();
     let limits = Limits::new(Duration::from_secs(2));
     let error = cycle_counts(&rtl, &kc705(), &limits, |_| {}).unwrap_err().to_string();
-    assert_eq!(error, "rtl_ref: bench_shot has not ended after 2 s of simulation");
+    assert_eq!(error, "rtl_ref: bench_shot has not ended after 2 s of processor time");
 }
 
 #[test]
@@ -243,5 +244,5 @@ fn a_proof_that_takes_too_long_is_none() {
     let limits = Limits::new(Duration::ZERO);
     let unproven =
         prove::prove(&promises::promises(&kc705())[0], &rtl, folder.path(), &limits).unwrap();
-    assert_eq!(unproven.as_deref(), Some("Yosys has no answer after 0 s"));
+    assert_eq!(unproven.as_deref(), Some("Yosys has not ended after 0 s"));
 }

@@ -30,6 +30,11 @@ impl<'a> Tree<'a> {
         duplicates(&self, &chosen)?;
         packages_first(&self, &chosen)
     }
+
+    /// Files that those include, and that these include.
+    pub fn included(self, files: &[&Source]) -> BTreeSet<PathBuf> {
+        files.iter().flat_map(|file| words(&self, file).files).collect()
+    }
 }
 
 /// Collects the names in a file and in the files that it includes.
@@ -55,7 +60,7 @@ impl Included {
             let folders = own.iter().chain(tree.includes);
             // One that is not there is the simulator's to name.
             let found = folders.map(|folder| folder.join(name)).find(|path| path.is_file());
-            let Some(path) = found else { continue };
+            let Some(path) = found.and_then(|path| path.canonicalize().ok()) else { continue };
             if self.files.insert(path.clone())
                 && let Ok(bytes) = read_bytes(&path)
             {

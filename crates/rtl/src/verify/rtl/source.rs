@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use tofsim::error::open::open_file;
 use tofsim::error::{Error, Result, read_bytes};
 
 use super::scan::Scan;
@@ -22,8 +23,9 @@ impl Source {
     /// A file; `found` in a folder, or named.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// When it cannot be read, or is a pipe or a device, which a simulator could not read again.
     pub fn read(path: &Path, found: bool) -> Result<Self> {
+        open_file(path)?;
         let path = path.canonicalize().map_err(Error::io(path, "read"))?;
         let bytes = read_bytes(&path)?;
         let text = String::from_utf8_lossy(&bytes);

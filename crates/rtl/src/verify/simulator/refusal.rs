@@ -2,7 +2,7 @@
 
 use tofsim::error::Input;
 
-use crate::verify::process::{End, Finished};
+use crate::verify::process::Finished;
 use crate::verify::rtl::Rtl;
 
 /// Lines of a simulator's message that are passed on.
@@ -30,11 +30,16 @@ pub fn lacks_macro(finished: &Finished) -> bool {
 
 /// The error for a module that the sources do not declare.
 pub fn no_module(rtl: &Rtl, module: &str) -> Input {
-    Input::new(&rtl.source, "no such module in it").field("module").value(module)
+    Input::new(&rtl.source, rtl.lacks(module)).field("module").value(module)
 }
 
-/// The error for a run that ended without success.
-pub fn of(rtl: &Rtl, top: &str, finished: &Finished) -> Input {
+/// The error for a run that ended without success; `other_way` says how else such files can be compiled.
+pub fn of(
+    rtl: &Rtl,
+    top: &str,
+    finished: &Finished,
+    other_way: impl FnOnce() -> Option<&'static str>,
+) -> Input {
     let lines = || finished.output.lines();
     let unknown = |line: &str| Some(line.split_once("Unknown module type: ")?.1.to_owned());
     let is_root = |line: &str| NO_ROOT.iter().any(|text| line.contains(text));
@@ -59,14 +64,17 @@ pub fn of(rtl: &Rtl, top: &str, finished: &Finished) -> Input {
         return no_module(rtl, top);
     }
     if let Some(module) = lines().find_map(unknown) {
-        return Input::new(&rtl.source, format!("it has no module `{module}`"));
+        return no_module(rtl, &module);
     }
-    let what = match finished.end {
-        End::Exit(_) => "the simulator does not take it",
-        _ => "the simulator took too long to compile it",
-    };
+    if let Some(why) = finished.end.killed() {
+        return Input::new(
+            &rtl.source,
+            format!("the simulator's compilation {why} (--time-limit)"),
+        );
+    }
     let hint = lines().find_map(|line| HINTS.iter().find(|(text, _)| line.contains(text)));
-    let hint = hint.map_or(String::new(), |(_, hint)| format!(" ({hint})"));
+    let hint = hint.map(|(_, hint)| *hint).or_else(other_way);
+    let hint = hint.map_or(String::new(), |hint| format!(" ({hint})"));
     let message = errors[..errors.len().min(LINES)].join("\n");
-    Input::new(&rtl.source, format!("{what}{hint}:\n{message}"))
+    Input::new(&rtl.source, format!("the simulator does not take it{hint}:\n{message}"))
 }
