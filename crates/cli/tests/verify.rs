@@ -14,6 +14,7 @@ mod foreign;
 mod inputs;
 mod sources;
 mod stranger;
+#[cfg(unix)]
 mod unchecked;
 mod whole;
 

@@ -30,7 +30,7 @@ fn verify(folder: &Path, args: &[&str]) -> (Option<i32>, Value, String) {
     (output.status.code(), report, String::from_utf8(output.stderr).unwrap())
 }
 
-fn with_map<'a>(folder: &Path, tie: &str, args: &[&'a str]) -> (Option<i32>, Value, String) {
+fn with_map(folder: &Path, tie: &str, args: &[&str]) -> (Option<i32>, Value, String) {
     let map = format!("[block.coarse_counter]\ntie = {{ {tie} }}\n");
     fs::write(folder.join("map.toml"), map).unwrap();
     verify(folder, &[&["--map", "map.toml"], args].concat())
