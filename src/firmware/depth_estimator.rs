@@ -58,8 +58,9 @@ connect! {
         [rst, algo_start] <- i;
     }
     forward1(clk_sys): forward1::In {
-        [rst, count] <- i;
+        rst <- i.rst;
         [forward1_first, forward1_en, rom_addr] <- this.estimator_ctrl;
+        count <- i.count;
     }
     tansig(clk_sys): tansig::In {
         rst <- i.rst;
@@ -68,8 +69,8 @@ connect! {
     }
     forward2(clk_sys): forward2::In {
         rst <- i.rst;
-        l1_out <- this.tansig.l1_out;
         [pair, forward2_first, forward2_en, depth_en] <- this.estimator_ctrl;
+        l1_out <- this.tansig.l1_out;
     }
 }
 

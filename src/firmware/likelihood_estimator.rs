@@ -149,8 +149,10 @@ connect! {
         output [read_en, read_addr] <- this.likelihood_memory.registers;
     }
     likelihood_memory(clk_sys): likelihood_memory::In {
-        [rst, count] <- i;
-        [load, pass, scan, fit_begin, fit_end, phase] <- this.registers;
+        rst <- i.rst;
+        load <- this.registers.load;
+        count <- i.count;
+        [pass, scan, fit_begin, fit_end, phase] <- this.registers;
     }
     likelihood_terms(clk_sys): likelihood_terms::In {
         [phase, scan] <- this.registers;
@@ -166,8 +168,9 @@ connect! {
         [residual, predicted, gain, share, slope, single] <- this.likelihood_terms;
     }
     likelihood_scan(clk_sys): likelihood_scan::In {
-        [load, pass, scan, phase] <- this.registers;
+        load <- this.registers.load;
         [block_done, block_ended, block_exposure] <- this.likelihood_memory.registers;
+        [pass, scan, phase] <- this.registers;
         [slide, residual, predicted, middle, waits] <- this.likelihood_terms;
     }
     likelihood_solver(clk_sys): likelihood_solver::In {

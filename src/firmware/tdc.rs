@@ -129,13 +129,16 @@ connect! {
         [rst, start] <- i;
     }
     tdc_latch(clk_sys): tdc_latch::In {
+        [rst, start] <- i;
+        window <- this.coarse_counter.window;
+        free <- i.free;
+        coarse <- this.coarse_counter.coarse;
         taps <- this.carry_chain.taps;
-        [rst, start, free] <- i;
-        [window, coarse] <- this.coarse_counter;
     }
     tdc_decoder(clk_sys): tdc_decoder::In {
-        [rst, calibrated_age] <- i;
+        rst <- i.rst;
         [hit, hit_coarse, hit_taps] <- this.tdc_latch;
+        calibrated_age <- i.calibrated_age;
     }
 }
 

@@ -14,7 +14,7 @@ use crate::golden::{blocks, parameters};
 
 /// Name and text of each file of its Verilog; paths in it are from the folder that has them.
 pub fn verilog(setup: &Setup) -> Vec<(String, String)> {
-    let all = parameters::tof_top_in_full(setup);
+    let all = parameters::whole::tof_top_in_full(setup);
     let mut files: Vec<_> = blocks::verilog().map(|(name, text)| (name, text.to_owned())).collect();
     files.extend(
         parameters::memories(&all).map(|memory| (memory.name.to_owned(), memory.text.clone())),

@@ -22,7 +22,7 @@ fn folder() -> PathBuf {
 /// Returns the expected memory contents.
 fn expected() -> BTreeMap<&'static str, String> {
     let of = |scenario, set: &[&str]| {
-        let parameters = parameters::tof_top(&common::setup(scenario, set));
+        let parameters = parameters::whole::tof_top(&common::setup(scenario, set));
         let text = |memory: &Mem| (memory.name, memory.text.clone());
         parameters::memories(&parameters).map(text).collect::<BTreeMap<_, _>>()
     };

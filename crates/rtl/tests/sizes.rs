@@ -40,7 +40,8 @@ fn number(literal: &str) -> Option<u64> {
 
 #[test]
 fn parameters_have_the_same_defaults_in_rust_and_verilog() {
-    let all = parameters::tof_top_in_full(&common::setup("kc705", &["estimator.kind=likelihood"]));
+    let all =
+        parameters::whole::tof_top_in_full(&common::setup("kc705", &["estimator.kind=likelihood"]));
     let expected = |name: &str| {
         if let Some(size) = Size::named(name) {
             return Some(u64::from(Sizes::default().of(size)));
@@ -95,7 +96,7 @@ fn every_signal_has_the_width_of_the_table_in_designs_of_many_sizes() {
     let mut wrong = Vec::new();
     for (scenario, set) in DESIGNS {
         let (setup, folder) = (common::setup(scenario, set), common::empty());
-        let parameters = parameters::tof_top(&setup);
+        let parameters = parameters::whole::tof_top(&setup);
         let mut rtl = Rtl::own(folder.path()).unwrap();
         rtl.options.system_verilog = true;
         for memory in parameters::memories(&parameters) {

@@ -62,7 +62,7 @@ impl Device {
     }
 
     /// Begins a frame: the next shot takes up its random numbers.
-    pub(in crate::sim) fn begin_frame(&mut self, frame: u64) {
+    pub fn begin_frame(&mut self, frame: u64) {
         self.light.begin_frame(frame);
         if let Some(row) = self.spads.row() {
             row.begin_frame(frame);

@@ -10,9 +10,7 @@ use tofsim::firmware::{
 use tofsim::kernel::sizes::{Size, Sizes};
 use tofsim::network::mem::{self, Mem, digits, lines};
 
-mod whole;
-
-pub use whole::{tof_top, tof_top_in_full};
+pub mod whole;
 
 /// A parameter's value.
 #[derive(Clone, Debug, PartialEq)]

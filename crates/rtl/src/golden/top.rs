@@ -73,7 +73,7 @@ pub(super) fn record(
     let first_edge = device.next_edge();
     run(setting, &mut device, &mut sampler)?;
     let Sampler { lines, stops, .. } = sampler;
-    let parameters = parameters::tof_top(setup);
+    let parameters = parameters::whole::tof_top(setup);
     Ok(Vectors { parameters, first_edge, stops, settles: SETTLES, ..lines.vectors() })
 }
 
@@ -86,6 +86,10 @@ fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<
     while device.cycle() < limit {
         device.step(&setup.params, sampler, &mut Off);
         frames.edge(device.cycle() - 1, &device.top, &setup.params);
+        // A frame of a scenario has the photons that it has in a run.
+        if setting.as_configured && device.top.frame_ctrl.frame_done {
+            device.begin_frame(frames.done());
+        }
         if whole_frames && frames.done() == setting.frames && device.top.frame_ctrl.frame_done {
             device.step(&setup.params, sampler, &mut Off);
             return Ok(());
@@ -155,5 +159,28 @@ impl SignalProbe for Sampler<'_> {
             self.stops.push(now);
         }
         hierarchy::copy(top, &mut self.current);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tofsim::Run;
+
+    use crate::golden::blocks::BLOCKS;
+
+    use super::*;
+
+    #[test]
+    fn the_frames_of_a_scenario_are_those_of_a_run() {
+        let setup = Setup::load("bright", &["firmware.shots_per_frame=60"]).unwrap();
+        let run = Run::new(&setup).frames(3).unwrap();
+        let spec = BLOCKS.iter().find(|spec| spec.name == hierarchy::TOP).unwrap();
+        let setting = Setting { as_configured: true, frames: 3, ..Setting::new(setup) };
+        let mut depths = Vec::new();
+        let see = &mut |top: &TofTop| {
+            depths.extend(top.slot.algo_done.then_some(top.slot.words.depth));
+        };
+        record(spec, &setting, see).unwrap();
+        assert_eq!(depths, run.iter().map(|frame| frame.words.depth).collect::<Vec<_>>());
     }
 }

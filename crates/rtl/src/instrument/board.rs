@@ -50,7 +50,7 @@ pub fn top(setup: &Setup) -> String {
     }
     let usual = format!("{} MHz", in_mhz(BOARD_HZ));
     text = text.replace(&usual, &format!("{} MHz", in_mhz(pll.input_hz)));
-    let all = parameters::tof_top_in_full(setup);
+    let all = parameters::whole::tof_top_in_full(setup);
     let shots = setup.params.frame_ctrl.shots_per_frame.to_string();
     let instance = format!("    tof_top {} tof_top (", wrapper::set(&all, &shots));
     match (text.find("    // The VCO at 500 MHz.\n    tof_top #("), text.find("    ) tof_top (")) {

@@ -1,7 +1,7 @@
 //! The whole firmware: a scenario as it is, or short frames under control signals that change at
 //! random, also in the middle of a frame, and abandon some.
 
-use tofsim::firmware::tof_top::{CodeSource, FirmwareEstimator, Params, Pins};
+use tofsim::firmware::tof_top::{CodeSource, Pins};
 use tofsim::scenario::Control;
 
 use crate::golden::configuration;
@@ -10,7 +10,7 @@ use crate::golden::top;
 
 mod control;
 
-use control::{PLANTED, RANDOM, control};
+use control::{PLANTED, RANDOM, control, judges_mode};
 
 pub(super) const SPEC: Spec = Spec {
     timing: timing::OWN_WITH_RESET,
@@ -179,11 +179,6 @@ fn calibrated(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         before = Some(now);
     })?;
     Ok(Vectors { coverage: vec![states, calibrations, codes], ..vectors })
-}
-
-/// Returns whether the estimator's status tells the mode of the shots.
-fn judges_mode(params: &Params) -> bool {
-    params.estimator == FirmwareEstimator::LikelihoodEstimator
 }
 
 /// Cycles between calibrations: two of some 9,000 and the frames after them.

@@ -1,10 +1,14 @@
 //! Control signals that change at random, and pulses planted where they matter.
 
+use tofsim::firmware::tof_top::{FirmwareEstimator, Params};
 use tofsim::scenario::{Control, QuenchMode};
 
 use crate::golden::prelude::*;
 
-use super::judges_mode;
+/// Returns whether the estimator's status tells the mode of the shots.
+pub(super) fn judges_mode(params: &Params) -> bool {
+    params.estimator == FirmwareEstimator::LikelihoodEstimator
+}
 
 /// Cycles under random control, and then under pulses planted in the first shots of a frame.
 pub(super) const RANDOM: usize = 20_000;
