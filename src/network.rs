@@ -5,6 +5,7 @@ pub mod estimate;
 pub mod file;
 pub mod float;
 pub mod histogram;
+pub mod histogram_csv;
 pub mod histogram_file;
 pub mod mem;
 pub mod pass;

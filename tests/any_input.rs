@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use tofsim::files::csv::CsvInput;
 use tofsim::network::Network;
-use tofsim::network::histogram_file;
+use tofsim::network::histogram_csv;
 use tofsim::scenario;
 use tofsim::scenario::drift::Profile;
 use tofsim::scenario::mesh;
@@ -33,7 +33,7 @@ proptest! {
 
     #[test]
     fn histograms(text in nearly(&["bin,count", "\n", "0,", "1,5\n", "65535", "#x\n", "\"", " "])) {
-        let _ = histogram_file::parse_csv("h", &text, &Default::default());
+        let _ = histogram_csv::parse("h", &text, &Default::default());
         let _ = CsvInput::new("h", &text, &["bin", "count"]);
     }
 

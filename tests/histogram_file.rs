@@ -59,10 +59,11 @@ fn a_faulty_csv_is_refused_with_line_column_and_value() {
     };
     let count = "expected a whole number from 0 to 65535";
     contains(
-        swap("bin,count", "bin;count"),
-        [":2:1: bin;count", "expected the header `bin,count`"],
+        swap("bin,count", "bin,hits"),
+        [":2:1: bin,hits", "expected one of the headers `bin,count`, `count`"],
     );
-    contains(fault(b""), ["", "expected the header `bin,count`"]);
+    contains(swap("bin,count", "bin;count"), [":3:1:", "1 fields, expected 2"]);
+    contains(fault(b""), ["", "expected one of the headers `bin,count`, `count`"]);
     contains(swap("\n9,7", "\n9,-1"), [":12:3: count = -1", count]);
     contains(swap("\n9,7", "\n9,1.5"), [":12:3: count = 1.5", count]);
     contains(swap("\n9,7", "\n9,many"), [":12:3: count = many", count]);
@@ -70,7 +71,7 @@ fn a_faulty_csv_is_refused_with_line_column_and_value() {
     contains(swap("\n9,7", "\n9,"), [":12:3: count", count]);
     contains(swap("\n9,7", "\n9,7,7"), [":12:1:", "3 fields, expected 2"]);
     contains(swap("\n9,7", "\n9 7"), [":12:1:", "1 fields, expected 2"]);
-    let order = "expected 9: bins 0 to 255, each once, in order";
+    let order = "expected 9: the numbers of all bins from 0 on, in order";
     contains(swap("\n9,7", ""), [":12:1: bin = 10", order]);
     contains(swap("\n9,7", "\n8,7"), [":12:1: bin = 8", order]);
     contains(swap("\n9,7", "\n-9,7"), [":12:1: bin = -9", order]);

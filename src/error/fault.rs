@@ -53,7 +53,9 @@ impl fmt::Display for Input {
             write!(f, ":{line}:{column}")?;
         }
         let field = self.field.as_ref().map(|field| shortened(field, LONG_NAME));
-        match (field, &self.value) {
+        let value =
+            self.value.as_deref().map(|value| if value.is_empty() { "\"\"" } else { value });
+        match (field, value) {
             (Some(field), Some(value)) => write!(f, ": {field} = {value}")?,
             (Some(field), None) => write!(f, ": {field}")?,
             (None, Some(value)) => write!(f, ": {value}")?,

@@ -134,7 +134,8 @@ fn value(with_place: &Value) -> toml::Value {
 /// If it is not an assignment, or `T` has no such key or value.
 pub fn assign<T: JsonSchema>(table: &mut Table, option: &str, assignment: &str) -> Result<()> {
     let source = format!("{option} {assignment}");
-    let Some((key, value)) = assignment.split_once('=') else {
+    let pair = assignment.split_once('=').filter(|(key, _)| !key.trim().is_empty());
+    let Some((key, value)) = pair else {
         return Err(Input::new(source, "expected key=value").into());
     };
     if assignment.contains(char::is_control) {

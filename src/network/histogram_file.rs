@@ -10,16 +10,14 @@ use npyz::{DType, Deserialize, Order, TypeChar};
 
 use crate::error::open::{self, Opened};
 use crate::error::{Error, Input, Result, line_and_column};
-use crate::files::csv::CsvInput;
 use crate::files::npy::{self, NpyInput};
 use crate::firmware::histogram_builder::Params;
 
-use super::histogram::Histogram;
+use super::histogram::{Histogram, checked, count_range};
+use super::histogram_csv;
 
 /// Magic number of an `.npy` file.
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
-/// Columns of a CSV file.
-const HEADER: [&str; 2] = ["bin", "count"];
 /// Size limit of a CSV file [bytes].
 const CSV: u64 = 1 << 20;
 /// Reader of a file, including the bytes that were read to detect its format.
@@ -51,50 +49,6 @@ pub fn open(path: &Path, p: Params) -> Result<Histograms> {
     Ok(Box::new((0..rows).map(move |number| row(&mut elements, number, rows, (&name, &p)))))
 }
 
-/// Describes the range of a count.
-pub fn count_range(p: &Params) -> String {
-    format!("expected a whole number from 0 to {}", p.most_hits())
-}
-
-/// Checks that the histogram's total fits the estimator's words.
-fn checked(histogram: Histogram, path: &str, field: String, p: &Params) -> Result<Histogram> {
-    let (total, most): (u64, u64) =
-        (histogram.iter().map(|&count| u64::from(count)).sum(), p.most_hits());
-    if total > most {
-        let expected = format!("the estimator's bit widths allow {most} hits in all");
-        return Err(Input::new(path, expected).field(field).value(total).into());
-    }
-    Ok(histogram)
-}
-
-/// Parses a histogram from CSV. Errors name the text as `source`.
-///
-/// # Errors
-/// If a row is invalid or missing.
-pub fn parse_csv(source: &str, text: &str, p: &Params) -> Result<Histogram> {
-    let mut input = CsvInput::new(source, text, &HEADER)?;
-    let (bins, last) = (p.bins, p.last_bin());
-    let mut histogram = Histogram::with_capacity(bins);
-    while input.advance()? {
-        let bin = histogram.len();
-        if bin == bins {
-            let expected = format!("a row after bin {last}, expected {bins} rows");
-            return Err(input.fault(0, expected).into());
-        }
-        if input.field(0) != Some(bin) {
-            let expected = format!("expected {bin}: bins 0 to {last}, each once, in order");
-            return Err(input.fault(0, expected).into());
-        }
-        let count = input.field(1).filter(|&count: &u32| u64::from(count) <= p.most_hits());
-        histogram.push(count.ok_or_else(|| input.fault(1, count_range(p)))?);
-    }
-    if histogram.len() < bins {
-        let expected = format!("{} rows, expected {bins}", histogram.len());
-        return Err(Input::new(source, expected).into());
-    }
-    checked(histogram, source, "total".to_owned(), p)
-}
-
 /// Reads a histogram from a CSV file.
 fn csv(reader: Reader, path: &str, p: &Params) -> Result<Histogram> {
     let mut bytes = Vec::new();
@@ -106,7 +60,7 @@ fn csv(reader: Reader, path: &str, p: &Params) -> Result<Histogram> {
         return Err(Input::new(path, expected).into());
     }
     match std::str::from_utf8(&bytes) {
-        Ok(text) => parse_csv(path, text, p),
+        Ok(text) => histogram_csv::parse(path, text, p),
         Err(error) => {
             let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
             let (line, column) = line_and_column(&valid, valid.len());

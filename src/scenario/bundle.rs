@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
+use toml_edit::DocumentMut;
 
 use crate::error::{Error, Result, read_bytes};
 
@@ -42,8 +43,7 @@ impl Bundle {
         for (key, name) in names(scenario) {
             let path = Path::new(name);
             if path.is_absolute() && path.is_file() {
-                let below: PathBuf = path.components().skip(1).collect();
-                let name = Path::new(ABSOLUTE).join(below).display().to_string();
+                let name = relative(name);
                 bundle.add_as(path, &name)?;
                 bundle.set.push(format!("{key}={}", toml::Value::from(name)));
             }
@@ -73,21 +73,27 @@ impl Bundle {
         self.add_as(&path, name)
     }
 
-    /// Adds the file at `path` under another name.
+    /// Adds the file at `path` under another name, and the files that it names if it is a chain, which may be absolute
+    /// there too.
     fn add_as(&mut self, path: &Path, name: &str) -> Result<()> {
-        let bytes = read_bytes(path)?;
-        let chain = std::str::from_utf8(&bytes).ok().and_then(|text| toml::from_str(text).ok());
-        self.files.insert(name.to_owned(), bytes);
-        if let Some(Chain { delays_file, counts_file, .. }) = chain {
+        let mut bytes = read_bytes(path)?;
+        let text = String::from_utf8_lossy(&bytes);
+        if let (Ok(chain), Ok(mut document)) = (toml::from_str(&text), text.parse::<DocumentMut>())
+        {
+            let Chain { delays_file, counts_file, .. } = chain;
             let folder = path.parent().unwrap_or(Path::new(""));
             let beside = Path::new(name).parent().unwrap_or(Path::new(""));
-            for own in [delays_file, counts_file].into_iter().flatten() {
-                let (path, name) = (folder.join(&own), beside.join(&own));
-                if name.is_relative() && path.is_file() {
-                    self.add_as(&path, &name.display().to_string())?;
+            for (key, own) in [("delays_file", delays_file), ("counts_file", counts_file)] {
+                let Some(own) = own.filter(|own| folder.join(own).is_file()) else { continue };
+                let there = relative(&own);
+                self.add_as(&folder.join(&own), &beside.join(&there).display().to_string())?;
+                if there != own {
+                    document[key] = there.into();
+                    bytes = document.to_string().into_bytes();
                 }
             }
         }
+        self.files.insert(name.to_owned(), bytes);
         Ok(())
     }
 
@@ -110,6 +116,16 @@ impl Bundle {
         }
         Ok((home, folder))
     }
+}
+
+/// Returns the name that a file has in a bundle: that below [`ABSOLUTE`] if its path is absolute.
+fn relative(name: &str) -> String {
+    let path = Path::new(name);
+    if path.is_relative() {
+        return name.to_owned();
+    }
+    let below: PathBuf = path.components().skip(1).collect();
+    Path::new(ABSOLUTE).join(below).display().to_string()
 }
 
 /// Returns all keys that may name a file, with their values.
@@ -138,7 +154,10 @@ pub fn names(scenario: &Scenario) -> impl Iterator<Item = (&'static str, &str)> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::Time;
     use crate::scenario::load;
+
+    const CYCLE: Time = Time::from_ns(8);
 
     #[test]
     fn a_scenario_reads_its_files_where_they_were_unpacked() {
@@ -175,5 +194,23 @@ mod tests {
         assert_eq!(bundle.set, [format!("tdc.profile=\"{name}\"")]);
         let taps = Path::new(&name).with_file_name("taps.csv").display().to_string();
         assert_eq!(bundle.files.keys().collect::<Vec<_>>(), [&name, &taps]);
+    }
+    #[test]
+    fn a_file_that_a_chain_names_by_an_absolute_path_comes_with_it() {
+        let here = tempfile::tempdir().unwrap();
+        let taps = here.path().join("taps.csv");
+        let rows: String = (0..800).map(|tap| format!("{tap},11.5\n")).collect();
+        std::fs::write(&taps, format!("tap,delay_ps\n{rows}")).unwrap();
+        let chain = format!("# own\ndelays_file = {:?}\n", taps.display().to_string());
+        std::fs::write(here.path().join("own.toml"), chain).unwrap();
+        std::fs::write(here.path().join("s.toml"), "tdc.profile = \"own.toml\"\n").unwrap();
+        let scenario = here.path().join("s.toml").display().to_string();
+        let loaded = load(&scenario, &[]).unwrap();
+        let (_home, unpacked) =
+            Bundle::of(&loaded.files, &loaded.scenario).unwrap().unpack().unwrap();
+        let own = super::super::chain::load("own.toml", &loaded.files, CYCLE).unwrap();
+        drop(here);
+        let there = super::super::chain::load("own.toml", &Source::Folder(unpacked), CYCLE);
+        assert_eq!(there.unwrap(), own);
     }
 }

@@ -128,7 +128,8 @@ fn parse(source: &str, text: &str, files: &Source, cycle: Time) -> Result<Delays
         return Err(checked.fault("offset_ps", expected).into());
     };
     if let Some(expected) = too_long(&delays, cycle) {
-        return Err(checked.fault("offset_ps", expected).into());
+        let is_late = delays.tap_0() > delays.span();
+        return Err(checked.fault(if is_late { "offset_ps" } else { key }, expected).into());
     }
     if let Some(expected) = too_short(&delays, cycle) {
         return Err(checked.fault(key, expected).into());

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::kernel::Time;
 
-/// A part of a run: `shot:0..8`, `10us..12us` or `estimation`.
+/// A part of a run: `shot:0..8`, `shot:100` (one shot), `10us..12us` or `estimation`.
 ///
 /// All windows begin and end with an edge of `clk_sys`. A shot lasts from three cycles before its laser edge (one
 /// before `pre_start`) to the same point of the next shot; shots are numbered over the whole run. A time window is
@@ -89,20 +89,22 @@ impl FromStr for Window {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let expected = "expected `shot:0..8`, `10us..12us` or `estimation`";
+        let expected = "expected `shot:0..8`, `shot:100`, `10us..12us` or `estimation`";
         let reversed = |from: &dyn fmt::Display, to: &dyn fmt::Display| {
             Err(format!("reversed or empty: {from} is not before {to}"))
         };
         if text == "estimation" {
             return Ok(Window::Estimation);
         }
-        let shots = text.strip_prefix("shot:");
-        let (from, to) = shots.unwrap_or(text).split_once("..").ok_or(expected)?;
-        if shots.is_some() {
+        if let Some(shots) = text.strip_prefix("shot:") {
             let number = |text: &str| text.trim().parse::<u64>().map_err(|_| expected.to_owned());
-            let (from, to) = (number(from)?, number(to)?);
+            let (from, to) = match shots.split_once("..") {
+                Some((from, to)) => (number(from)?, number(to)?),
+                None => (number(shots)?, number(shots)?.saturating_add(1)),
+            };
             return if from < to { Ok(Window::Shots { from, to }) } else { reversed(&from, &to) };
         }
+        let (from, to) = text.split_once("..").ok_or(expected)?;
         let (from, to) = (time(from).ok_or(expected)?, time(to).ok_or(expected)?);
         if from < to { Ok(Window::Span { from, to }) } else { reversed(&from, &to) }
     }
@@ -156,6 +158,7 @@ mod tests {
         }
         let span = Window::Span { from: Time::from_ns(10), to: Time::from_ns(2_000_000) };
         assert_eq!("10ns..2ms".parse(), Ok(span));
+        assert_eq!("shot:100".parse(), Ok(Window::Shots { from: 100, to: 101 }));
     }
 
     #[test]
@@ -163,7 +166,9 @@ mod tests {
         let error = |text: &str| text.parse::<Window>().unwrap_err();
         assert_eq!(error("shot:8..3"), "reversed or empty: 8 is not before 3");
         assert!(error("12us..10us").contains("reversed"));
-        for text in ["", "shot", "shot:a..b", "10..12", "-1us..3us", "nanus..3us", "1us"] {
+        for text in
+            ["", "shot", "shot:", "shot:x", "shot:a..b", "10..12", "-1us..3us", "nanus..3us", "1us"]
+        {
             assert!(error(text).contains("expected"), "{text}");
         }
     }

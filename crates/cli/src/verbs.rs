@@ -103,9 +103,14 @@ enum Verb {
 }
 
 impl Cli {
+    /// The command with all verbs, whose options take a negative number for one, so that its range is in the message.
+    fn whole() -> Command {
+        usage::with_negative_numbers(Cli::command())
+    }
+
     /// A command line; a fault in it ends the process.
     pub fn read(words: impl IntoIterator<Item = OsString>) -> Cli {
-        let mut command = Cli::command();
+        let mut command = Cli::whole();
         let given = command.try_get_matches_from_mut(words).and_then(|matches| {
             let mut cli = Cli::from_arg_matches(&matches)?;
             cli.console.command = command_line(&command, &matches);
@@ -116,12 +121,12 @@ impl Cli {
 
     /// The command without `help`, which has a page for each command that there is anyway.
     fn without_help() -> Command {
-        Cli::command().disable_help_subcommand(true)
+        Cli::whole().disable_help_subcommand(true)
     }
 
     /// Does what a command of another one's asks for, as [`Cli::run`].
     fn run_within(words: &[&str], console: &Console) -> Result<ExitCode> {
-        let mut command = Cli::command().no_binary_name(true);
+        let mut command = Cli::whole().no_binary_name(true);
         let fault = |error| Input::new("command", error);
         let matches = command.try_get_matches_from_mut(words).map_err(fault)?;
         let mut cli = Cli::from_arg_matches(&matches).map_err(fault)?;
@@ -134,7 +139,7 @@ impl Cli {
     /// # Errors
     /// When the command line is wrong, the verb fails, or is stopped.
     pub fn answer(words: &[String], host: Host) -> Result<Answer> {
-        let mut command = Cli::command().no_binary_name(true);
+        let mut command = Cli::whole().no_binary_name(true);
         let matches = command.try_get_matches_from_mut(words);
         let fault = |fault| {
             let fault = usage::readable(fault, &command);

@@ -63,6 +63,7 @@ fn what_tells_nothing_of_a_pulse_is_refused() {
     let here = folder.path();
     drawn(here, &[]);
     let few = refused(here, &with(&["-s", "firmware.shots_per_frame=100"]));
+    assert!(few.starts_with("tofsim: histograms.npy: histogram 0 = "), "{few}");
     assert!(few.contains("expected 100 hits or fewer"), "{few}");
     let rows: String = (0..256).map(|bin| format!("{bin},0\n")).collect();
     fs::write(here.join("dark.csv"), format!("bin,count\n{rows}")).unwrap();

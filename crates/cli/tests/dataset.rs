@@ -124,6 +124,50 @@ fn the_description_says_where_the_rows_come_from() {
 }
 
 #[test]
+fn each_label_is_found_by_its_entry_in_the_description() {
+    let folder = empty();
+    let grid = ["--grid", "laser.pulse_sigma_ps=100,200", "--grid", "target.distance_m=0.2,0.3"];
+    let args = ["dataset", "--format", "npy,parquet", "-o", "out"];
+    stdout(folder.path(), &[&args[..], &grid].concat());
+    let out = folder.path().join("out");
+    let text = fs::read_to_string(out.join("dataset.json")).unwrap();
+    let description: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let labels = description["labels"].as_array().unwrap();
+    let found: Vec<_> = labels
+        .iter()
+        .map(|label| ["name", "unit", "file"].map(|key| label[key].as_str().unwrap()))
+        .collect();
+    let expected = |file| {
+        let names = [
+            ("distance_m", "m"),
+            ("reflectance", "1"),
+            ("irradiance_w_m2_nm", "W/m^2/nm"),
+            ("laser.pulse_sigma_ps", "ps"),
+        ];
+        names.map(|(name, unit)| [name, unit, file])
+    };
+    assert_eq!(found, [expected("truth.npy"), expected("dataset.parquet")].concat());
+
+    let bytes = fs::read(out.join("truth.npy")).unwrap();
+    let array = NpyFile::new(&bytes[..]).unwrap();
+    let shape = array.shape().to_vec();
+    let truth: Vec<f64> = array.into_vec().unwrap();
+    let table = SerializedFileReader::new(fs::File::open(out.join("dataset.parquet")).unwrap());
+    let rows: Vec<_> = table.unwrap().into_iter().map(Result::unwrap).collect();
+    let [in_array, in_table] = [&labels[..4], &labels[4..]];
+    let whole = |value: &serde_json::Value| value.as_u64().unwrap() as usize;
+    for (a, b) in in_array.iter().zip(in_table) {
+        assert_eq!(a["shape"], serde_json::json!(shape));
+        assert_eq!(b["shape"], serde_json::json!([rows.len(), rows[0].len()]));
+        for (row, values) in rows.iter().zip(truth.chunks(shape[1] as usize)) {
+            let (name, field) = row.get_column_iter().nth(whole(&b["column"])).unwrap();
+            assert_eq!(b["name"], **name);
+            assert_eq!(*field, Field::Double(values[whole(&a["column"])]), "{name}");
+        }
+    }
+}
+
+#[test]
 fn a_chain_file_is_seen_from_where_the_program_runs() {
     let folder = empty();
     fs::create_dir(folder.path().join("scenes")).unwrap();

@@ -82,16 +82,48 @@ fn messages_that_nobody_reads_change_nothing() {
 fn a_number_that_cannot_be_read_is_refused_in_words() {
     let folder = empty();
     for (args, expected) in [
-        (["run", "--frames", "1e6"], "'1e6' for '--frames <N>': expected a whole number in digits"),
-        (["run", "--frames", "many"], "'many' for '--frames <N>': expected a whole number\n"),
-        (["run", "--seed", "-1"], "'-1' for '--seed <N>': expected a whole number from 0"),
-        (["train", "--seed", "-1"], "'-1' for '--seed <N>': expected a whole number from 0"),
-        (["dataset", "--rows", "0.5"], "'0.5' for '--rows <N>': expected a whole number in digits"),
-        (["run", "--frames", "99999999999999999999"], "expected a smaller number"),
+        (
+            &["run", "--frames", "1e6"][..],
+            "'1e6' for '--frames <N>': expected a whole number in digits",
+        ),
+        (&["run", "--frames", "many"], "'many' for '--frames <N>': expected a whole number\n"),
+        (&["run", "--seed", "-1"], "'-1' for '--seed <N>': expected a whole number from 0"),
+        (&["train", "--seed", "-1"], "'-1' for '--seed <N>': expected a whole number from 0"),
+        (
+            &["dataset", "--rows", "0.5"],
+            "'0.5' for '--rows <N>': expected a whole number in digits",
+        ),
+        (&["run", "--frames", "99999999999999999999"], "expected a smaller number"),
+        (&["run", "--frames", "0"], "'0' for '--frames <N>': expected a whole number from 1\n"),
+        (
+            &["run", "--threads", "0"],
+            "'0' for '--threads <N>': expected a whole number from 1 to 65535",
+        ),
+        (
+            &["tdc", "--hits", "0"],
+            "'0' for '--hits <N>': expected a whole number from 1 to 1000000000",
+        ),
+        (&["estimate", "a.csv", "--bin-ps", "-1"], "'-1' for '--bin-ps <PS>': expected the width"),
+    ] {
+        let error = refused(folder.path(), args);
+        assert!(error.contains(expected), "{args:?}: {error}");
+        assert!(!error.contains("invalid digit"), "{error}");
+    }
+}
+
+#[test]
+fn an_empty_name_is_visible_and_a_missing_file_is_named() {
+    let folder = empty();
+    for (args, expected) in [
+        (["run", "", "--json"], "scenario: \"\": no such file or built-in scenario"),
+        (["sweep", "", "--json"], "plan: \"\": no such file or built-in plan"),
+        (["run", "-s", "=1"], "-s =1: expected key=value"),
+        (["quantize", "--from", "no.mat"], "no.mat: cannot read: No such file"),
+        (["quantize", "--from", "no"], "no: cannot read: No such file"),
+        (["reproduce", "tabl-5", "--json"], "no such item (`table-6.5`?); see `reproduce --list`"),
     ] {
         let error = refused(folder.path(), &args);
         assert!(error.contains(expected), "{args:?}: {error}");
-        assert!(!error.contains("invalid digit"), "{error}");
     }
 }
 
@@ -120,7 +152,10 @@ fn a_seed_is_the_same_number_wherever_it_is_given() {
         &["budget", "--errors"],
     ] {
         let error = refused(path, &[verb, &["--seed", &more]].concat());
-        assert!(error.contains(&format!("{more} is not in 0..={most}")), "{verb:?}: {error}");
+        assert!(
+            error.contains(&format!("expected a whole number from 0 to {most}")),
+            "{verb:?}: {error}"
+        );
     }
 }
 

@@ -174,7 +174,7 @@ fn what_has_no_budget_is_refused() {
     for (more, expected) in [
         (&["--estimator", "guess"][..], "'guess' for '--estimator"),
         (&["--estimator", "subtraction"], "subtraction"),
-        (&["--frames", "0"], "0 is not in 2.."),
+        (&["--frames", "0"], "expected a whole number from 2"),
         (&["--frames", "-3"], "--frames"),
         (&["--threads", "0"], "--threads"),
         (&["-o", "file/folder"], "file/folder"),

@@ -42,6 +42,13 @@ fn serve(folder: &Path, args: &[&str]) {
 }
 
 #[test]
+fn the_row_of_serve_says_how_its_program_is_built() {
+    let readme = fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
+    let row = readme.lines().find(|line| line.starts_with("| `tofsim serve` |")).unwrap();
+    assert!(row.contains("`cargo build --release -p tofsim-serve`"), "{row}");
+}
+
+#[test]
 #[ignore = "long: ./check --full"]
 fn every_command_of_the_readme_runs_as_printed() {
     let rows = rows();

@@ -38,16 +38,8 @@ impl Sightings {
     pub fn new(acquisition: &Acquisition, histograms: Vec<Histogram>) -> Result<Self> {
         let likelihood = Likelihood::new(acquisition)?;
         let all = histograms.len();
-        let hits = |histogram: &Histogram| histogram.iter().map(|&n| u64::from(n)).sum::<u64>();
-        if let Some(full) =
-            histograms.iter().position(|histogram| hits(histogram) > acquisition.shots)
-        {
-            let expected = format!(
-                "expected {} hits or fewer, as many as shots (firmware.shots_per_frame)",
-                acquisition.shots
-            );
-            let fault = Input::new("calibrate", expected).field(format!("histogram {full}"));
-            return Err(fault.value(hits(&histograms[full])).into());
+        for (number, histogram) in histograms.iter().enumerate() {
+            acquisition.check_hits("calibrate", number, histogram)?;
         }
         let fits = histograms.into_par_iter().map(|histogram| {
             let fit = likelihood.fit(&histogram).ok()?;

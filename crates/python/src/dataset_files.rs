@@ -56,7 +56,8 @@ impl DatasetFiles {
         }
         let (source, grid): (_, &Grid) = (&set.scenes.source, set.rows.grid());
         let setup = Setup::of_counts(set.scenes.loaded[0].clone())?;
-        let about = DatasetDescription::new(&setup, &command, source, &set.rows, set.seed);
+        let about =
+            DatasetDescription::new(&setup, (&command, &wanted), source, &set.rows, set.seed);
         let held = FolderLock::take(&folder)?;
         let files = Files::create(&folder, &wanted, &about, grid)?;
         let begun = Mutex::new(Some(Begun { files, rows: 0, _held: held }));

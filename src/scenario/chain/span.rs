@@ -19,7 +19,7 @@ pub fn too_long(delays: &Delays, cycle: Time) -> Option<String> {
     let mhz = (LONGEST as f64 / longest.seconds() * 1e-3).floor() / 1e3;
     Some(format!(
         "the last tap is reached after {longest_ps} ps, expected {most_ns} ns at most, two periods of \
-         clk_sys: one of {mhz} MHz or less would do"
+         clk_sys; use one of {mhz} MHz or less (pll)"
     ))
 }
 
@@ -38,8 +38,8 @@ pub fn too_short(delays: &Delays, cycle: Time) -> Option<String> {
     let mhz = (1.0 / span.seconds() * 1e-3).ceil() / 1e3;
     Some(format!(
         "the {taps} taps take {span_ps} ps, expected {cycle_ns} ns or more, a period of clk_sys: hits of the \
-         other {missing_ps} ps would all have the same time; a delay {factor} times as long would do, or a \
-         clk_sys of {mhz} MHz or more"
+         other {missing_ps} ps would all have the same time; use tap delays {factor} times as long (tdc.profile), or a \
+         clk_sys of {mhz} MHz or more (pll)"
     ))
 }
 

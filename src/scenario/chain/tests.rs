@@ -17,11 +17,12 @@ fn a_chain_is_held_to_the_period_of_its_clock() {
     let error = message(10_000_000).unwrap_err();
     let expected = "9200 ps, expected 10 ns or more, a period of clk_sys: hits of the other 800 ps";
     assert!(error.contains(expected), "{error}");
-    let expected = "a delay 1.087 times as long would do, or a clk_sys of 108.696 MHz or more";
+    let expected = "use tap delays 1.087 times as long (tdc.profile), or a clk_sys of 108.696 MHz or \
+        more (pll)";
     assert!(error.contains(expected), "{error}");
     let error = message(5_700_000).unwrap_err();
-    let expected = "after 11418 ps, expected 11.4 ns at most, two periods of clk_sys: one of 175.154 \
-        MHz or less would do";
+    let expected = "after 11418 ps, expected 11.4 ns at most, two periods of clk_sys; use one of 175.154 \
+        MHz or less";
     assert!(error.contains(expected), "{error}");
 }
 
@@ -43,7 +44,10 @@ fn a_fault_names_key_and_place() {
     );
     assert!(message("offset_ps = -1\ntap_ps = 12").contains("from 0.0 to 100000.0 [ps]"));
     assert!(message("offset_ps = 2000\ntap_delays_ps = [1.0]").contains("16 to 2000"));
-    assert!(message("offset_ps = 2000\ntap_ps = 30").contains("16 ns at most"));
+    assert!(
+        message("offset_ps = 2000\ntap_ps = 30").contains("tap_ps = 30: the last tap is reached")
+    );
+    assert!(message("offset_ps = 9000\ntap_ps = 9.9").contains("offset_ps = 9000: the last tap"));
     assert!(message("offset_ps = 2000\ntap_pz = 1").contains("did you mean `tap_ps`?"));
     assert!(message("offset_ps = 10\ntap_ps = 11\n[[extra]]\ntap=0\nps=-100").contains("before"));
 }
@@ -64,8 +68,8 @@ fn a_chain_shorter_than_a_clock_period_is_refused_by_how_much() {
     assert_eq!(
         message("offset_ps = 2230\ntap_ps = 5").unwrap_err(),
         "c.toml:2:10: tap_ps = 5: the 800 taps take 4000 ps, expected 8 ns or more, a period of \
-         clk_sys: hits of the other 4000 ps would all have the same time; a delay 2 times as \
-         long would do, or a clk_sys of 250 MHz or more"
+         clk_sys: hits of the other 4000 ps would all have the same time; use tap delays 2 times \
+         as long (tdc.profile), or a clk_sys of 250 MHz or more (pll)"
     );
     assert_eq!(message("offset_ps = 2230\ntap_ps = 10"), Ok(()), "800 taps of 10 ps are 8 ns");
     let error = message("offset_ps = 7000\ntap_ps = 9.999").unwrap_err();

@@ -5,7 +5,7 @@ use crate::files::csv::CsvInput;
 use crate::firmware::histogram_builder::{self, Bin};
 use crate::firmware::tof_top::{CodeSource, HistogramSource};
 use crate::kernel::U;
-use crate::network::histogram_file;
+use crate::network::histogram_csv;
 use crate::scenario::Scenario;
 use crate::scenario::builtin::Source;
 use crate::sensor::light::Light;
@@ -30,7 +30,7 @@ pub(super) fn stimulus(
     }
     if let Some(name) = &stimulus.histogram {
         let (source, text) = files.read(name)?;
-        let counts = histogram_file::parse_csv(&source, &text, size)?;
+        let counts = histogram_csv::parse(&source, &text, size)?;
         let rom = counts.into_iter().map(|count| U::new(count.into())).collect();
         let rom = HistogramSource::Preload(rom);
         return Ok((CodeSource::Tdc, rom, Some(Light::None)));

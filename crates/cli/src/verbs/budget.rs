@@ -62,13 +62,7 @@ pub struct ErrorArgs {
     #[arg(long, requires = "errors", value_parser = words(EstimatorKind::ALL))]
     estimator: Option<EstimatorKind>,
     /// With --errors: number of frames for each variant
-    #[arg(
-        long,
-        requires = "errors",
-        value_name = "N",
-        default_value_t = 1000,
-        allow_hyphen_values = true
-    )]
+    #[arg(long, requires = "errors", value_name = "N", default_value_t = 1000)]
     #[arg(value_parser = clap::value_parser!(u64).range(2..=10_000_000))]
     frames: u64,
     /// With --errors: a budget at each value of a key, such as target.distance_m=0.1..0.6:0.1 or
@@ -76,10 +70,10 @@ pub struct ErrorArgs {
     #[arg(long, requires = "errors", value_name = "KEY=VALUES")]
     grid: Option<String>,
     /// With --errors: seed of every random stream, instead of the scenario's
-    #[arg(long, requires = "errors", value_name = "N", allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, requires = "errors", value_name = "N", value_parser = seed())]
     seed: Option<u64>,
     /// With --errors: threads; the results are the same for any number [default: one a core]
-    #[arg(long, requires = "errors", value_name = "N", allow_hyphen_values = true)]
+    #[arg(long, requires = "errors", value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// With --errors: write errors.json, errors.csv and errors.svg into this folder

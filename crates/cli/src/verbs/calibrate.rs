@@ -11,12 +11,14 @@ use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
 use tofsim_learn::calibration::candidates::{Calibration, Kind};
 use tofsim_learn::dataset::labelled::histograms;
+use tofsim_learn::dataset::sensor::Layout;
 use tofsim_learn::estimation::Acquisition;
 
 use crate::choice::{CALIBRATED, words};
 use crate::report::calibration::PulseFindings;
 use crate::report::writer::Report;
 
+use super::estimate::{check_bins, load_for, width};
 use super::options::ResultArgs;
 use super::terminal::Console;
 
@@ -43,8 +45,8 @@ enum Verb {
     tofsim calibrate pulse mine.npy --scenario mine.toml -o pulse\n  \
     tofsim run mine.toml -s laser.pulse_file=pulse/pulse.csv")]
 struct PulseArgs {
-    /// Histograms: CSV with header bin,count and a row for each bin, .npy of 256 or n x 256 whole numbers, or
-    /// Parquet with columns b0 to b255
+    /// Histograms: CSV with a row for each bin (bin,count, time_ns,count, time_ps,count or count), .npy of 256 or
+    /// n x 256 whole numbers, or Parquet with columns b0 to b255
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Built-in scenario, or the path of a scenario file: shots and chain of the histograms, and the pulse to
@@ -54,6 +56,9 @@ struct PulseArgs {
     /// Set a scenario key, e.g. `firmware.shots_per_frame=10000`; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
+    /// Bin width of histograms from another sensor, with any number of bins [ps]
+    #[arg(long, value_name = "PS", value_parser = width)]
+    bin_ps: Option<f64>,
     /// Shape to fit [default: the first that describes the histograms]
     #[arg(long, value_parser = words(CALIBRATED))]
     shape: Option<Kind>,
@@ -73,24 +78,42 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
 
 impl PulseArgs {
     fn run(&self, console: &Console) -> Result<()> {
-        let setup = Setup::of_counts(scenario::load(&self.scenario, &self.set)?)?;
-        let bins = setup.known_bins();
+        let layout = Layout::of(&self.files[0], self.bin_ps)?;
+        let setup = Setup::of_counts(load_for(layout, &self.scenario, &self.set)?)?;
+        let sensor = layout.filter(|layout| layout.has_times());
+        if let (Some(layout), None) = (layout, sensor) {
+            check_bins(&self.files[0], layout, &setup)?;
+        }
+        let bins = sensor.and_then(|layout| layout.even_bins());
+        let bins = bins.unwrap_or_else(|| setup.known_bins());
         let shots = setup.params.frame_ctrl.shots_per_frame.into();
         let acquisition = Acquisition::of(&setup, &bins, shots);
+        let histograms = self.all(sensor, &setup, &acquisition)?;
         let step_ps = self.step_ps.unwrap_or(bins.bin_ps());
-        let calibration = Calibration::new(&acquisition, self.all(&setup)?, self.shape, step_ps)?;
+        let calibration = Calibration::new(&acquisition, histograms, self.shape, step_ps)?;
         let notes = notes(&setup, &calibration);
         console.print_notes(&notes)?;
         let report = Report::new(PulseFindings { calibration, shots }, &setup, &notes, console);
         self.result.deliver(&report, console)
     }
 
-    /// The histograms of all files.
-    fn all(&self, setup: &Setup) -> Result<Vec<Histogram>> {
+    /// The histograms of all files, of the scenario's firmware or of another sensor.
+    fn all(
+        &self,
+        sensor: Option<Layout>,
+        setup: &Setup,
+        acquisition: &Acquisition,
+    ) -> Result<Vec<Histogram>> {
         let mut all = Vec::new();
         for path in &self.files {
-            for histogram in histograms(path, setup.params.histogram)? {
-                all.push(histogram?);
+            let found = match sensor {
+                Some(layout) => layout.histograms(path, &self.files[0])?,
+                None => histograms(path, setup.params.histogram)?,
+            };
+            for (number, histogram) in found.enumerate() {
+                let histogram = histogram?;
+                acquisition.check_hits(&path.display().to_string(), number, &histogram)?;
+                all.push(histogram);
             }
         }
         Ok(all)

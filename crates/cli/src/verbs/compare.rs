@@ -85,7 +85,7 @@ struct Simulated {
     #[arg(short, long = "set", value_name = "KEY=VALUE", requires = "scenario")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", requires = "scenario", allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", requires = "scenario", value_parser = seed())]
     seed: Option<u64>,
     /// How many frames to simulate at most [default: as far as a capture goes, to 100 ms, of
     /// which a search for the best fit takes the first frame; one frame for a waveform]

@@ -70,7 +70,8 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let setup = Setup::of_counts(loaded.clone())?;
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
     let rows = args.draws.rows(None, &grid, seed)?;
-    let description = DatasetDescription::new(&setup, &console.command, source, &rows, seed);
+    let description =
+        DatasetDescription::new(&setup, (&console.command, &args.format), source, &rows, seed);
     let _held = FolderLock::take(&args.output)?;
     let files = DatasetFiles::create(&args.output, &args.format, &description, &grid)?;
     let stop = stop_signal();

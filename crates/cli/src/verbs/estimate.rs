@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::FirmwareEstimator;
-use tofsim::scenario;
+use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
 use tofsim_learn::dataset::labelled::histograms;
@@ -23,14 +23,16 @@ use super::terminal::Console;
 mod reading;
 mod sensor;
 
+pub(super) use sensor::check_bins;
+
 use reading::Reading;
 use sensor::{Request, Sensor};
 
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// CSV with header bin,count (or time_ns,count) and a row for each bin, .npy of 256 or n x 256 whole numbers, or
-    /// Parquet with columns b0 to b255
+    /// CSV with a row for each bin (bin,count, time_ns,count, time_ps,count or count), .npy of 256 or n x 256 whole
+    /// numbers, or Parquet with columns b0 to b255
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Bin width of histograms from another sensor, with any number of bins [ps]
@@ -58,14 +60,22 @@ pub struct Args {
     json: bool,
 }
 
-fn width(text: &str) -> std::result::Result<f64, String> {
+pub(super) fn width(text: &str) -> std::result::Result<f64, String> {
     let width = text.parse().ok().filter(|ps| (1.0..=1e6).contains(ps));
     width.ok_or_else(|| "expected the width of a bin, 1 to 1e6 ps".to_owned())
 }
 
+/// Loads the scenario of histograms. A count of another sensor may be as wide as a count can be.
+pub(super) fn load_for(layout: Option<Layout>, scenario: &str, set: &[String]) -> Result<Loaded> {
+    let is_own = layout.is_some_and(Layout::has_times);
+    let widest = is_own.then(|| "firmware.count_bits=24".to_owned());
+    let set: Vec<_> = widest.into_iter().chain(set.iter().cloned()).collect();
+    scenario::load(scenario, &set)
+}
+
 /// Runs the verb.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
-    let layout = Layout::of(&args.files[0])?;
+    let layout = Layout::of(&args.files[0], args.bin_ps)?;
     let setup = args.setup(layout)?;
     let request = args.request();
     if let Some(sensor) = Sensor::of(&request, layout, &setup)? {
@@ -95,11 +105,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
 impl Args {
     /// Returns the setup of the histograms, as far as it is known.
     fn setup(&self, layout: Option<Layout>) -> Result<Setup> {
-        // A count of another sensor may be as wide as a count can be.
-        let is_own = self.bin_ps.is_some() || layout.is_some_and(Layout::has_times);
-        let widest = is_own.then(|| "firmware.count_bits=24".to_owned());
-        let set: Vec<_> = widest.into_iter().chain(self.set.iter().cloned()).collect();
-        let mut loaded = scenario::load(&self.scenario, &set)?;
+        let mut loaded = load_for(layout, &self.scenario, &self.set)?;
         if let Some(network) = &self.network {
             loaded.scenario.estimator.network = from_here(network, &loaded)?;
             loaded.scenario.estimator.kind = FirmwareEstimator::Network;
@@ -111,7 +117,6 @@ impl Args {
         let is_default = self.scenario == scenario::DEFAULT;
         Request {
             files: &self.files,
-            bin_ps: self.bin_ps,
             estimators: &self.estimator,
             wants_firmware: self.network.is_some() || self.explain,
             set: is_default.then_some(&self.set),

@@ -63,7 +63,7 @@ pub struct Args {
     #[arg(long)]
     verify: bool,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", value_parser = seed())]
     seed: Option<u64>,
     /// Threads; the results are the same for any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads())]

@@ -47,7 +47,7 @@ pub struct Args {
     #[arg(long)]
     list: bool,
     /// Seed of every random stream
-    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed())]
     seed: u64,
     /// Threads; the results are the same for any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads())]
@@ -112,8 +112,8 @@ fn chosen(names: &[String]) -> Result<Vec<Item>> {
     for name in names {
         if !all.iter().any(|item| is_name(name, &item.id)) {
             let near = nearest(name, all.iter().map(|item| item.id.as_str()));
-            let hint = near.map_or(String::new(), |near| format!(" ({near}?)"));
-            let expected = format!("there is no item of that name{hint}; --list has all");
+            let hint = near.map_or(String::new(), |near| format!(" (`{near}`?)"));
+            let expected = format!("no such item{hint}; see `reproduce --list`");
             return Err(Input::new("ITEM", expected).value(name).into());
         }
     }

@@ -48,22 +48,22 @@ pub struct Args {
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", value_parser = seed())]
     seed: Option<u64>,
     /// Number of frames; with dark frames, number of pairs
-    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
     /// Simulation fidelity: cycle and shot give identical frames, histogram frames of the same distribution
     #[arg(long, value_parser = words(&Fidelity::ALL), default_value = "cycle")]
     fidelity: Fidelity,
     /// Threads for the frames of a run without waveform and events; the results are the same for
     /// any number [default: one a core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Format of the waveform [default: vcd; none for fidelities without signals]
     #[arg(long, value_parser = words(choice::WAVEFORM))]
     waves: Option<WaveformChoice>,
-    /// Part of the run to record in the waveform: shot:0..8, 10us..12us or estimation; may be repeated [default: the
+    /// Part of the run to record in the waveform: shot:0..8, shot:100, 10us..12us or estimation; may be repeated [default: the
     /// scenario's, or shot:0..16 and estimation]
     #[arg(long, value_name = "W", value_parser = str::parse::<Window>)]
     window: Vec<Window>,

@@ -31,7 +31,7 @@ pub struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", value_parser = seed())]
     seed: Option<u64>,
     /// Simulation fidelity; the frames are the same
     #[arg(long, value_enum, default_value_t = Way::Cycle)]

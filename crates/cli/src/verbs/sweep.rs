@@ -62,7 +62,7 @@ struct SweepArgs {
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random number, instead of the plan's
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", value_parser = seed())]
     seed: Option<u64>,
     /// Evaluate one of N parts, every Nth point from the Ith on
     #[arg(long, value_name = "I/N", requires = "output")]
@@ -71,7 +71,7 @@ struct SweepArgs {
     #[arg(long, requires = "output")]
     restart: bool,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = threads())]
+    #[arg(long, value_name = "N", value_parser = threads())]
     threads: Option<u16>,
     /// Write the table into this folder, as Parquet and CSV, and the plot of the plan
     #[arg(short, long, value_name = "DIR")]

@@ -19,6 +19,15 @@ const TOLD: [ContextKind; 5] = [
     ContextKind::TrailingArg,
 ];
 
+/// Makes the options of a command and of its subcommands take a negative number as their value, and not as an option.
+pub fn with_negative_numbers(command: Command) -> Command {
+    let command = command.mut_args(|arg| {
+        let takes = !arg.is_positional() && arg.get_action().takes_values();
+        arg.allow_negative_numbers(takes)
+    });
+    command.mut_subcommands(with_negative_numbers)
+}
+
 /// Shortens what the command line has in a fault to a line, and says in words what was expected of a number.
 pub fn readable(fault: Error, command: &Command) -> Error {
     let fault = shortened(fault);
@@ -27,7 +36,8 @@ pub fn readable(fault: Error, command: &Command) -> Error {
         _ => "",
     };
     let (value, argument) = (text(ContextKind::InvalidValue), text(ContextKind::InvalidArg));
-    let Some(expected) = expected_number(&fault, value) else { return fault };
+    let expected = expected_number(&fault, value).map(str::to_owned);
+    let Some(expected) = expected.or_else(|| expected_range(&fault, value)) else { return fault };
     let message = format!("invalid value '{value}' for '{argument}': {expected}");
     Error::raw(ErrorKind::ValueValidation, message + "\n").with_cmd(command)
 }
@@ -46,6 +56,15 @@ fn expected_number(fault: &Error, value: &str) -> Option<&'static str> {
         _ if number.is_some() => "expected a whole number in digits alone, such as 1000000",
         _ => "expected a whole number",
     })
+}
+
+/// Returns what was expected in the place of a number outside its range, which clap prints as in `0 is not in 1..=8`.
+fn expected_range(fault: &Error, value: &str) -> Option<String> {
+    let range = fault.source()?.to_string();
+    let (from, to) = range.strip_prefix(value)?.strip_prefix(" is not in ")?.split_once("..")?;
+    // A range without an end of its own ends at the largest number of its type.
+    let end = to.strip_prefix('=').map_or(String::new(), |to| format!(" to {to}"));
+    Some(format!("expected a whole number from {from}{end}"))
 }
 
 /// Shortens the command line in a fault to a line.

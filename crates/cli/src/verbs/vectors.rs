@@ -66,7 +66,7 @@ pub struct From {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     cycles: Option<u64>,
     /// Seed of the stimulus [default: the scenario's]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", value_parser = seed())]
     seed: Option<u64>,
     /// Built-in scenario or file: network, chain and, for tof_top, what it runs
     #[arg(long, value_name = "NAME|FILE")]

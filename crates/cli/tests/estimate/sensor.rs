@@ -134,3 +134,87 @@ fn bins_of_any_number_width_and_begin_give_the_depth_of_their_echo() {
     assert!(refused(folder, &["estimate", "one.csv"]).contains("two bins"));
     assert!(Path::new(&case("c05_64_bins.csv")).exists());
 }
+
+#[test]
+fn the_pulse_of_a_sensor_is_calibrated_from_its_histograms() {
+    let folder = empty();
+    let folder = folder.path();
+    let files = ["a.csv", "b.csv"];
+    for (file, arrival_ps) in files.iter().zip([2668.5, 3300.0]) {
+        let rows: String = echo(100, 55.0, arrival_ps).iter().map(|n| format!("{n}\n")).collect();
+        std::fs::write(folder.join(file), rows).unwrap();
+    }
+    let calibrate = [&["calibrate", "pulse", "--json"], &files[..]].concat();
+    let told = ["--bin-ps", "55", "-s", "firmware.shots_per_frame=16000000"];
+    let found = json(folder, &[&calibrate[..], &told].concat());
+    let pulses = found["pulses"].as_array().unwrap();
+    let gaussian = pulses.iter().find(|pulse| pulse["shape"] == "gaussian").unwrap();
+    let sigma_ps = gaussian["sigma_ps"].as_f64().unwrap();
+    assert!((sigma_ps - 137.0).abs() < 2.0, "{found}");
+    let error = refused(folder, &calibrate);
+    assert!(error.contains("a.csv: bins = 100: expected 256 as tdc.bins of scenario"), "{error}");
+}
+
+#[test]
+fn a_csv_file_is_read_as_spreadsheets_and_scripts_write_it() {
+    let folder = empty();
+    let folder = folder.path();
+    let counts = echo(64, 100.0, 2668.5);
+    let table = |row: &dyn Fn(usize, u32) -> String| {
+        counts.iter().enumerate().map(|(k, count)| row(k, *count)).collect::<String>()
+    };
+    let bins = table(&|k, count| format!("{k},{count}\n"));
+    let width = ["--bin-ps", "100"];
+    for (name, text, width) in [
+        ("header", format!("bin,count\n{bins}"), &width[..]),
+        ("none", bins.clone(), &width),
+        ("quotes", format!("\"bin\",\"count\"\n{bins}"), &width),
+        ("counts", table(&|_, count| format!("{count}\n")), &width),
+        ("spaces", table(&|k, count| format!(" {k:3}  {count}\n")), &width),
+        ("numpy", table(&|k, count| format!("{k:.3e}\t{count:.8e}\n", k = k as f64)), &width),
+        ("mac", format!("bin,count\r{}", bins.replace('\n', "\r")), &width),
+        ("ps", format!("time_ps;count\n{}", table(&|k, n| format!("{}00;{n}\n", k))), &[]),
+        (
+            "ns",
+            format!("time_ns;count\n{}", table(&|k, n| format!("{},{};{n}\n", k / 10, k % 10))),
+            &[],
+        ),
+        (
+            "windows",
+            format!(
+                "\u{feff}time_ns, count\r\n{}",
+                table(&|k, n| format!("{},{n}\r\n", k as f64 / 10.0))
+            ),
+            &[],
+        ),
+    ] {
+        let file = format!("{name}.csv");
+        std::fs::write(folder.join(&file), text).unwrap();
+        let found = json(folder, &[&["estimate", "--json", &file][..], width].concat());
+        assert_eq!(found["sensor"]["bins"], 64, "{name}");
+        assert_eq!(found["sensor"]["bin_ps"], 100.0, "{name}");
+        let depth_m = found["histograms"][0]["depth_m"].as_f64().unwrap();
+        assert!((depth_m - 0.4).abs() < 1e-3, "{name}: {depth_m}");
+    }
+    std::fs::write(folder.join("wide.csv"), "time_ns,count\n0,1\n1,2\n").unwrap();
+    std::fs::write(folder.join("narrow.csv"), "time_ns,count\n0,1\n0.5,2\n").unwrap();
+    let error = refused(folder, &["estimate", "wide.csv", "narrow.csv"]);
+    let expected =
+        "narrow.csv: bins = 2 of 500 ps from 0 ps on: expected 2 of 1000 ps from 0 ps on";
+    assert!(error.contains(expected), "{error}");
+    for (text, expected) in [
+        ("1,5\n2,6\n", "own.csv:1:1: bin = 1: expected 0: the numbers of all bins"),
+        ("0,5\n0.1,6\n", "own.csv:2:1: bin = 0.1: expected 1"),
+        ("0,5\n0.1,6\n", "times need the header `time_ns,count` or `time_ps,count`"),
+        ("bin,count\n0,5\n1,2.5\n", "own.csv:3:3: count = 2.5: expected a whole number"),
+        ("time_ps,count\n0,5\n1,-1\n", "own.csv:3:3: count = -1: expected a whole number"),
+        (
+            "time_us,count\n0,5\n",
+            "own.csv:1:1: time_us,count: expected one of the headers `bin,count`,",
+        ),
+    ] {
+        std::fs::write(folder.join("own.csv"), text).unwrap();
+        let error = refused(folder, &["estimate", "own.csv", "--bin-ps", "100"]);
+        assert!(error.contains(expected), "{error}");
+    }
+}

@@ -6,6 +6,8 @@ use tofsim::scenario::Scenario;
 use tofsim::sim::setup::Setup;
 
 use super::axis::Axis;
+use super::format::DatasetFormat;
+use super::label::Label;
 use super::rows::Rows;
 use super::source::HistogramSource;
 
@@ -43,6 +45,8 @@ pub struct DatasetDescription {
     pub seed: u64,
     /// Shots of a histogram; none where the grid has several numbers of them.
     pub shots_per_frame: Option<u32>,
+    /// Columns with the scene of each histogram, of every file that has them.
+    pub labels: Vec<Label>,
     /// All keys of the scenario; those of the grid are not used.
     pub settings: Scenario,
 }
@@ -53,10 +57,10 @@ impl DatasetDescription {
         if self.settings.firmware.count_bits > 16 { 4 } else { 2 }
     }
 
-    /// Of the rows that a source, made of `setup`, draws with a seed for a command.
+    /// Of the rows that a source, made of `setup`, draws with a seed for a command, to be written in some formats.
     pub fn new(
         setup: &Setup,
-        command: &[String],
+        (command, formats): (&[String], &[DatasetFormat]),
         source: &HistogramSource,
         rows: &Rows,
         seed: u64,
@@ -77,6 +81,7 @@ impl DatasetDescription {
             rows: rows.count(),
             seed,
             shots_per_frame: source.shots_of_all(),
+            labels: Label::list(formats, grid, rows.count(), settings.tdc.bins),
             settings: Scenario { seed, ..settings },
         }
     }

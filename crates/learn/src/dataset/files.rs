@@ -8,22 +8,16 @@ use tofsim::files::output::{OutputFile, create_directory};
 
 use super::blocks::Sample;
 use super::description::DatasetDescription;
+use super::format::TABLE;
 use super::grid::Grid;
 use super::npy::{self, NpyFiles};
 use super::parquet_file;
 use super::parquet_table::ParquetTable;
 
+pub use super::format::DatasetFormat;
+
 /// The file with the description alone.
 pub const DESCRIPTION: &str = "dataset.json";
-
-/// File format of a dataset.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DatasetFormat {
-    /// One table, dataset.parquet
-    Parquet,
-    /// Arrays: histograms.npy, truth.npy and rows.npy
-    Npy,
-}
 
 /// The files under construction.
 pub struct DatasetFiles {
@@ -47,8 +41,7 @@ impl DatasetFiles {
         let text = text.map_err(|error| json.fault(error))?;
         writeln!(json, "{text}").map_err(|error| json.fault(error))?;
         let wants = |format| formats.contains(&format);
-        let parquet =
-            || parquet_file::create(&folder.join(parquet_file::NAME), (description, &text), grid);
+        let parquet = || parquet_file::create(&folder.join(TABLE), (description, &text), grid);
         let npy = || npy::create(folder, description, grid);
         Ok(DatasetFiles {
             json,

@@ -13,6 +13,9 @@ pub const REFLECTANCE: &str = "target.reflectance";
 /// Key of the ambient light [W/m^2/nm].
 pub const IRRADIANCE: &str = "ambient.irradiance_w_m2_nm";
 
+/// Columns of the scenes, the first one necessary.
+pub(super) const TRUTH: [&str; 3] = ["distance_m", "reflectance", "irradiance_w_m2_nm"];
+
 /// Variable part of the scene; everything else is the scenario's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scene {
@@ -155,6 +158,16 @@ impl Grid {
     pub fn axes(&self) -> impl Iterator<Item = &Axis> {
         let scene = [&self.distances_m, &self.irradiances_w_m2_nm, &self.reflectances];
         scene.into_iter().chain(&self.others)
+    }
+
+    /// Name and axis of each column that a dataset's files have of the scenes, in their order.
+    pub fn labels(&self) -> Vec<(&str, &Axis)> {
+        let scene = TRUTH.into_iter().zip([
+            &self.distances_m,
+            &self.reflectances,
+            &self.irradiances_w_m2_nm,
+        ]);
+        scene.chain(self.others.iter().map(|axis| (&*axis.key, axis))).collect()
     }
 
     /// The least and the largest value of each key of the scenario.

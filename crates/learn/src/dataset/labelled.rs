@@ -6,19 +6,18 @@ use std::path::Path;
 
 use tofsim::error::{Input, Result, read_text};
 use tofsim::firmware::histogram_builder::Params;
+use tofsim::network::histogram::count_range;
 use tofsim::network::{Histogram, histogram_file};
 use tofsim::scenario::Scenario;
 
 use super::files::DESCRIPTION;
-use super::grid::Scene;
+use super::grid::{Scene, TRUTH};
 use super::npy::numbers;
 use super::parquet_columns::ParquetColumns;
 use super::parquet_input::is_parquet;
 
 /// Table, histograms and truth in the folder of a dataset.
 const FILES: [&str; 3] = ["dataset.parquet", "histograms.npy", "truth.npy"];
-/// Columns of the truth, the first one necessary.
-const TRUTH: [&str; 3] = ["distance_m", "reflectance", "irradiance_w_m2_nm"];
 /// Key of the description in the metadata of a Parquet file.
 const KEY: &str = "tofsim.dataset";
 
@@ -159,7 +158,7 @@ fn counts(path: &Path, columns: &ParquetColumns, size: &Params) -> Result<Vec<Hi
             let count = value as u32;
             if f64::from(count) != value || u64::from(count) > size.most_hits() {
                 let field = format!("row {row}, column {name}");
-                let expected = histogram_file::count_range(size);
+                let expected = count_range(size);
                 return Err(Input::new(path.display(), expected).field(field).value(value).into());
             }
             histogram[bin] = count;

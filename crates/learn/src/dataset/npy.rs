@@ -15,6 +15,7 @@ use tofsim::files::output::OutputFile;
 
 use super::blocks::Sample;
 use super::description::DatasetDescription;
+use super::format::TRUTH_ARRAY;
 use super::grid::Grid;
 
 /// The files under construction; nothing is left of them unless they are put in place.
@@ -42,7 +43,7 @@ pub(super) fn create(
     // Name, type in NumPy's words and elements of a row of each file.
     let files = [
         ("histograms.npy", count.as_str(), description.settings.tdc.bins as usize),
-        ("truth.npy", "<f8", 3 + grid.others.len()),
+        (TRUTH_ARRAY, "<f8", grid.labels().len()),
         ("rows.npy", "<u8", 2),
     ];
     let files = files.into_iter().map(create).collect::<Result<_>>()?;

@@ -18,8 +18,6 @@ use super::parquet_table::ParquetTable;
 
 /// Key of the description in the file's metadata.
 const KEY: &str = "tofsim.dataset";
-/// Name of the file in a dataset's folder.
-pub(super) const NAME: &str = "dataset.parquet";
 /// Columns before the bins.
 const HEAD: &str =
     "required int64 row (INTEGER(64,false)); required int64 seed (INTEGER(64,false));

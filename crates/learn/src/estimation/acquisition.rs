@@ -95,6 +95,21 @@ impl<'a> Acquisition<'a> {
         }
     }
 
+    /// Checks that a histogram has no more hits than shots. Errors name it as the one of that number in `source`.
+    ///
+    /// # Errors
+    /// When it has more.
+    pub fn check_hits(&self, source: &str, number: usize, histogram: &[u32]) -> Result<(), Input> {
+        let hits: u64 = histogram.iter().map(|&count| u64::from(count)).sum();
+        if hits <= self.shots {
+            return Ok(());
+        }
+        let shots = self.shots;
+        let expected =
+            format!("expected {shots} hits or fewer, as many as shots (firmware.shots_per_frame)");
+        Err(Input::new(source, expected).field(format!("histogram {number}")).value(hits))
+    }
+
     /// Whether there is anything to estimate from.
     ///
     /// # Errors

@@ -18,6 +18,8 @@ pub mod two_echoes;
 
 use std::f64::consts::LN_2;
 
+use rayon::prelude::*;
+
 use tofsim::error::Input;
 
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo};
@@ -107,18 +109,15 @@ impl Likelihood {
     fn free_fit(&self, histogram: &[u32], seen_ps: f64) -> Result<Fit, Failure> {
         let mut starts = self.free_starts(histogram, seen_ps);
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut best = Err(Failure::NoPeak);
-        let mut most = f64::NEG_INFINITY;
-        for (_, start) in starts.into_iter().take(CLIMBS) {
-            let at = self.model.coordinates(&start);
-            let Ok(top) = climb(&self.model, histogram, at) else { continue };
+        starts.truncate(CLIMBS);
+        let fits = starts.into_par_iter().filter_map(|(_, start)| {
+            let top = climb(&self.model, histogram, self.model.coordinates(&start)).ok()?;
             let fit = Fit::of(&self.model, &top, 0);
-            let value = self.model.log_likelihood_of(&fit.echo, histogram);
-            if value > most {
-                (most, best) = (value, Ok(fit));
-            }
-        }
-        best
+            Some((self.model.log_likelihood_of(&fit.echo, histogram), fit))
+        });
+        let fits: Vec<_> = fits.collect();
+        let best = fits.into_iter().reduce(|best, fit| if fit.0 > best.0 { fit } else { best });
+        best.map(|(_, fit)| fit).ok_or(Failure::NoPeak)
     }
 
     /// Returns the starting points of climbs in MODE 1, with their likelihoods: for each signal the best of some
@@ -139,7 +138,7 @@ impl Likelihood {
             let all = places_ps.into_iter().flat_map(|ps| BACKGROUNDS.map(|rate| (ps, rate)));
             all.map(echo).max_by(|a, b| a.0.total_cmp(&b.0))
         };
-        SIGNALS.into_iter().filter_map(best).collect()
+        SIGNALS.into_par_iter().filter_map(best).collect()
     }
 }
 

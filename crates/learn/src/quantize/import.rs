@@ -16,7 +16,7 @@ use std::path::Path;
 
 use arrays::{Array, Arrays};
 
-use tofsim::error::{Input, Result};
+use tofsim::error::{Error, Input, Result};
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::network::float::Float;
 
@@ -27,8 +27,9 @@ use tofsim::network::float::Float;
 /// When an array is missing, unknown, has another shape, or a number that is none.
 pub fn read(path: &Path, bins: usize) -> Result<Float> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    let is_folder = path.metadata().map_err(Error::io(path, "read"))?.is_dir();
     let arrays = match ending.to_ascii_lowercase().as_str() {
-        _ if path.is_dir() => npy::read(path)?,
+        _ if is_folder => npy::read(path)?,
         "mat" => mat::read(path)?,
         "json" => json::read(path)?,
         _ => {

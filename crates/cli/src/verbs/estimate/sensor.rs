@@ -1,12 +1,11 @@
 //! Histograms of somebody's own sensor: bins of any number and width, seen by estimators whose model is of light alone.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::tof_top::FirmwareEstimator;
-use tofsim::kernel::Time;
 use tofsim::optics::Bins;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
@@ -21,8 +20,6 @@ use crate::verbs::terminal::Console;
 /// What is asked for, of a sensor that may be anybody's.
 pub(super) struct Request<'a> {
     pub files: &'a [PathBuf],
-    /// Width of a bin, if it is given [ps].
-    pub bin_ps: Option<f64>,
     pub estimators: &'a [EstimatorKind],
     /// Whether something asks for the estimator of the firmware.
     pub wants_firmware: bool,
@@ -45,26 +42,15 @@ impl Sensor {
     /// When its bins are of no known width.
     pub fn of(asked: &Request, layout: Option<Layout>, setup: &Setup) -> Result<Option<Self>> {
         let Some(layout) = layout else { return Ok(None) };
-        let own = setup.params.histogram.bins;
-        let width_ps = asked.bin_ps.or(layout.times_ps.map(|[_, bin_ps]| bin_ps));
-        let Some(bin_ps) = width_ps else {
-            if layout.bins != own {
-                let expected = format!(
-                    "expected {own} as tdc.bins of scenario {} says, or --bin-ps with the width of these",
-                    setup.name
-                );
-                let fault = Input::new(asked.files[0].display(), expected).field("bins");
-                return Err(fault.value(layout.bins).into());
-            }
+        let Some(bins) = layout.even_bins() else {
+            check_bins(&asked.files[0], layout, setup)?;
             // No network is for so many: what needs none sees them.
             let has_network = setup.params.estimator != FirmwareEstimator::Network
                 || setup.network.fits(&setup.params.histogram);
             let may = !has_network && !asked.wants_firmware;
             return Ok(may.then(|| Sensor { layout, bins: setup.known_bins() }));
         };
-        let first_ps = layout.times_ps.map_or(0.0, |[first_ps, _]| first_ps);
-        let [first, bin] = [first_ps, bin_ps].map(Time::from_ps_f64);
-        Ok(Some(Sensor { layout, bins: Bins::even(first, bin, layout.bins) }))
+        Ok(Some(Sensor { layout, bins }))
     }
 
     /// Estimates the depths of all files.
@@ -78,14 +64,8 @@ impl Sensor {
         let names: Vec<String> =
             asked.files.iter().map(|file| file.display().to_string()).collect();
         let mut rows = Vec::new();
-        for (k, (path, file)) in asked.files.iter().zip(&names).enumerate() {
-            let layout = if k > 0 { Layout::of(path)? } else { None };
-            if let Some(other) = layout.filter(|other| *other != self.layout) {
-                let expected = format!("expected bins as in {}: {}", names[0], self.layout.bins);
-                let fault = Input::new(file, expected).field("bins");
-                return Err(fault.value(other.bins).into());
-            }
-            for histogram in self.layout.histograms(path)? {
+        for (path, file) in asked.files.iter().zip(&names) {
+            for histogram in self.layout.histograms(path, &asked.files[0])? {
                 let mut estimates = panel.read(&histogram?);
                 let estimate = estimates.remove(0);
                 rows.push(Row {
@@ -107,6 +87,22 @@ impl Sensor {
             EstimateFindings { network: None, sensor: Some(sensor), rows, several, explain: false };
         Report::new(findings, setup, &notes, console).deliver(None, asked.json, console)
     }
+}
+
+/// Checks that a file without times has the bins of a scenario.
+///
+/// # Errors
+/// When it has others.
+pub(crate) fn check_bins(file: &Path, layout: Layout, setup: &Setup) -> Result<()> {
+    let own = setup.params.histogram.bins;
+    if layout.bins == own {
+        return Ok(());
+    }
+    let expected = format!(
+        "expected {own} as tdc.bins of scenario {} says, or --bin-ps with the width of these",
+        setup.name
+    );
+    Err(Input::new(file.display(), expected).field("bins").value(layout.bins).into())
 }
 
 /// Notes on what the default scenario says of these histograms, as nobody else has.

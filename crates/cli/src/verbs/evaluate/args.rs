@@ -54,7 +54,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", requires = "data")]
     pub(super) truth: Option<PathBuf>,
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
-    #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", default_value_t = 8)]
     pub(super) check: u64,
     /// Error above which an estimate is an outlier [mm]
     #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = crate::choice::millimetres)]

@@ -49,7 +49,7 @@ pub struct Args {
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", value_parser = seed())]
     seed: Option<u64>,
     /// Largest number of frames to simulate [default: that of the probe configuration]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]

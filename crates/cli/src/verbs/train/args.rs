@@ -36,7 +36,7 @@ pub struct Args {
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) profile: Option<String>,
     /// Seed of data and starts
-    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = seed())]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed())]
     pub(super) seed: u64,
     /// Scenes to train for: thesis, KEY=FROM..TO:STEP or KEY=A,B,C of any numeric key of the scenario (may be
     /// repeated; what none has is the scenario's), or a TOML file of those [default: thesis]

@@ -78,35 +78,37 @@ impl Steady {
             let signal = if k == 0 { 0.0 } else { pulse.part(t_ps - echo.arrival_ps) };
             echo.background_per_ps.max(0.0) * t_ps + echo.signal * signal
         };
-        let fires: Vec<_> = (0..count).map(|k| -libm::expm1(hazard(k) - hazard(k + 1))).collect();
-        let dead = free.dead_ps / step_ps;
+        let hazards: Vec<_> = (0..=count).map(hazard).collect();
+        let fires: Vec<_> =
+            hazards.windows(2).map(|pair| -libm::expm1(pair[0] - pair[1])).collect();
+        let dead = (free.dead_ps / step_ps).max(1.0);
         let (whole, part) = (dead.floor() as usize, dead.fract());
         // It begins as if photons came evenly, which is near to what repeats.
-        let even = hazard(count) / free.period_ps;
+        let even = hazards[count] / free.period_ps;
         let fires_per_ps = even / (1.0 + even * free.dead_ps);
-        // What fired in each of the last steps, a ring.
-        let mut fired = vec![fires_per_ps * step_ps; whole + 2];
-        let (mut now, mut armed) = (0usize, 1.0 - fires_per_ps * free.dead_ps);
+        // What fired in each step, from a dead time before the first one on.
+        let mut fired = vec![fires_per_ps * step_ps; whole + 1];
+        let mut armed = 1.0 - fires_per_ps * free.dead_ps;
         let mut steady = Steady { step_ps, armed: vec![1.0; count], back: vec![0.0; count] };
         // What fired in the first dead time has to be back before anything can repeat.
         let least = 2 * (whole + count);
-        loop {
+        for period in 1.. {
             let mut changed: f64 = 0.0;
             for (k, fires) in fires.iter().enumerate() {
-                let ring = fired.len();
-                let ago = |steps: usize| (now + ring - steps) % ring;
-                let back = (1.0 - part) * fired[ago(whole)] + part * fired[ago(whole + 1)];
+                let now = fired.len() - (whole + 1);
+                let back = (1.0 - part) * fired[now + 1] + part * fired[now];
                 changed = changed.max((armed - steady.armed[k]).abs());
                 (steady.armed[k], steady.back[k]) = (armed, back);
                 let fires = armed * fires;
-                fired[now % ring] = fires;
+                fired.push(fires);
                 armed += back - fires;
-                now += 1;
             }
-            if (changed < SAME && now > least) || now > MOST_STEPS {
-                return steady;
+            let steps = period * count;
+            if (changed < SAME && steps > least) || steps > MOST_STEPS {
+                break;
             }
         }
+        steady
     }
 
     /// The step that holds a time before the laser edge, and how far into it that is [1].
