@@ -20,10 +20,13 @@ pub(super) fn control_is_steady(top: &TofTop) -> bool {
 
 /// Returns whether no edge changes the estimator until it is started or reset.
 pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
+    estimation_phase(top, p).is_none() && in_slot!(p.estimator, E => rests::<E>(top, p))
+}
+
+fn rests<E: Slotted>(top: &TofTop, p: &Params) -> bool {
     let (mode, count) = (top.control_sync.mode_sync, top.nets.count);
     let i = SlotIn { rst: false, algo_start: false, mode, count };
-    estimation_phase(top, p).is_none()
-        && in_slot!(p.estimator, E => E::block(top).rests(&i.into(), E::params(p)))
+    E::block(top).rests(&i.into(), E::params(p))
 }
 
 /// Returns the cycles since the edge that took `algo_start`, while the estimator in the slot works.

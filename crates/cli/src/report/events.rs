@@ -95,7 +95,7 @@ pub struct Events {
 }
 
 enum EventFile {
-    Csv(CsvFile),
+    Csv(Box<CsvFile>),
     Parquet(Box<ParquetTable<Shot>>),
 }
 
@@ -121,7 +121,7 @@ impl Events {
             EventFile::Parquet(Box::new(ParquetTable::create(file, &schema, [provenance], fill)?))
         } else {
             let names = columns.iter().map(|(name, _)| *name);
-            EventFile::Csv(CsvFile::create(path, &format!("# {record}\n"), names)?)
+            EventFile::Csv(Box::new(CsvFile::create(path, &format!("# {record}\n"), names)?))
         };
         Ok(Events { path: path.to_owned(), file, columns })
     }

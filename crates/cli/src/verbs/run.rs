@@ -92,6 +92,9 @@ pub struct Args {
     json: bool,
 }
 
+/// Receives the frames one by one.
+type TakeFrame<'a> = &'a mut dyn FnMut(&Frame) -> Result<()>;
+
 /// Runs the command.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let waves = args.waves_format()?;
@@ -161,7 +164,7 @@ impl Args {
         &self,
         setup: &Setup,
         histograms: Option<Histograms>,
-        (count, take_frame): (u64, &mut dyn FnMut(&Frame) -> Result<()>),
+        (count, take_frame): (u64, TakeFrame),
         waves: Option<(Waves, Vec<Window>)>,
         files: &mut RunFiles,
     ) -> Result<Outcome> {
