@@ -176,7 +176,7 @@ fn cells_that_are_no_value_of_their_probe_are_refused() {
         cell("HEX", "0g"),
         "capture:3:7: a[7:0] = 0g: expected HEX digits only, unless the radix is wrong"
     );
-    assert_eq!(cell("HEX", ""), "capture:3:7: a[7:0] = : expected HEX digits");
+    assert_eq!(cell("HEX", ""), "capture:3:7: a[7:0] = \"\": expected HEX digits");
     let wide = "expected a HEX number of 8 bits at most, unless the radix is wrong";
     assert_eq!(cell("HEX", "1ff"), format!("capture:3:7: a[7:0] = 1ff: {wide}"));
     let wide = "expected a UNSIGNED number of 8 bits at most, unless the radix is wrong";

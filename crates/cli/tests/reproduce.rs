@@ -160,7 +160,7 @@ fn named_items_are_made_alone_with_their_rows_within_80_columns() {
 fn an_unknown_item_names_the_nearest_and_nothing_is_written() {
     let folder = empty();
     let error = refused(folder.path(), &["reproduce", "tabel-4.3", "-o", "out"]);
-    assert!(error.contains("tabel-4.3") && error.contains("(table-4.3?)"), "{error}");
+    assert!(error.contains("tabel-4.3") && error.contains("(`table-4.3`?)"), "{error}");
     assert_eq!(files(folder.path()), [""; 0]);
 }
 

@@ -248,7 +248,8 @@ impl<'a> Estimations<'a> {
     fn scene(&self, place: f64, reflectance: f64, irradiance: f64, draw: &mut Draw) -> Vec<u32> {
         let mut scenario = self.setup.scenario.clone();
         let end_ps = *self.params.edges.last().unwrap_or(&0) as f64 / 128.0 * scenario.tdc.bin_ps;
-        scenario.target.distance_m = end_ps * 1.5e-4 * place;
+        let way_ps = end_ps * place - scenario.laser.delay_ps;
+        scenario.target.distance_m = way_ps.max(end_ps * 0.002) * 1.5e-4;
         scenario.target.reflectance = reflectance;
         scenario.ambient.irradiance_w_m2_nm = irradiance;
         let (pulse, mesh) = (self.setup.budget.pulse.clone(), self.setup.mesh.as_deref());

@@ -165,6 +165,7 @@ impl SignalProbe for Sampler<'_> {
 #[cfg(test)]
 mod tests {
     use tofsim::Run;
+    use tofsim::firmware::tof_top::slot::SlotEstimator;
 
     use crate::golden::blocks::BLOCKS;
 
@@ -178,7 +179,8 @@ mod tests {
         let setting = Setting { as_configured: true, frames: 3, ..Setting::new(setup) };
         let mut depths = Vec::new();
         let see = &mut |top: &TofTop| {
-            depths.extend(top.slot.algo_done.then_some(top.slot.words.depth));
+            let out = top.depth_estimator.outputs();
+            depths.extend(out.algo_done.then_some(out.words.depth));
         };
         record(spec, &setting, see).unwrap();
         assert_eq!(depths, run.iter().map(|frame| frame.words.depth).collect::<Vec<_>>());

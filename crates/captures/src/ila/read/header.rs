@@ -190,7 +190,9 @@ mod tests {
     #[test]
     fn what_is_wrong_in_the_head_is_told_with_its_column() {
         assert!(fault("a,b[0:15]").starts_with("a.csv:1:45: b[0:15]: expected a range"));
-        assert!(fault("\"a,\"\"b\",,c").starts_with("a.csv:1:51: : expected the name of a probe"));
+        assert!(
+            fault("\"a,\"\"b\",,c").starts_with("a.csv:1:51: \"\": expected the name of a probe")
+        );
         assert!(fault("a,a").starts_with("a.csv:1:45: a: a second column of this name"));
         let wide: Vec<_> = (0..257).map(|place| format!("a{place}[4095:0]")).collect();
         assert!(fault(&wide.join(",")).ends_with("more than 1048576 bits in a sample"));
