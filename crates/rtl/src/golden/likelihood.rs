@@ -209,7 +209,8 @@ impl<'a> Estimations<'a> {
         let place = match kind {
             AT_END | RISING => 0.99 + 0.06 * part(draw),
             AT_BEGIN => 0.002 + 0.009 * part(draw),
-            LEAST => 0.85 + 0.1 * part(draw),
+            // Late light is not to come after the window.
+            LEAST => 0.85 + 0.1 * part(draw) - self.setup.scenario.laser.delay_ps / self.end_ps(),
             _ => 0.2 + 0.7 * part(draw),
         };
         // What comes back falls with the square of the distance.
@@ -244,12 +245,16 @@ impl<'a> Estimations<'a> {
         counts
     }
 
+    /// End of the window [ps].
+    fn end_ps(&self) -> f64 {
+        let bins = *self.params.edges.last().unwrap_or(&0) as f64 / 128.0;
+        bins * self.setup.scenario.tdc.bin_ps
+    }
+
     /// A histogram of a target at a part of the window.
     fn scene(&self, place: f64, reflectance: f64, irradiance: f64, draw: &mut Draw) -> Vec<u32> {
         let mut scenario = self.setup.scenario.clone();
-        let end_ps = *self.params.edges.last().unwrap_or(&0) as f64 / 128.0 * scenario.tdc.bin_ps;
-        let way_ps = end_ps * place - scenario.laser.delay_ps;
-        scenario.target.distance_m = way_ps.max(end_ps * 0.002) * 1.5e-4;
+        scenario.target.distance_m = self.end_ps() * 1.5e-4 * place;
         scenario.target.reflectance = reflectance;
         scenario.ambient.irradiance_w_m2_nm = irradiance;
         let (pulse, mesh) = (self.setup.budget.pulse.clone(), self.setup.mesh.as_deref());
