@@ -31,6 +31,7 @@ mod lockstep;
 mod measured;
 mod new;
 mod parquet_files;
+mod performance;
 mod quantize;
 mod readme;
 mod recalibration;
