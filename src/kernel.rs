@@ -8,12 +8,14 @@ pub mod module;
 pub mod pulse;
 pub mod signals;
 pub mod sizes;
+mod tap_groups;
 pub(crate) mod thermometer;
 pub(crate) mod time;
 mod word_format;
 
 pub use bits::{S, U};
 pub use clocked::{ASLEEP, AWAKE, Clocked, asleep_if};
-pub use thermometer::{PartialOnes, Thermometer, ones_width, partial_highest, partial_ones};
+pub use tap_groups::{PartialOnes, ones_width, partial_highest, partial_ones};
+pub use thermometer::Thermometer;
 pub use time::Time;
 pub use word_format::{Overflow, WordFormat, wrapped};

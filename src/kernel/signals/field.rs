@@ -1,7 +1,7 @@
 //! Values that stand for signals: words, arrays of them, and taps.
 
 use crate::kernel::bits::{S, U};
-use crate::kernel::thermometer::{PartialOnes, Thermometer};
+use crate::kernel::{PartialOnes, Thermometer};
 
 use super::signal::{Signal, SignalFormat};
 
