@@ -1,7 +1,7 @@
 //! CSV files as input: a fixed header, `#` comments, faults with line and column.
 //!
 //! Fields are separated as in the header: by semicolons, tabs, commas or spaces. A decimal comma is read where commas do
-//! not separate. Byte order marks, quotes and the line endings of any system are accepted.
+//! not separate, as within quotes. Byte order marks, quotes and the line endings of any system are accepted.
 
 use std::str::FromStr;
 
@@ -146,10 +146,15 @@ fn filled_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 }
 
 /// Returns the fields of a line without the spaces and quotes around them, each with the column at which it begins, from 1.
+/// Within quotes nothing separates.
 fn fields(line: &str, separator: char) -> Vec<(usize, &str)> {
     let is_padding = |c: char| c.is_whitespace() || c == '"';
-    let (mut fields, mut column) = (Vec::new(), 1);
-    for part in line.split(separator) {
+    let (mut fields, mut column, mut is_quoted) = (Vec::new(), 1, false);
+    let separates = |c: char| {
+        is_quoted ^= c == '"';
+        c == separator && !is_quoted
+    };
+    for part in line.split(separates) {
         let padding = part.chars().take_while(|c| is_padding(*c)).count();
         fields.push((column + padding, part.trim_matches(is_padding)));
         column += part.chars().count() + 1;
@@ -195,6 +200,7 @@ mod tests {
             "\u{feff}\"a\", \"b\"\r\n1.5, \"2\"\r\n",
             "a b\n  1.5   2.0 \n",
             "a,b\r1.5,2e0\r",
+            "a,b\n\"1,5\",\"2\"\n",
         ] {
             let mut input = CsvInput::new("a.csv", text, &["a", "b"]).unwrap();
             assert!(input.advance().unwrap(), "{text:?}");

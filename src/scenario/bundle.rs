@@ -195,6 +195,7 @@ mod tests {
         let taps = Path::new(&name).with_file_name("taps.csv").display().to_string();
         assert_eq!(bundle.files.keys().collect::<Vec<_>>(), [&name, &taps]);
     }
+
     #[test]
     fn a_file_that_a_chain_names_by_an_absolute_path_comes_with_it() {
         let here = tempfile::tempdir().unwrap();

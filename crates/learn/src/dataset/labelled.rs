@@ -11,13 +11,14 @@ use tofsim::network::{Histogram, histogram_file};
 use tofsim::scenario::Scenario;
 
 use super::files::DESCRIPTION;
+use super::format::{TABLE, TRUTH_ARRAY};
 use super::grid::{Scene, TRUTH};
 use super::npy::numbers;
 use super::parquet_columns::ParquetColumns;
 use super::parquet_input::is_parquet;
 
 /// Table, histograms and truth in the folder of a dataset.
-const FILES: [&str; 3] = ["dataset.parquet", "histograms.npy", "truth.npy"];
+const FILES: [&str; 3] = [TABLE, "histograms.npy", TRUTH_ARRAY];
 /// Key of the description in the metadata of a Parquet file.
 const KEY: &str = "tofsim.dataset";
 
