@@ -55,16 +55,18 @@ impl Clocked for CoarseCounter {
     type Params = Params;
 
     #[inline(always)]
-    fn next(&self, i: &In, p: &Params) -> Self {
-        let (q, mut d) = (self, *self);
+    fn tick(&mut self, i: &In, p: &Params) {
+        let (q, d) = (*self, self);
         if i.start {
-            d = CoarseCounter { coarse: U::new(0), window: true };
+            *d = CoarseCounter { coarse: U::new(0), window: true };
         } else if q.window && q.coarse == p.window() - 1 {
             d.window = false;
         } else if q.window {
             d.coarse = q.coarse + 1;
         }
-        if i.rst { Self::default() } else { d }
+        if i.rst {
+            *d = Self::default();
+        }
     }
 
     /// Nobody looks at the count and its end but at a hit.

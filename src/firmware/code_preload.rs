@@ -39,8 +39,8 @@ impl Clocked for CodePreload {
     type Params = [Bin];
 
     #[inline(always)]
-    fn next(&self, i: &In, rom: &[Bin]) -> Self {
-        let (q, mut d) = (self, *self);
+    fn tick(&mut self, i: &In, rom: &[Bin]) {
+        let (q, d) = (*self, self);
         d.pending = i.start;
         d.tdc_valid = q.pending;
         if q.pending {
@@ -48,7 +48,9 @@ impl Clocked for CodePreload {
             let last = q.rom_addr.index() + 1 == rom.len();
             d.rom_addr = if last { U::new(0) } else { q.rom_addr + 1 };
         }
-        if i.rst { Self::default() } else { d }
+        if i.rst {
+            *d = Self::default();
+        }
     }
 
     #[inline(always)]

@@ -120,8 +120,8 @@ impl Clocked for FrameCtrl {
     type Params = Params;
 
     #[inline(always)]
-    fn next(&self, i: &In, p: &Params) -> Self {
-        let (q, mut d) = (self, *self);
+    fn tick(&mut self, i: &In, p: &Params) {
+        let (q, d) = (*self, self);
         d.algo_start = false;
         d.frame_done = false;
         match q.state {
@@ -153,7 +153,9 @@ impl Clocked for FrameCtrl {
             }
             State::Estimate => {}
         }
-        if i.rst || i.dsp_rst { Self::default() } else { d }
+        if i.rst || i.dsp_rst {
+            *d = Self::default();
+        }
     }
 
     /// Nobody looks at how far Drain has come.

@@ -33,9 +33,11 @@ impl Clocked for SpadControl {
     type Params = ();
 
     #[inline(always)]
-    fn next(&self, i: &In, (): &()) -> Self {
-        let d = SpadControl { spad_rst: i.pre_start && !i.mode, ..*self };
-        if i.rst { Self::default() } else { d }
+    fn tick(&mut self, i: &In, (): &()) {
+        self.spad_rst = i.pre_start && !i.mode;
+        if i.rst {
+            *self = Self::default();
+        }
     }
 
     #[inline(always)]

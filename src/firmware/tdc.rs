@@ -143,24 +143,20 @@ connect! {
 }
 
 impl Tdc {
-    /// Takes a rising edge of `clk_sys`, at which the chain's registers sample `taps`.
+    /// Takes a rising edge of `clk_sys`, at which the chain's registers sample `taps`: from the end of the pipeline on,
+    /// so that each block takes what the one before it was.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, taps: Taps) {
-        let tdc_decoder = Wires::tdc_decoder(self, i);
-
+        self.tdc_decoder.tick(&Wires::tdc_decoder(self, i), &p.decoder);
         self.sample(i, p, taps);
-        self.tdc_decoder.tick(&tdc_decoder, &p.decoder);
     }
 
     /// Takes the edge's part of all blocks before the decoder.
     #[inline(always)]
     pub fn sample(&mut self, i: &In, p: &Params, taps: Taps) {
-        let coarse_counter = Wires::coarse_counter(self, i);
-        let tdc_latch = Wires::tdc_latch(self, i);
-
+        self.tdc_latch.tick(&Wires::tdc_latch(self, i), &p.tap_0);
+        self.coarse_counter.tick(&Wires::coarse_counter(self, i), &p.coarse_counter);
         self.carry_chain = CarryChain { taps };
-        self.coarse_counter.tick(&coarse_counter, &p.coarse_counter);
-        self.tdc_latch.tick(&tdc_latch, &p.tap_0);
     }
 
     /// Coming edges at which, while the inputs and the sampled taps hold, nothing before the decoder would move but

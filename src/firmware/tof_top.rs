@@ -29,12 +29,14 @@ mod nets;
 mod ports;
 mod sizes;
 pub mod slot;
+pub mod slot_inputs;
 pub mod slotted;
 pub mod status;
 
 pub use estimators::FirmwareEstimator;
 pub use ports::{Clocks, CodeSource, HistogramSource, Nets, Params, Pins};
 use slot::SlotOut;
+use slot_inputs::SlotInputs;
 
 /// The state of the firmware.
 #[derive(Clone, Debug, Default)]
@@ -79,6 +81,11 @@ pub struct TofTop {
     pub likelihood_estimator: LikelihoodEstimator,
     /// Outputs of the estimator in use.
     pub slot: SlotOut,
+    /// Inputs at which the estimator in the slot rests, if it does: no edge changes it until one of them changes.
+    pub(crate) rest: Option<SlotInputs>,
+    /// Times that an estimator may have changed: edges at which the one in the slot did not rest, and accesses from
+    /// outside.
+    pub(crate) estimator_changes: u64,
 }
 
 connect! {
@@ -197,37 +204,42 @@ impl TofTop {
     /// nothing.
     #[inline(always)]
     pub fn rise(&mut self, p: &Params, taps: Taps) {
-        let reset_sync_laser = self.reset_sync_laser.next(&Wires::reset_sync_laser(self), &());
-        let reset_sync_sys = self.reset_sync_sys.next(&Wires::reset_sync_sys(self), &());
-        let control_sync = self.control_sync.next(&Wires::control_sync(self), &());
-        let frame_ctrl = self.frame_ctrl.next(&Wires::frame_ctrl(self), &p.frame_ctrl);
+        let reset_sync_sys = Wires::reset_sync_sys(self);
+        let reset_sync_laser = Wires::reset_sync_laser(self);
+        let control_sync = Wires::control_sync(self);
+        let frame_ctrl = Wires::frame_ctrl(self);
         let vcsel_driver = Wires::vcsel_driver(self);
-        let spad_control = self.spad_control.next(&Wires::spad_control(self), &());
+        let spad_control = Wires::spad_control(self);
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let tdc_calibration = Wires::tdc_calibration(self);
         let histogram_builder = Wires::histogram_builder(self);
-        let estimator = self.slot_inputs();
+        let estimator = self.slot_inputs(p);
 
-        (self.reset_sync_sys, self.reset_sync_laser) = (reset_sync_sys, reset_sync_laser);
-        (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
+        self.reset_sync_sys.tick(&reset_sync_sys, &());
+        self.reset_sync_laser.tick(&reset_sync_laser, &());
+        self.control_sync.tick(&control_sync, &());
+        self.frame_ctrl.tick(&frame_ctrl, &p.frame_ctrl);
         self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
-        self.spad_control = spad_control;
+        self.spad_control.tick(&spad_control, &());
         self.convert(p, &tdc, &code_preload, taps);
         if let Some(p) = &p.tdc_calibration {
             self.tdc_calibration.tick(&tdc_calibration, p);
         }
         self.histogram_builder.tick(&histogram_builder, &p.histogram);
-        self.estimate(p, &estimator);
+        if let Some(inputs) = estimator {
+            self.estimate(p, inputs);
+        }
         self.settle(p);
     }
 
     /// An edge at which only `clk_laser` rises: the middle of a cycle of `clk_sys`.
     #[inline(always)]
     pub fn rise_laser(&mut self, p: &Params) {
-        let reset_sync_laser = self.reset_sync_laser.next(&Wires::reset_sync_laser(self), &());
-        self.vcsel_driver.rise_laser(&Wires::vcsel_driver(self), &p.vcsel_driver);
-        self.reset_sync_laser = reset_sync_laser;
-        self.drive_laser();
+        if self.vcsel_driver.has_pulse() {
+            self.vcsel_driver.rise_laser(&Wires::vcsel_driver(self), &p.vcsel_driver);
+            self.drive_laser();
+        }
+        self.reset_sync_laser.tick(&Wires::reset_sync_laser(self), &());
     }
 
     /// Returns the state that a rising edge of `clk_laser` alone can change; more only follows from it.
@@ -240,8 +252,10 @@ impl TofTop {
     /// A falling edge of `clk_laser`.
     #[inline(always)]
     pub fn fall_laser(&mut self) {
-        self.vcsel_driver.fall_laser();
-        self.drive_laser();
+        if self.nets.laser_on {
+            self.vcsel_driver.fall_laser();
+            self.drive_laser();
+        }
     }
 }
 

@@ -124,8 +124,8 @@ impl Clocked for Registers {
     type Params = Params;
 
     #[inline(always)]
-    fn next(&self, i: &In, p: &Params) -> Self {
-        let (q, mut d) = (self, *self);
+    fn tick(&mut self, i: &In, p: &Params) {
+        let (q, d) = (*self, self);
         let left = q.last - q.count.get();
         d.pre_start = i.acquire && left == 2;
         d.fire = d.pre_start && q.enable;
@@ -136,7 +136,9 @@ impl Clocked for Registers {
             d.last = U::new(p.period(i.laser_freq) - 1);
             d.enable = i.laser_en;
         }
-        if i.rst { Self::default() } else { d }
+        if i.rst {
+            *d = Self::default();
+        }
     }
 
     /// Nobody looks at the count until `pre_start` comes of it.
@@ -211,17 +213,17 @@ impl VcselDriver {
     /// An edge at which both clocks rise.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params) {
-        let registers = self.registers.next(i, p);
         self.rise_laser(i, p);
-        self.registers = registers;
+        self.registers.tick(i, p);
     }
 
     /// An edge at which only `clk_laser` rises, or the part of `clk_laser` where both do.
     #[inline(always)]
     pub fn rise_laser(&mut self, i: &In, p: &Params) {
-        let laser = self.laser_inputs(i);
-        self.ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
-        self.registers_laser.tick(&laser, p);
+        if self.has_pulse() {
+            self.ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
+            self.registers_laser.tick(&self.laser_inputs(i), p);
+        }
     }
 
     /// A falling edge of `clk_laser`.

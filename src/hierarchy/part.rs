@@ -1,7 +1,7 @@
 //! Change detection for a subset of the signals.
 
 use crate::firmware::histogram_builder::MOST_BINS;
-use crate::firmware::tof_top::TofTop;
+use crate::firmware::tof_top::{FirmwareEstimator, TofTop};
 use crate::kernel::module::{Instance, Module, Visitor};
 use crate::kernel::signals::{Signals, Sink};
 
@@ -15,6 +15,8 @@ pub struct Part {
     /// Number of ids to skip at the first id of a module that has none in the subset; the largest number where
     /// modules share a first id.
     unwanted: Box<[usize; IDS]>,
+    /// The same while the estimators stand still: they change only when the top counts a change.
+    unwanted_if_still: Box<[usize; IDS]>,
     /// RAM words in the subset, sorted and unique. The RAM may be smaller.
     words: Vec<usize>,
     /// Whether the next edge of `clk_sys` may write a RAM word.
@@ -28,10 +30,15 @@ impl Part {
         let mut wanted = Box::new([false; IDS]);
         ids.into_iter().for_each(|id| wanted[id] = true);
         let words = (0..MOST_BINS).filter(|bin| wanted[RAM + bin]).collect();
-        let mut unwanted = Unwanted { wanted: &wanted, counts: Box::new([0; IDS]), id: 0 };
+        let mut unwanted = Unwanted {
+            wanted: &wanted,
+            counts: Box::new([0; IDS]),
+            if_still: Box::new([0; IDS]),
+            id: 0,
+        };
         TofTop::default().visit(None, &mut unwanted);
-        let unwanted = unwanted.counts;
-        Part { wanted, unwanted, words, writes: true, kept: None }
+        let Unwanted { counts: unwanted, if_still: unwanted_if_still, .. } = unwanted;
+        Part { wanted, unwanted, unwanted_if_still, words, writes: true, kept: None }
     }
 
     /// Reports every signal of the design as if it had changed.
@@ -50,8 +57,11 @@ impl Part {
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
         let between = kept.clocks.clk_sys;
-        let wanted = Some((&*self.wanted, &*self.unwanted));
+        let still = kept.estimator_changes == top.estimator_changes;
+        let unwanted = if still { &self.unwanted_if_still } else { &self.unwanted };
+        let wanted = Some((&*self.wanted, &**unwanted));
         top.visit(Some(kept), &mut Look { wanted, between, id: 0, sink });
+        kept.estimator_changes = top.estimator_changes;
         let writes = top.histogram_builder.has_hit() || top.frame_ctrl.clear;
         if std::mem::replace(&mut self.writes, writes) {
             let (now, then) = (&top.histogram_builder.ram, &mut kept.histogram_builder.ram);
@@ -88,6 +98,7 @@ pub fn changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
 /// Copies all state that [`changes`] compares, without allocating.
 pub fn copy(from: &TofTop, to: &mut TofTop) {
     from.visit(Some(to), &mut Copy);
+    to.estimator_changes = from.estimator_changes;
     to.histogram_builder.ram.copy_from_slice(&from.histogram_builder.ram[..]);
 }
 
@@ -131,10 +142,11 @@ impl<K: Sink> Visitor for Look<'_, K> {
     }
 }
 
-/// Visitor that finds modules without a signal in the subset.
+/// Visitor that finds modules without a signal in the subset, and in a second table the estimators too.
 struct Unwanted<'a> {
     wanted: &'a [bool; IDS],
     counts: Box<[usize; IDS]>,
+    if_still: Box<[usize; IDS]>,
     /// Id of the next signal.
     id: usize,
 }
@@ -144,10 +156,17 @@ impl Visitor for Unwanted<'_> {
         self.id += S::COUNT;
     }
 
-    fn module<M: Module>(&mut self, _: &'static Instance, now: &M, _: Option<&mut M>) {
+    fn module<M: Module>(&mut self, instance: &'static Instance, now: &M, _: Option<&mut M>) {
         let ids = self.id..self.id + M::COUNT;
-        if !self.wanted[ids.clone()].contains(&true) {
-            self.counts[ids.start] = self.counts[ids.start].max(M::COUNT);
+        let mut estimators = FirmwareEstimator::ALL.iter().map(|estimator| estimator.module());
+        let is_wanted = self.wanted[ids.clone()].contains(&true);
+        let is_moving = !estimators.any(|name| name == instance.name);
+        for (counts, skips) in
+            [(&mut self.counts, !is_wanted), (&mut self.if_still, !(is_wanted && is_moving))]
+        {
+            if skips {
+                counts[ids.start] = counts[ids.start].max(M::COUNT);
+            }
         }
         now.visit(None, self);
     }

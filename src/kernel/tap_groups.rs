@@ -26,7 +26,7 @@ pub fn partial_highest(taps: &[u64], count: usize, group: usize, out: &mut Vec<u
     of_groups(taps, count, group, out, |taps| u128::BITS - taps.leading_zeros());
 }
 
-/// Appends what `code` makes of each group.
+/// Appends what `code` makes of each group: a word or two of taps at once, which mostly are all low or all high.
 #[inline(always)]
 fn of_groups(
     taps: &[u64],
@@ -35,24 +35,28 @@ fn of_groups(
     out: &mut Vec<u64>,
     code: impl Fn(u128) -> u32,
 ) {
-    let (width, mut word, mut filled) = (ones_width(group), 0, 0);
-    for first in (0..count).step_by(group) {
-        let (at, shift) = (first / 64, first % 64);
-        let above = if group > 64 { taps.get(at + 1).copied().unwrap_or(0) } else { 0 };
-        let both = u128::from(above) << 64 | u128::from(taps[at]);
-        let all = u128::MAX >> (128 - group);
-        // Nearly all groups have no ones, or only ones.
-        let code = match both >> shift & all {
+    let (chunk, width) = (group.max(64), ones_width(group));
+    let (groups, all) = (chunk / group, u128::MAX >> (128 - group));
+    let codes = |taps: u128, groups: usize| {
+        let codes = (0..groups).map(|k| u64::from(code(taps >> (group * k) & all)) << (width * k));
+        codes.fold(0, |codes, code| codes | code)
+    };
+    let (high, all_high) = (u128::MAX >> (128 - chunk), codes(u128::MAX, groups));
+    let (mut word, mut filled) = (0, 0);
+    for first in (0..count).step_by(chunk) {
+        let above = if chunk > 64 { taps.get(first / 64 + 1).copied().unwrap_or(0) } else { 0 };
+        let groups = groups.min((count - first).div_ceil(group));
+        let codes = match u128::from(above) << 64 | u128::from(taps[first / 64]) {
             0 => 0,
-            taps if taps == all => group as u64,
-            taps => u64::from(code(taps)),
+            taps if taps == high => all_high,
+            taps => codes(taps, groups),
         };
-        word |= code << filled;
-        filled += width;
+        word |= codes << filled;
+        filled += width * groups;
         if filled >= 64 {
             out.push(word);
             filled -= 64;
-            word = code >> (width - filled);
+            word = codes.unbounded_shr((width * groups - filled) as u32);
         }
     }
     if filled > 0 {
@@ -82,8 +86,12 @@ mod tests {
 
     #[test]
     fn groups_of_any_size_are_coded_as_bit_by_bit() {
-        let taps: [u64; 4] = std::array::from_fn(|k| 0x9e37_79b9_7f4a_7c15 << k | 1 << (5 * k));
-        for (group, count) in [(2, 256), (16, 250), (16, 256), (64, 200), (128, 256), (128, 129)] {
+        let mixed = std::array::from_fn(|k| 0x9e37_79b9_7f4a_7c15 << k | 1 << (5 * k));
+        let runs = [u64::MAX, u64::MAX, 0, u64::MAX << 9];
+        let sizes = [(2, 256), (16, 250), (16, 256), (64, 200), (128, 256), (128, 129)];
+        for (taps, (group, count)) in
+            sizes.into_iter().flat_map(|size| [(mixed, size), (runs, size)])
+        {
             let levels: BitVec<u64> = BitSlice::<_, Lsb0>::from_slice(&taps)[..count].to_bitvec();
             let mut taps = taps.map(|_| 0);
             levels.iter_ones().for_each(|tap| taps[tap / 64] |= 1 << (tap % 64));

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use bitvec::prelude::*;
-
 /// Transitions that a [`Thermometer`] can hold.
 pub const CAPACITY: usize = 11;
 
@@ -122,14 +120,17 @@ impl Thermometer {
         runs.flatten()
     }
 
-    /// Writes the taps as bits, in order of arrival, into `out`, which is as long as the line.
-    pub fn expand(&self, out: &mut BitSlice<u64, Lsb0>) {
-        let (mut start, mut level) = (0, self.level());
+    /// Writes `count` taps as bits, in order of arrival, into words that have as many bits or a few more: least
+    /// significant first, with zeros past the last tap.
+    pub fn expand(&self, count: usize, words: &mut [u64]) {
+        words.fill(if self.level() { u64::MAX } else { 0 });
         for rank in self.ranks() {
-            out[start..rank].fill(level);
-            (start, level) = (rank, !level);
+            words[rank / 64] ^= u64::MAX << (rank % 64);
+            words[rank / 64 + 1..].iter_mut().for_each(|word| *word = !*word);
         }
-        out[start..].fill(level);
+        if let Some(last) = words.last_mut() {
+            *last &= u64::MAX >> (count.wrapping_neg() % 64);
+        }
     }
 
     #[inline(always)]
@@ -160,9 +161,9 @@ mod tests {
     use super::*;
 
     fn bits(taps: &Thermometer) -> String {
-        let mut out = bitvec![u64, Lsb0; 0; 12];
-        taps.expand(&mut out);
-        out.iter().map(|bit| if *bit { '1' } else { '0' }).collect()
+        let mut words = [0];
+        taps.expand(12, &mut words);
+        (0..64).map(|tap| if words[0] >> tap & 1 == 1 { '1' } else { '0' }).take(12).collect()
     }
 
     #[test]

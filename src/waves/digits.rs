@@ -14,13 +14,21 @@ pub(super) fn eight(byte: u8) -> [u8; 8] {
     (copies >> 7 & 0x0101_0101_0101_0101 | 0x3030_3030_3030_3030).to_le_bytes()
 }
 
-/// Returns the three decimal digits of a number below 1000, and a line feed.
-#[inline(always)]
-pub(super) fn three(number: u64) -> [u8; 4] {
-    let [hundreds, tens, ones] =
-        [number / 100, number / 10 % 10, number % 10].map(|digit| b'0' + digit as u8);
-    [hundreds, tens, ones, b'\n']
-}
+/// The three decimal digits of each number below 1000, and a line feed.
+pub(super) static THREE_DIGITS: [[u8; 4]; 1000] = {
+    let mut table = [[b'\n'; 4]; 1000];
+    let mut number = 0;
+    while number < table.len() {
+        let digits = [number / 100, number / 10 % 10, number % 10];
+        let mut place = 0;
+        while place < digits.len() {
+            table[number][place] = b'0' + digits[place] as u8;
+            place += 1;
+        }
+        number += 1;
+    }
+    table
+};
 
 /// Converter between a thermometer code and the taps in physical order.
 #[derive(Clone, Debug, Default)]
@@ -57,7 +65,7 @@ impl TapDigits {
     /// Returns the taps, physical tap 0 first, or the decoder's code of each `group` of taps.
     pub fn bits(&mut self, value: &Thermometer, group: usize) -> Bits<'_> {
         let count = self.arrived.len();
-        value.expand(&mut self.arrived);
+        value.expand(count, self.arrived.as_raw_mut_slice());
         for (&tap, level) in self.order.iter().zip(&self.arrived) {
             self.taps.set(tap.into(), *level);
         }

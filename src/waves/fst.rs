@@ -21,6 +21,8 @@ mod blocks;
 mod changes;
 mod header;
 mod hierarchy;
+mod section;
+mod sections;
 mod stream;
 mod times;
 

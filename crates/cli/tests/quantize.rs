@@ -98,6 +98,14 @@ fn what_is_wrong_is_named_and_nothing_is_written() {
         assert!(error.contains(expected), "{error}");
         assert!(!Path::new(out).exists(), "{from}");
     }
+    for (option, value, expected) in [
+        ("--lut-bits", "99", "--lut-bits: 99: expected 4 to 16"),
+        ("--format", "w1=99.23", "99"),
+        ("--format", "b1=16.30", "--format: b1.fraction = 30: expected"),
+    ] {
+        let error = refused(folder.path(), &["quantize", "--from", JSON, option, value]);
+        assert!(error.contains(expected), "{error}");
+    }
 }
 
 #[test]

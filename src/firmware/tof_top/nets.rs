@@ -19,7 +19,7 @@ impl TofTop {
         match &p.code_source {
             CodeSource::Tdc => self.tdc.rise(tdc, &p.tdc, taps),
             CodeSource::Preload(rom) => {
-                self.code_preload = self.code_preload.next(code_preload, rom);
+                self.code_preload.tick(code_preload, rom);
             }
         }
     }
@@ -27,10 +27,16 @@ impl TofTop {
     /// The code, from the registers of its source.
     #[inline(always)]
     pub(crate) fn take_code(&mut self, p: &Params) {
-        (self.nets.tdc_valid, self.nets.tdc_code) = match &p.code_source {
-            CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
-            CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
-        };
+        match &p.code_source {
+            CodeSource::Tdc => {
+                let decoder = &self.tdc.tdc_decoder;
+                (self.nets.tdc_valid, self.nets.tdc_code) = (decoder.tdc_valid, decoder.tdc_code);
+            }
+            CodeSource::Preload(_) => {
+                let preload = &self.code_preload;
+                (self.nets.tdc_valid, self.nets.tdc_code) = (preload.tdc_valid, preload.tdc_code);
+            }
+        }
     }
 
     /// Combinational wires, which only registers drive. Every edge does this; at power-up it is for

@@ -109,7 +109,7 @@ pub enum Assumptions {
 /// An estimator that fits the slot.
 pub trait SlotEstimator: Default {
     /// Its input ports.
-    type In: From<SlotIn>;
+    type In: From<SlotIn> + PartialEq;
     /// Parameters fixed by elaboration.
     type Params: Clone + std::fmt::Debug + Send + Sync;
     /// Whether the estimator outputs a sigma, a status and `valid` beside the depth.

@@ -3,6 +3,7 @@
 use crate::{firmware_estimators, in_slot};
 
 use super::slot::SlotEstimator;
+use super::slot_inputs::SlotInputs;
 use super::{Params, TofTop, Wires};
 
 /// An estimator of the list: its place in the top.
@@ -11,9 +12,11 @@ pub trait Slotted: SlotEstimator {
     fn params(p: &Params) -> &Self::Params;
     /// Its block.
     fn block(top: &TofTop) -> &Self;
-    /// Its block, to be stepped.
+    /// Its block, to be stepped or set: counted as a change.
     fn block_mut(top: &mut TofTop) -> &mut Self;
-    /// Its input ports.
+    /// Its input ports as they stand.
+    fn ports(top: &TofTop) -> Self::In;
+    /// Its input ports among those of all.
     fn wires(inputs: &SlotInputs) -> &Self::In;
 }
 
@@ -35,7 +38,13 @@ macro_rules! slotted {
 
             #[inline(always)]
             fn block_mut(top: &mut TofTop) -> &mut Self {
+                top.estimator_changes += 1;
                 &mut top.$module
+            }
+
+            #[inline(always)]
+            fn ports(top: &TofTop) -> Self::In {
+                Wires::$module(top)
             }
 
             #[inline(always)]
@@ -44,16 +53,10 @@ macro_rules! slotted {
             }
         })+
 
-        /// Input ports of every estimator.
-        #[derive(Clone, Copy, Debug)]
-        pub struct SlotInputs {
-            $($module: crate::firmware::$module::In,)+
-        }
-
         impl TofTop {
             /// Input ports of every estimator as they stand.
             #[inline(always)]
-            pub(super) fn slot_inputs(&self) -> SlotInputs {
+            fn every_slot_input(&self) -> SlotInputs {
                 SlotInputs { $($module: Wires::$module(self),)+ }
             }
         }
@@ -71,13 +74,25 @@ impl Params {
 }
 
 impl TofTop {
-    /// The rising edge of `clk_sys` for the estimator in the slot.
+    /// Input ports of the estimators for the coming edge; none if the one in the slot rests at them.
     #[inline(always)]
-    pub(super) fn estimate(&mut self, p: &Params, inputs: &SlotInputs) {
-        self.slot = in_slot!(p.estimator, E => {
-            let block = E::block_mut(self);
-            block.rise(E::wires(inputs), E::params(p));
-            block.outputs()
+    pub(super) fn slot_inputs(&self, p: &Params) -> Option<SlotInputs> {
+        let rests = in_slot!(p.estimator, E => {
+            self.rest.as_ref().is_some_and(|rest| *E::wires(rest) == E::ports(self))
         });
+        (!rests).then(|| self.every_slot_input())
+    }
+
+    /// The rising edge of `clk_sys` for the estimator in the slot.
+    pub(super) fn estimate(&mut self, p: &Params, inputs: SlotInputs) {
+        let rests = in_slot!(p.estimator, E => {
+            let (i, p) = (E::wires(&inputs), E::params(p));
+            let block = E::block_mut(self);
+            block.rise(i, p);
+            let rests = block.phase(p).is_none() && block.rests(i, p);
+            self.slot = block.outputs();
+            rests
+        });
+        self.rest = rests.then_some(inputs);
     }
 }

@@ -5,14 +5,11 @@
 
 use super::blocks::number;
 
-/// Length from which a stream is compressed [bytes].
-const SHORT: usize = 32;
-
 /// Stream of one signal.
 pub(super) struct Stream {
     /// Width [bits].
     pub(super) width: usize,
-    pub(super) data: Vec<u8>,
+    data: Vec<u8>,
     /// Number of the time step of the last change, from 0 in each section.
     time: u64,
     /// Value, most significant bit first; `None` if it is unknown.
@@ -74,26 +71,10 @@ impl Stream {
         }
     }
 
-    /// Appends the stream to a section, compressed with LZ4 if that is shorter, and clears it; returns its
-    /// uncompressed size in bytes.
-    pub(super) fn take(&mut self, section: &mut Vec<u8>) -> usize {
-        let Stream { data, time, .. } = self;
-        let length = data.len();
-        let packed = (length >= SHORT).then(|| lz4_flex::block::compress(data));
-        match packed.filter(|packed| packed.len() < length) {
-            Some(packed) => {
-                number(section, length as u64);
-                section.extend_from_slice(&packed);
-            }
-            None => {
-                let as_it_is = 0;
-                number(section, as_it_is);
-                section.extend_from_slice(data);
-            }
-        }
-        data.clear();
-        *time = 0;
-        length
+    /// Exchanges the changes for an empty buffer, at the end of a section.
+    pub(super) fn hand_over(&mut self, buffer: &mut Vec<u8>) {
+        std::mem::swap(&mut self.data, buffer);
+        self.time = 0;
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::super::digits::{eight, three};
+use super::super::digits::{THREE_DIGITS, eight};
 
 /// Amount of text that is collected before it is written [bytes].
 const BLOCK: usize = 1 << 16;
@@ -86,12 +86,13 @@ impl Text {
         if rest >= LEAD || self.lead_at == 0 {
             return self.stamp_anew(at);
         }
-        let (thousands, units) = (rest / 1000, rest % 1000);
+        let [thousands, units] =
+            [rest / 1000, rest % 1000].map(|number| THREE_DIGITS[number as usize]);
         let line = &mut self.bytes[self.len..][..32];
         let place = self.lead_len % 16;
         put(line, 0, &self.lead);
-        put(line, place, &three(thousands));
-        put(line, place + 3, &three(units));
+        put(line, place, &thousands);
+        put(line, place + 3, &units);
         self.len += place + 7;
     }
 

@@ -29,6 +29,19 @@ impl Formats {
         }
     }
 
+    /// Checks a datapath that these were put over.
+    ///
+    /// # Errors
+    /// When it cannot be built; the option at fault is named.
+    pub fn check(&self, datapath: &Datapath) -> Result<()> {
+        let Some((field, value, expected)) = datapath.fault() else { return Ok(()) };
+        let option = match field.as_str() {
+            "address_bits" => Input::new("--lut-bits", expected),
+            _ => Input::new("--format", expected).field(field),
+        };
+        Err(option.value(value).into())
+    }
+
     /// Has what a scenario's table says of them, where no option says otherwise.
     ///
     /// # Errors

@@ -105,7 +105,7 @@ fn quantize(args: &Args, path: &Path, console: &Console) -> Result<()> {
     let overflow = if args.saturate { Overflow::Saturate } else { Overflow::Refuse };
     let mut datapath = Datapath::THESIS;
     args.formats.put_over(&mut datapath);
-    datapath.check("--format")?;
+    args.formats.check(&datapath)?;
     let rounded = float.round(&from, &datapath, overflow)?;
     if rounded.saturated > 0 {
         console.note(format_args!("note: {} weights were saturated", rounded.saturated));

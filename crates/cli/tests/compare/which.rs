@@ -284,7 +284,7 @@ fn a_map_that_names_what_there_is_not_is_refused() {
         refused(folder, &["a.csv", "a.csv", "--map", "map.toml"])
     };
     let error = refused("[[signal]]\na = [\"hut\"]\nb = [\"hit\"]\n");
-    assert!(error.contains("a.csv: hut: no such signal; near it: hit"), "{error}");
+    assert!(error.contains("map: signal: a.csv: hut: no such signal; near it: hit"), "{error}");
     let error = refused("[[signal]]\na = [\"hit\"]\nb = [\"n\"]\n");
     assert!(error.contains("expected signals of one width, not 1 and 4 bits"), "{error}");
     assert!(refused("clok = \"x\"\n").contains("did you mean `clock`?"));

@@ -44,7 +44,8 @@ pub(super) fn by_rule(
     for side in 0..2 {
         for (k, name) in names[side].iter().enumerate() {
             let slots = &mut matching.slots[side];
-            let (signal, part) = find::part(sides[side], name, slots)?;
+            let (signal, part) = find::part(sides[side], name, slots)
+                .map_err(|error| Input::new("map", error).field("signal"))?;
             used[side].insert(sides[side].signals[signal].id);
             parts[side].push(part);
             if k == 0 {

@@ -1,0 +1,104 @@
+//! A section of value changes: the initial values, the stream of each signal, the offsets of the streams, and the
+//! times. Streams are compressed one by one.
+
+use std::io::{self, Write};
+
+use super::blocks::{Block, long, number, signed};
+use super::times::Times;
+
+/// Identifier of LZ4 compression of the streams.
+const LZ4: u8 = b'4';
+/// Length from which a stream is compressed [bytes].
+const SHORT: usize = 32;
+
+/// A section, until it is written.
+pub(super) struct Section {
+    /// Start and end [ps].
+    pub(super) span: [u64; 2],
+    /// Values at the start, one digit per bit.
+    pub(super) frame: Vec<u8>,
+    /// Changes of each signal.
+    pub(super) streams: Vec<Vec<u8>>,
+    pub(super) times: Times,
+}
+
+impl Section {
+    /// Creates an empty section of so many signals.
+    pub(super) fn new(signals: usize) -> Self {
+        let streams = vec![Vec::new(); signals];
+        Section { span: [0, 0], frame: Vec::new(), streams, times: Times::default() }
+    }
+
+    /// Compresses the section, appends it to a file, and clears it.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub(super) fn write(&mut self, file: &mut impl Write) -> io::Result<()> {
+        let mut body = Vec::new();
+        self.take_frame(&mut body);
+        let length = self.take_streams(&mut body);
+        self.times.take(&mut body);
+        let mut head = Vec::new();
+        for field in [self.span[0], self.span[1], length as u64] {
+            long(&mut head, field);
+        }
+        Block::Changes.write(file, &[&head, &body])
+    }
+
+    /// Appends the initial values. Their length is written twice, because they are not compressed.
+    fn take_frame(&mut self, body: &mut Vec<u8>) {
+        let length = self.frame.len() as u64;
+        for count in [length, length, self.streams.len() as u64] {
+            number(body, count);
+        }
+        body.append(&mut self.frame);
+    }
+
+    /// Appends all streams and their offsets, and returns their uncompressed size [bytes].
+    fn take_streams(&mut self, body: &mut Vec<u8>) -> usize {
+        number(body, self.streams.len() as u64);
+        let (mut last, mut empty, mut length) = (body.len(), 0, 0);
+        body.push(LZ4);
+        let mut places = Vec::new();
+        for stream in &mut self.streams {
+            if stream.is_empty() {
+                empty += 1;
+                continue;
+            }
+            skip(&mut places, &mut empty);
+            // The lowest bit says that it is a place.
+            signed(&mut places, (2 * (body.len() - last) + 1) as u64);
+            last = body.len();
+            length += stream.len();
+            pack(stream, body);
+            stream.clear();
+        }
+        skip(&mut places, &mut empty);
+        body.extend_from_slice(&places);
+        long(body, places.len() as u64);
+        length
+    }
+}
+
+/// Appends a stream, compressed with LZ4 if that is shorter.
+fn pack(stream: &[u8], body: &mut Vec<u8>) {
+    let packed = (stream.len() >= SHORT).then(|| lz4_flex::block::compress(stream));
+    match packed.filter(|packed| packed.len() < stream.len()) {
+        Some(packed) => {
+            number(body, stream.len() as u64);
+            body.extend_from_slice(&packed);
+        }
+        None => {
+            let as_it_is = 0;
+            number(body, as_it_is);
+            body.extend_from_slice(stream);
+        }
+    }
+}
+
+/// Appends the number of consecutive signals without a stream.
+fn skip(places: &mut Vec<u8>, signals: &mut u64) {
+    if *signals > 0 {
+        number(places, 2 * std::mem::take(signals));
+    }
+}
