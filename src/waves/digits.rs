@@ -62,6 +62,12 @@ impl TapDigits {
         TapDigits { taps, order, arrived, counts: Vec::new(), decoder }
     }
 
+    /// Returns the number of taps if they arrive in physical order.
+    #[inline]
+    pub(super) fn in_order(&self) -> Option<usize> {
+        self.order.is_empty().then_some(self.arrived.len())
+    }
+
     /// Returns the taps, physical tap 0 first, or the decoder's code of each `group` of taps.
     pub fn bits(&mut self, value: &Thermometer, group: usize) -> Bits<'_> {
         let count = self.arrived.len();

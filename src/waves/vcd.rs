@@ -74,8 +74,12 @@ impl Sink for Vcd {
 
     fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
         let signal = &self.signals[id];
-        if signal.width > 0 {
-            self.text.vector(self.taps.bits(value, group).words, signal.tail);
+        if signal.width == 0 {
+            return;
+        }
+        match self.taps.in_order() {
+            Some(count) if group == 1 => self.text.taps(value, count, signal.tail),
+            _ => self.text.vector(self.taps.bits(value, group).words, signal.tail),
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use crate::kernel::Thermometer;
+
 use super::super::digits::{THREE_DIGITS, eight};
 
 /// Amount of text that is collected before it is written [bytes].
@@ -132,6 +134,20 @@ impl Text {
         self.len = place + tail.len();
     }
 
+    /// Appends a vector of `count` taps in order of arrival, the last one first, without leading zeros.
+    pub(super) fn taps(&mut self, taps: &Thermometer, count: usize, tail: Tail) {
+        let width = taps.high_runs(count).last().map_or(1, |run| run.end);
+        let (bytes, place) = (&mut self.bytes[..], self.len);
+        put(bytes, place, b"b");
+        let (place, end) = (place + 1, place + 1 + width);
+        bytes[place..end].fill(b'0');
+        for run in taps.high_runs(count) {
+            bytes[end - run.end..end - run.start].fill(b'1');
+        }
+        put(bytes, end, &(tail.line >> 8).to_le_bytes());
+        self.len = end + tail.len();
+    }
+
     /// Appends a vector of `words`, least significant first, without leading zeros.
     pub(super) fn vector(&mut self, words: &[u64], tail: Tail) {
         let (mut first, mut rest) = (0, words);
@@ -213,5 +229,18 @@ mod tests {
         }
         assert_eq!(text(|text| text.vector(&[0; 13], tail)), "b0 !\n");
         assert_eq!(text(|text| text.bit(1, Tail::new("a!\n"))), "1a!\n");
+    }
+
+    #[test]
+    fn taps_are_spelled_as_their_bits() {
+        let tail = Tail::new(" !\n");
+        let cases: [&[usize]; 6] = [&[], &[1], &[129], &[64, 128], &[3, 63, 64, 127], &[7, 8, 129]];
+        for (ranks, level) in cases.into_iter().flat_map(|ranks| [(ranks, false), (ranks, true)]) {
+            let taps = Thermometer::new(level, ranks.iter().copied());
+            let mut words = [0; 3];
+            taps.expand(130, &mut words);
+            let expected = text(|text| text.vector(&words, tail));
+            assert_eq!(text(|text| text.taps(&taps, 130, tail)), expected, "{ranks:?}");
+        }
     }
 }
