@@ -12,7 +12,7 @@ pub trait Slotted: SlotEstimator {
     fn params(p: &Params) -> &Self::Params;
     /// Its block.
     fn block(top: &TofTop) -> &Self;
-    /// Its block, to be stepped or set: counted as a change.
+    /// Its block, to be stepped or set: it no longer counts as resting.
     fn block_mut(top: &mut TofTop) -> &mut Self;
     /// Its input ports as they stand.
     fn ports(top: &TofTop) -> Self::In;
@@ -38,7 +38,7 @@ macro_rules! slotted {
 
             #[inline(always)]
             fn block_mut(top: &mut TofTop) -> &mut Self {
-                top.estimator_changes += 1;
+                (top.rest, top.estimator_changes) = (None, top.estimator_changes + 1);
                 &mut top.$module
             }
 
