@@ -12,6 +12,7 @@ pub mod pass;
 pub mod roms;
 mod round;
 mod schema;
+pub mod unrounded;
 mod weights;
 mod write;
 

@@ -11,9 +11,11 @@ use crate::error::{Error, Input, Result, line_and_column};
 
 mod number;
 mod renamed;
+mod schema;
 mod walk;
 
 pub use renamed::{RenamedKey, rename};
+pub use schema::schema_of;
 
 use number::number;
 use walk::{Walk, located, shown};
@@ -87,8 +89,7 @@ impl Checked {
     }
 
     fn check<T: JsonSchema>(&self, whole: bool) -> Result<()> {
-        let schema = schemars::schema_for!(T);
-        let (root, text) = (schema.as_value(), self.document.raw());
+        let (root, text) = (&*schema_of::<T>(), self.document.raw());
         let walk = Walk { root, source: &self.source, text, whole };
         Ok(walk.table(self.document.as_table(), root)?)
     }

@@ -1,5 +1,6 @@
 //! Network files: TOML texts with weights, number formats and provenance.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -12,6 +13,7 @@ use crate::firmware::depth_estimator::datapath::Datapath;
 
 use super::domain::Domain;
 use super::float::Float;
+use super::unrounded::Unrounded;
 use super::weights::Fixed;
 
 /// A network with the metadata of its file.
@@ -31,8 +33,8 @@ pub struct Network {
     pub datapath: Datapath,
     /// Fixed-point weights.
     pub fixed: Fixed,
-    /// Weights before rounding, if known.
-    pub float: Option<Float>,
+    /// Weights before rounding.
+    pub float: Unrounded,
 }
 
 /// Provenance of a network.
@@ -62,6 +64,9 @@ pub struct Accuracy {
     /// Mean error of the depth at each [mm].
     pub mean_mm: Option<Vec<f64>>,
 }
+
+/// Header of the last section of a file.
+pub(super) const FLOAT_SECTION: &str = "\n[float]\n";
 
 /// Name and file text of each built-in network.
 const BUILTIN: &[(&str, &str)] = &[
@@ -97,7 +102,10 @@ impl Network {
         if let Some(network) = parsed.get(name) {
             return Some(Ok(network.clone()));
         }
-        let network = Network::parse(text, name);
+        // Three quarters of the text are weights before rounding, which a run does not need.
+        let (integers, float) = text.split_once(FLOAT_SECTION).unwrap_or((text, ""));
+        let network = Network::parse(integers, name)
+            .map(|network| Network { float: Unrounded::BuiltIn(float), ..network });
         network.iter().for_each(|network| drop(parsed.insert(name, network.clone())));
         Some(network)
     }
@@ -131,7 +139,8 @@ impl Network {
 
     /// Returns the weights in double precision: those before rounding if known, otherwise the values of the integers.
     pub fn twin(&self) -> Float {
-        self.float.clone().unwrap_or_else(|| Float::from_fixed(&self.fixed, &self.datapath))
+        let from_fixed = || Float::from_fixed(&self.fixed, &self.datapath);
+        self.float.get().map_or_else(from_fixed, Cow::into_owned)
     }
 }
 

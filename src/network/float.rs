@@ -25,7 +25,7 @@ impl Float {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::network::Network;
+    use crate::network::{Network, unrounded::Unrounded};
 
     #[test]
     fn one_bin_and_one_neuron_by_hand() {
@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn without_float_weights_the_twin_has_the_integers_values() {
         let mut network = Network::builtin("ideal").unwrap().unwrap();
-        network.float = None;
+        network.float = Unrounded::Unknown;
         let (twin, fixed) = (network.twin(), &network.fixed);
         assert_eq!(twin.b2, f64::from(fixed.b2) / 131_072.0);
         assert_eq!(twin.w1[0][0], f64::from(fixed.w1[0][0]) / 8_388_608.0);

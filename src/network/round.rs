@@ -77,8 +77,12 @@ mod tests {
     fn the_shipped_networks_are_their_float_weights_rounded() {
         for name in Network::builtin_names() {
             let network = Network::builtin(name).unwrap().unwrap();
-            let rounded =
-                network.float.unwrap().round(name, &network.datapath, Overflow::Refuse).unwrap();
+            let rounded = network
+                .float
+                .get()
+                .unwrap()
+                .round(name, &network.datapath, Overflow::Refuse)
+                .unwrap();
             assert_eq!(rounded, Rounded { fixed: network.fixed, saturated: 0 });
         }
     }

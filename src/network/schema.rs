@@ -115,7 +115,7 @@ impl Network {
             accuracy: file.accuracy,
             datapath,
             fixed: file.integers.weights(),
-            float: file.float.map(Arrays::weights),
+            float: file.float.map(Arrays::weights).into(),
         })
     }
 }

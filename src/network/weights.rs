@@ -1,8 +1,11 @@
 //! Weights of a network, generic over the number type.
 
+use serde::Deserialize;
+
 /// Weights `w1[neuron][bin]` and `w2[neuron]` of a network, and its biases. The number of neurons is at most that of
 /// the firmware's ports.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Weights<W1, B1, W2, B2> {
     /// Weights of the hidden layer, applied to raw counts.
     pub w1: Vec<Vec<W1>>,

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::kernel::WordFormat;
 
-use super::file::Network;
+use super::file::{FLOAT_SECTION, Network};
 use super::schema::{SCALING, SCHEMA};
 use super::weights::Weights;
 
@@ -48,9 +48,10 @@ impl Network {
         let integer = |word: i32| word.to_string();
         let integers = self.fixed.map(integer, integer, integer, integer);
         text += &weights(&integers, INTEGERS_A_LINE);
-        if let Some(float) = &self.float {
+        if let Some(float) = self.float.get() {
             let exact = |weight: f64| format!("{weight:?}");
-            text += "\n# The weights before rounding.\n[float]\n";
+            text += "\n# The weights before rounding.";
+            text += FLOAT_SECTION;
             text += &weights(&float.map(exact, exact, exact, exact), FLOATS_A_LINE);
         }
         text

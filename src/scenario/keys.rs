@@ -4,11 +4,13 @@ use std::borrow::Cow;
 
 use serde_json::Value as Json;
 
+use crate::files::toml::schema_of;
+
 use super::model::Scenario;
 
 /// Returns the JSON Schema of a scenario.
 pub fn schema() -> Json {
-    schemars::schema_for!(Scenario).to_value()
+    Json::clone(&schema_of::<Scenario>())
 }
 
 /// Returns the path of each key, such as `target.distance_m`, with its schema, in the order of the schema. A list is one

@@ -1,5 +1,6 @@
 //! The record of its origin that every output carries.
 
+use std::cell::LazyCell;
 use std::path::Path;
 
 use clap::parser::ValueSource;
@@ -45,7 +46,22 @@ pub struct Record {
     pub command: Vec<String>,
 }
 
+/// A record that is made for the first output that has it: its hash goes over every parameter of the setup.
+pub type LazyRecord<'a> = LazyCell<Record, Box<dyn FnOnce() -> Record + 'a>>;
+
+/// Returns a record that is there already.
+impl From<Record> for LazyRecord<'_> {
+    fn from(record: Record) -> Self {
+        LazyCell::new(Box::new(|| record))
+    }
+}
+
 impl Record {
+    /// Records a command on a setup, for the first output that has the record.
+    pub fn lazy<'a>(setup: &'a Setup, command: &'a [String]) -> LazyRecord<'a> {
+        LazyCell::new(Box::new(|| Record::new(setup, command)))
+    }
+
     /// Records a command on a setup.
     pub fn new(setup: &Setup, command: &[String]) -> Self {
         Record {

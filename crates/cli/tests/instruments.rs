@@ -14,6 +14,7 @@ use tofsim::kernel::{Overflow, WordFormat};
 use tofsim::network::Network;
 use tofsim::network::file::Training;
 use tofsim::network::float::Float;
+use tofsim::network::unrounded::Unrounded;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::{Run, Stepping};
 
@@ -115,7 +116,7 @@ fn network_of(
         accuracy: None,
         datapath,
         fixed: float.round("random", &datapath, Overflow::Saturate).unwrap().fixed,
-        float: None,
+        float: Unrounded::Unknown,
     };
     std::fs::write(path, network.to_toml()).unwrap();
 }

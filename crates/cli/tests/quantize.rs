@@ -63,7 +63,8 @@ fn the_program_writes_a_network_that_runs_and_its_roms() {
     assert_eq!(report["files"].as_array().unwrap().len(), 6);
     let network = Network::load(Path::new(file)).unwrap();
     assert_eq!(network.training.chain, "ideal");
-    assert_eq!(network.float, Some(import::read(Path::new(MAT), 256).unwrap()));
+    let float = import::read(Path::new(MAT), 256).unwrap();
+    assert_eq!(network.float.get().as_deref(), Some(&float));
     let rom = fs::read_to_string(Path::new(roms).join("w1.mem")).unwrap();
     let word = format!("{:04x}", network.fixed.w1[0][9] as u16);
     assert!(rom.lines().nth(9).unwrap().ends_with(&word));

@@ -8,6 +8,7 @@ use toml_edit::{Table, TableLike};
 
 use crate::error::{Input, Result};
 
+use super::schema::schema_of;
 use super::walk::{resolve, shown};
 
 /// A key that was given by its former name.
@@ -26,9 +27,8 @@ pub struct RenamedKey {
 /// # Errors
 /// If a key is given by both of its names.
 pub fn rename<T: JsonSchema>(source: &str, table: &mut Table) -> Result<Vec<RenamedKey>> {
-    let schema = schemars::schema_for!(T);
-    let mut renamed = Vec::new();
-    below(source, table, schema.as_value(), schema.as_value(), "", &mut renamed)?;
+    let (schema, mut renamed) = (schema_of::<T>(), Vec::new());
+    below(source, table, &schema, &schema, "", &mut renamed)?;
     Ok(renamed)
 }
 

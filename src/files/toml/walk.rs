@@ -1,9 +1,9 @@
 //! Check of a TOML document against a JSON Schema.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use serde_json::{Map, Value as Json};
-use toml_edit::{Item, TableLike, Value};
+use toml_edit::{Array, Item, TableLike, Value};
 
 use crate::error::{Input, line_and_column, nearest};
 
@@ -72,14 +72,11 @@ impl<'a> Walk<'a> {
             _ if *resolved == Json::Bool(true) => true,
             ("object", Value::InlineTable(table)) => return self.table(table, resolved),
             ("array", Value::Array(values)) if has_length(values.len(), resolved) => {
-                let items = self.resolve(&resolved["items"]);
-                let each = |(k, value)| self.value(value, items).map_err(|fault| fault.below(k));
-                return values.iter().enumerate().try_for_each(each);
+                return self.list(values, self.resolve(&resolved["items"]));
             }
-            ("number" | "integer", Value::Integer(number)) => {
-                in_range(*number.value() as f64, resolved)
+            (_, Value::Integer(_) | Value::Float(_)) => {
+                Numbers::of(resolved).is_some_and(|numbers| numbers.contain(value))
             }
-            ("number", Value::Float(number)) => in_range(*number.value(), resolved),
             (_, Value::Boolean(_)) => may_be(resolved, "boolean"),
             (_, Value::String(word)) => match words(resolved) {
                 Some(words) => words.contains(&word.value().as_str()),
@@ -88,6 +85,14 @@ impl<'a> Walk<'a> {
             _ => false,
         };
         if holds { Ok(()) } else { Err(self.fault(shown_value(value), value.span(), schema)) }
+    }
+
+    /// Checks the values of a list against the schema of each.
+    fn list(&self, values: &Array, items: &'a Json) -> Checkup {
+        let numbers = Numbers::of(items);
+        let is_number = |value| numbers.as_ref().is_some_and(|numbers| numbers.contain(value));
+        let mut others = values.iter().enumerate().filter(|(_, value)| !is_number(value));
+        others.try_for_each(|(k, value)| self.value(value, items).map_err(|fault| fault.below(k)))
     }
 
     /// Creates an error for a value that does not match its schema.
@@ -163,9 +168,35 @@ fn words(schema: &Json) -> Option<Vec<&str>> {
     Some(alternatives.iter().filter_map(|a| a.as_str().or(a.get("const")?.as_str())).collect())
 }
 
-fn in_range(number: f64, schema: &Json) -> bool {
-    let bound = |name| schema.get(name).and_then(Json::as_f64);
-    number >= bound("minimum").unwrap_or(f64::MIN) && number <= bound("maximum").unwrap_or(f64::MAX)
+/// Numbers that a schema accepts.
+struct Numbers {
+    /// Whether they have to be whole.
+    whole: bool,
+    range: RangeInclusive<f64>,
+}
+
+impl Numbers {
+    /// Returns the numbers that a schema accepts, if it is one of numbers.
+    fn of(schema: &Json) -> Option<Self> {
+        let whole = match kind(schema) {
+            "integer" => true,
+            "number" => false,
+            _ => return None,
+        };
+        let bound = |name| schema.get(name).and_then(Json::as_f64);
+        let (least, most) = (bound("minimum"), bound("maximum"));
+        let range = least.unwrap_or(f64::MIN)..=most.unwrap_or(f64::MAX);
+        Some(Numbers { whole, range })
+    }
+
+    /// Returns whether `value` is one of them.
+    fn contain(&self, value: &Value) -> bool {
+        match value {
+            Value::Integer(number) => self.range.contains(&(*number.value() as f64)),
+            Value::Float(number) => !self.whole && self.range.contains(number.value()),
+            _ => false,
+        }
+    }
 }
 
 /// Returns whether the schema accepts a list of this length.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::network::unrounded::Unrounded;
 
 /// Returns the error message for the built-in file with a piece of its text replaced.
 fn fault(from: &str, to: &str) -> String {
@@ -100,5 +101,5 @@ fn values_of_the_wrong_kind_are_refused() {
 fn the_float_weights_may_be_absent() {
     let text = Network::builtin_text("uniform").unwrap();
     let (integers, _) = text.split_once("[float]").unwrap();
-    assert_eq!(Network::parse(integers, "a.toml").unwrap().float, None);
+    assert_eq!(Network::parse(integers, "a.toml").unwrap().float, Unrounded::Unknown);
 }

@@ -10,7 +10,7 @@ use tofsim::files::output::{write_bytes, write_file};
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 
-use crate::record::Record;
+use crate::record::LazyRecord;
 use crate::verbs::terminal::Console;
 
 use super::causes::{self, CAUSES, Causes};
@@ -36,7 +36,6 @@ fn is_same(a: &Path, b: &Path) -> bool {
 /// Files under construction, and what they are made from.
 pub struct RunFiles<'a> {
     folder: Option<&'a Path>,
-    record: Record,
     events: Option<Events>,
     causes: Causes,
     /// The frame that is shown: the first, or the first lit one of pairs.
@@ -51,7 +50,7 @@ impl<'a> RunFiles<'a> {
     pub fn new(
         folder: Option<&'a Path>,
         events: Option<&Path>,
-        record: &Record,
+        record: &LazyRecord,
         setup: &Setup,
     ) -> Result<Self> {
         if let (Some(folder), Some(events)) = (folder, events)
@@ -64,8 +63,7 @@ impl<'a> RunFiles<'a> {
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
         let causes = std::array::from_fn(|_| vec![0; setup.params.histogram.bins]);
-        let record = record.clone();
-        Ok(RunFiles { folder, record, events, causes, shown, tdc: Vec::new(), wants_tdc })
+        Ok(RunFiles { folder, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
 
     /// Returns whether [`RunFiles::shot`] needs the shots.
@@ -98,6 +96,7 @@ impl<'a> RunFiles<'a> {
     /// summary. What an older summary lists and this one does not is named.
     pub fn finish(
         &mut self,
+        record: &LazyRecord,
         setup: &Setup,
         log: &mut FrameLog,
         summary: &Summary,
@@ -131,10 +130,10 @@ impl<'a> RunFiles<'a> {
         };
         let svg =
             causes::svg(&title, &self.causes, &setup.scenario.tdc, setup.true_depth_m(), depth_m);
-        write_file(&folder.join(NAMES[0]), |file| summary.write(log, file))?;
-        let csv = |text: String| self.record.comment_line() + &text;
+        write_file(&folder.join(NAMES[0]), |file| summary.write(record, log, file))?;
+        let csv = |text: String| record.comment_line() + &text;
         write_bytes(&folder.join(NAMES[1]), csv(histogram_csv(&frame.histogram)))?;
-        write_bytes(&folder.join(NAMES[2]), self.record.in_svg(&svg?))?;
+        write_bytes(&folder.join(NAMES[2]), record.in_svg(&svg?))?;
         if log.pairs.is_some() {
             let difference = pair_table::csv(&log.rows[0], &log.rows[1]);
             write_bytes(&folder.join(NAMES[3]), csv(difference))?;

@@ -15,11 +15,18 @@ use super::pairs::{PairLog, PairStatistics};
 use super::statistics::{EstimatorStatistics, OpinionStatistics};
 
 /// The object of `run --json` and `summary.json`, but for the frames.
-#[derive(Clone, Debug, Serialize)]
-pub struct Summary {
+#[derive(Serialize)]
+struct Object<'a> {
     schema: &'static str,
     #[serde(flatten)]
-    record: Record,
+    record: &'a Record,
+    #[serde(flatten)]
+    summary: &'a Summary,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
     /// Simulation fidelity.
     fidelity: &'static str,
     /// File of the waveform.
@@ -56,19 +63,16 @@ pub struct TdcSummary {
 }
 
 impl Summary {
-    /// Summarises a run of `setup` at that fidelity, with a waveform in the file `waves`; its record, and
-    /// what it lies outside of.
+    /// Summarises a run of `setup` at that fidelity, with a waveform in the file `waves`; what it lies outside of.
     pub fn new(
         setup: &Setup,
         fidelity: &'static str,
         waves: Option<String>,
         log: &FrameLog,
         shots: &[Shot],
-        (record, notes): (&Record, &[Note]),
+        notes: &[Note],
     ) -> Self {
         Summary {
-            schema: "tofsim.run/1",
-            record: record.clone(),
             fidelity,
             waves,
             notes: notes.to_vec(),
@@ -86,12 +90,18 @@ impl Summary {
         self.files = Some(names);
     }
 
-    /// Writes the run as one line of JSON, with the frames in it.
+    /// Writes the run as one line of JSON, with its record, and the frames in it.
     ///
     /// # Errors
     /// When the frames cannot be read back, or nothing be written to `out`.
-    pub fn write(&self, log: &mut FrameLog, out: &mut impl Write) -> io::Result<()> {
-        let head = serde_json::to_string(self)?;
+    pub fn write(
+        &self,
+        record: &Record,
+        log: &mut FrameLog,
+        out: &mut impl Write,
+    ) -> io::Result<()> {
+        let object = Object { schema: "tofsim.run/1", record, summary: self };
+        let head = serde_json::to_string(&object)?;
         write!(out, "{},\"frames\":[", &head[..head.len() - 1])?;
         log.copy_json(out)?;
         writeln!(out, "]}}")

@@ -8,7 +8,7 @@ use tofsim::Note;
 use tofsim::error::Result;
 use tofsim::sim::setup::Setup;
 
-use crate::record::Record;
+use crate::record::{LazyRecord, Record};
 use crate::text::table::plain;
 use crate::verbs::terminal::{Console, print, print_json};
 
@@ -76,15 +76,15 @@ pub struct Report<'a, F> {
     /// The findings.
     pub findings: F,
     /// Scenario, version and command, if they decide what is found.
-    pub record: Option<Record>,
+    pub record: Option<LazyRecord<'a>>,
     /// Notes on the validity of the findings.
     pub notes: &'a [Note],
 }
 
 impl<'a, F: Findings> Report<'a, F> {
     /// Reports what the command found of a setup.
-    pub fn new(findings: F, setup: &Setup, notes: &'a [Note], console: &Console) -> Self {
-        Report { findings, record: Some(Record::new(setup, &console.command)), notes }
+    pub fn new(findings: F, setup: &'a Setup, notes: &'a [Note], console: &'a Console) -> Self {
+        Report { findings, record: Some(Record::lazy(setup, &console.command)), notes }
     }
 
     /// Reports what was found of something else than a scenario.
@@ -104,16 +104,15 @@ impl<'a, F: Findings> Report<'a, F> {
     /// # Errors
     /// When a picture cannot be drawn, or something cannot be written.
     pub fn deliver(&self, folder: Option<&Path>, as_json: bool, console: &Console) -> Result<()> {
-        let object = self.json();
         if let (Some(folder), Some(record)) = (folder, &self.record) {
             let line = record.comment_line();
             let sheets = self.findings.sheets().into_iter();
             let sheets = sheets.map(|(name, csv)| (name, line.clone() + &csv));
             let plots = self.findings.plots()?.into_iter();
             let plots = plots.map(|(name, svg)| (name, record.in_svg(&svg)));
-            let whole = F::FILE.map(|name| (name.to_owned(), format!("{object:#}\n")));
+            let whole = F::FILE.map(|name| (name.to_owned(), format!("{:#}\n", self.json())));
             console.write_into(folder, sheets.chain(plots).chain(whole))?;
         }
-        if as_json { print_json(&object) } else { console.report(&self.findings.text()) }
+        if as_json { print_json(&self.json()) } else { console.report(&self.findings.text()) }
     }
 }

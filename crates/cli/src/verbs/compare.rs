@@ -177,7 +177,7 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
             let b = open(b)?;
             let frames = frames.or((!b.is_capture()).then_some(1));
             super::frames::check("--frames", frames.unwrap_or(1), &setup)?;
-            record = Some(Record::new(&setup, &console.command));
+            record = Some(Record::new(&setup, &console.command).into());
             (Source::simulation(setup, frames), b)
         }
         (None, [a, b]) => (open(a)?, open(b)?),

@@ -10,6 +10,7 @@ use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::firmware::histogram_builder::Params;
 use tofsim::kernel::Overflow;
 use tofsim::network::file::Training;
+use tofsim::network::unrounded::Unrounded;
 use tofsim::network::{Network, mem};
 use tofsim::scenario;
 use tofsim::sim::domain;
@@ -131,7 +132,7 @@ fn quantize(args: &Args, path: &Path, console: &Console) -> Result<()> {
         accuracy: None,
         datapath,
         fixed: rounded.fixed,
-        float: Some(float),
+        float: Unrounded::Known(float),
     };
     let files = args.write(&network)?;
     files.iter().for_each(|path| console.wrote(path));

@@ -111,7 +111,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let plan = waves.map(|format| WavePlan::new(args, format, &setup, frames)).transpose()?;
     let home = plan.as_ref().and_then(|plan| plan.path.parent()).or(args.output.as_deref());
     let _held = home.map(FolderLock::take).transpose()?;
-    let record = Record::new(&setup, &console.command);
+    let record = Record::lazy(&setup, &console.command);
     let mut files = RunFiles::new(args.output.as_deref(), args.events.as_deref(), &record, &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(&record, &setup)).transpose()?;
     use_threads(args.threads)?;
@@ -139,11 +139,11 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
     let written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;
     let waves = plan.map(|plan| plan.path.display().to_string());
-    let about = (&record, &notes[..]);
-    let summary = Summary::new(&setup, args.fidelity.name(), waves, &log, files.tdc(), about);
-    files.finish(&setup, &mut log, &summary, written)?.report(console);
+    let fidelity = args.fidelity.name();
+    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), &notes);
+    files.finish(&record, &setup, &mut log, &summary, written)?.report(console);
     if args.json {
-        return print_with(|out| summary.write(&mut log, out));
+        return print_with(|out| summary.write(&record, &mut log, out));
     }
     let cycles = (!is_drawn).then_some(outcome.cycles);
     console.report(&table::run(&setup, &log, &summary, cycles, wall))

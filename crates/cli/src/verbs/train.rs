@@ -76,7 +76,7 @@ pub fn run(given: &Args, console: &Console) -> Result<()> {
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, console)?;
     let line = &recipe.weighting;
     let findings = TrainingFindings { rows: &rows, line, network: &network };
-    let report = Report { findings, record: Some(record), notes: &notes };
+    let report = Report { findings, record: Some(record.into()), notes: &notes };
     report.deliver(None, args.json, console)
 }
 

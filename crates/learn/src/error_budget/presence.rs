@@ -72,7 +72,7 @@ pub fn present(effect: Effect, setup: &Setup, kind: EstimatorKind) -> EffectStat
         }
         Effect::Drift => unless(!setup.has_drifted(), "the TDC was calibrated as it is now"),
         Effect::FixedPoint => match kind {
-            EstimatorKind::Network if setup.network.float.is_none() => {
+            EstimatorKind::Network if !setup.network.float.is_known() => {
                 left_out("the network's file has no weights before rounding")
             }
             EstimatorKind::Network

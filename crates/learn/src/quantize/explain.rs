@@ -174,6 +174,8 @@ fn budget(
 
 #[cfg(test)]
 mod tests {
+    use tofsim::network::unrounded::Unrounded;
+
     use super::*;
 
     fn peak(bin: usize, height: u32) -> Vec<u32> {
@@ -205,7 +207,7 @@ mod tests {
     #[test]
     fn weights_that_are_words_part_at_the_activation_only() {
         let mut network = Network::builtin("uniform").unwrap().unwrap();
-        network.float = None;
+        network.float = Unrounded::Unknown;
         let explained = explain(&network, &peak(100, 2000));
         assert!(explained.neurons.iter().all(|neuron| neuron.l1_in.difference_lsb == 0.0));
         assert_eq!(explained.first_parting.map(|(layer, _)| layer), Some("l1_out"));
@@ -216,7 +218,7 @@ mod tests {
     #[test]
     fn a_sum_past_the_table_is_counted_and_costs_what_the_address_loses() {
         let mut network = Network::builtin("uniform").unwrap().unwrap();
-        network.float = None;
+        network.float = Unrounded::Unknown;
         network.fixed.w1[2].fill(network.datapath.w1.max() as i32);
         network.fixed.b1[2] = network.datapath.b1.max() as i32;
         let explained = explain(&network, &peak(100, 30_000));

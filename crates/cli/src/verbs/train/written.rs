@@ -8,6 +8,7 @@ use tofsim::kernel::Overflow;
 use tofsim::network::Fixed;
 use tofsim::network::file::{Accuracy, Training};
 use tofsim::network::float::Float;
+use tofsim::network::unrounded::Unrounded;
 use tofsim::network::{Domain, Network};
 use tofsim_learn::quantize::Circuit;
 use tofsim_learn::training::accuracy::DistanceErrors;
@@ -103,6 +104,6 @@ fn network(
         training,
         domain: None,
         accuracy: Some(accuracy),
-        float: Some(float),
+        float: Unrounded::Known(float),
     }
 }
