@@ -75,6 +75,27 @@ fn seeds_cycles_and_scenarios_decide_the_lines_and_the_same_ones_give_the_same()
 }
 
 #[test]
+fn a_configuration_has_a_folder_with_its_bench() {
+    let folder = common::empty();
+    vectors(folder.path(), &["tdc.leading", "--cycles", "10"]);
+    let bench = fs::read_to_string(folder.path().join("tdc.leading/tb_tdc.v")).unwrap();
+    assert!(bench.contains(".Decoder(1)"), "{bench}");
+    let refused = |args: &[&str]| common::refused(folder.path(), &[&["vectors"], args].concat());
+    let unknown = refused(&["tdc.middle", "-o", "."]);
+    assert!(unknown.contains("expected one of default, "), "{unknown}");
+    let twice = refused(&["tdc.leading", "--scenario", "near", "-o", "."]);
+    assert!(twice.contains("expected no configuration"), "{twice}");
+}
+
+#[test]
+fn outputs_past_the_last_neuron_are_checked_in_a_design_that_has_them() {
+    let folder = common::empty();
+    vectors(folder.path(), &["tansig", "--rtl", OWN, "--cycles", "10"]);
+    let bench = fs::read_to_string(folder.path().join("tansig/tb_tansig.v")).unwrap();
+    assert!(bench.contains("wire past = |{l1_out_8, "), "{bench}");
+}
+
+#[test]
 fn a_bench_runs_by_hand_as_the_documents_say() {
     let folder = common::empty();
     vectors(folder.path(), &["forward2", "--cycles", "500"]);

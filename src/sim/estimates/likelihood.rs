@@ -23,7 +23,7 @@ use super::Clockless;
 use histogram::Shots;
 use scan::scan;
 use step::step;
-use verdict::verdict;
+use verdict::{Judged, verdict};
 
 pub use histogram::{Ambient, Block};
 pub use instrument::Instrument;
@@ -48,6 +48,11 @@ pub struct Trace<N> {
     pub other: Best<N>,
     /// The result.
     pub found: Found<N>,
+    /// The solver's flags: log S is not known to a quarter, to a fifth; nor mu to the pulse's deviation; the arrival is
+    /// next to the begin of the window, to its end; the last step was long, to the left, to the right.
+    pub flags: [bool; 7],
+    /// Shots that wait at the first bin of the fit, if it has one.
+    pub waiting: Option<N>,
 }
 
 impl Clockless for LikelihoodEstimator {
@@ -73,8 +78,9 @@ pub fn trace<I: Instrument>(p: &I, histogram: &[u32]) -> Trace<I::Number> {
         (point, information)
     });
     let other = scan(p, &shots, point.ambient, p.window(point.arrival));
-    let found = verdict(p, &shots, [&start, &other], &point, &information);
-    Trace { ambient, start, begin, steps, other, found }
+    let Judged { found, flags, waiting } =
+        verdict(p, &shots, [&start, &other], &point, &information);
+    Trace { ambient, start, begin, steps, other, found, flags, waiting }
 }
 
 #[cfg(test)]

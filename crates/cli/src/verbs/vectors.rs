@@ -13,6 +13,7 @@ use tofsim::sim::setup::Setup;
 use tofsim_rtl::golden::bench::{Bench, Language};
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
 use tofsim_rtl::verify::process::Limits;
+use tofsim_rtl::verify::task::DEFAULT;
 use tofsim_rtl::verify::{Dut, RtlMap, Simulator, Task};
 
 use crate::choice::{self, seed, words};
@@ -31,7 +32,9 @@ use super::terminal::Console;
 ///   cd DIR/BLOCK && iverilog -g2005 -o tb tb_BLOCK.v YOUR_FILES.v && vvp tb
 ///
 /// With --rtl and --map the bench is for your module and uses its names; BLOCK_adapter.v implements the map. Icarus
-/// reads the ports.
+/// reads the ports. With --rtl alone the bench also checks that outputs past the last neuron stay 0.
+///
+/// A configuration, such as tdc.leading, has a folder of its name.
 ///
 /// With --language vhdl it is tb_BLOCK.vhd, in VHDL-2008 for std_logic and std_logic_vector ports. It was run in
 /// GHDL; it uses no extensions of GHDL, but was not tried in NVC, Questa or xsim:
@@ -41,7 +44,7 @@ use super::terminal::Console;
 ///   ghdl -m --std=08 tb_BLOCK && ghdl -r --std=08 tb_BLOCK
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Module of the firmware, or all
+    /// Module of the firmware, one of its configurations, e.g. tdc.leading, or all modules (`all`)
     block: String,
     /// Directory to write to
     #[arg(short, long, value_name = "DIR")]
@@ -97,12 +100,9 @@ impl From {
 
 /// Runs the verb.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
-    let blocks: Vec<_> = match args.block.as_str() {
-        "all" => BLOCKS.iter().collect(),
-        name => vec![find(name, "BLOCK")?],
-    };
     let setting = args.from.setting()?;
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
+    let tasks = tasks(&args.block, &setting, map.as_ref())?;
     let rtl = if args.design.is_ours() { None } else { Some(args.design.read(console)?) };
     let limits = Limits::new(Duration::from_secs(300));
     let dut = rtl.as_ref().map(|rtl| Dut {
@@ -114,33 +114,69 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let _held = FolderLock::take(&args.output)?;
     let stage = StagedFolder::new(&args.output)?;
     let scratch = ScratchFolder::new()?;
-    for spec in blocks {
-        let task = Task::new(spec, &setting, map.as_ref());
+    for task in tasks {
+        let spec = task.spec;
         let vectors = (spec.record)(spec, &task.setting)?;
-        let folder = stage.path().join(spec.name);
+        let folder = stage.path().join(&task.name);
         let mut bench = Bench::new(&vectors);
         bench.language = args.language;
-        bench.about = json!(record(&setting, &console.command, spec));
+        bench.about = json!(record(&setting, &console.command, &task.name));
         if let Some(dut) = &dut {
-            let open = dut.fit(&mut bench, &task, &scratch.path().join(spec.name), &folder)?;
+            let open = dut.fit(&mut bench, &task, &scratch.path().join(&task.name), &folder)?;
             let open = open.iter().map(|input| open_input(spec.name, input));
             console.print_notes(&open.collect::<Vec<_>>())?;
         }
         bench.write(&folder)?;
-        console.detail(format_args!("{}: {} cycles", spec.name, vectors.stimulus.rows()));
+        console.detail(format_args!("{}: {} cycles", task.name, vectors.stimulus.rows()));
     }
     stage.commit()?.iter().for_each(|path| console.wrote(path));
     Ok(())
 }
 
+/// The blocks as the scenario has them, or one in a configuration.
+fn tasks(block: &str, setting: &Setting, map: Option<&RtlMap>) -> Result<Vec<Task>> {
+    if block == "all" {
+        return Ok(BLOCKS.iter().map(|spec| Task::new(spec, setting, map)).collect());
+    }
+    let (spec, configuration) = configured(block, setting, "BLOCK")?;
+    Task::every(spec, Some(configuration.unwrap_or(DEFAULT)), setting, map)
+}
+
 /// Returns the record of a block's vectors.
-fn record(setting: &Setting, command: &[String], spec: &Spec) -> Record {
+fn record(setting: &Setting, command: &[String], name: &str) -> Record {
     let mut record = Record { seed: setting.seed, ..Record::new(&setting.setup, command) };
     // Of all blocks, this one is enough.
     if let Some(block) = record.command.last_mut() {
-        spec.name.clone_into(block);
+        name.clone_into(block);
     }
     record
+}
+
+/// The block of a name, and one of its configurations where the name goes on: `tdc.leading`.
+///
+/// # Errors
+/// When there is none, or the setting is a scenario's, which says what the block is; the error names `source`.
+pub fn configured<'a>(
+    name: &'a str,
+    setting: &Setting,
+    source: &str,
+) -> Result<(&'static Spec, Option<&'a str>)> {
+    let (block, configuration) =
+        name.split_once('.').map_or((name, None), |(block, rest)| (block, Some(rest)));
+    let spec = find(block, source)?;
+    let Some(configuration) = configuration else { return Ok((spec, None)) };
+    let others = spec.configurations.iter().map(|other| other.name);
+    let known: Vec<_> = [DEFAULT].into_iter().chain(others).collect();
+    if !known.contains(&configuration) {
+        let expected =
+            format!("no such configuration of {block}; expected one of {}", known.join(", "));
+        return Err(Input::new(source, expected).value(configuration).into());
+    }
+    if setting.as_configured && configuration != DEFAULT {
+        let expected = "expected no configuration: a scenario or a key says what the block is";
+        return Err(Input::new(source, expected).value(name).into());
+    }
+    Ok((spec, Some(configuration)))
 }
 
 /// The block called `name`.

@@ -13,7 +13,7 @@ use tofsim::files::staged::ScratchFolder;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
-use tofsim_rtl::verify::task::{DEFAULT, run_all};
+use tofsim_rtl::verify::task::run_all;
 use tofsim_rtl::verify::{
     BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, Verdict, strays,
 };
@@ -26,7 +26,7 @@ use crate::text::wrap::message;
 
 use super::design::{Design, present};
 use super::terminal::{Console, stop_signal};
-use super::vectors::{From, find};
+use super::vectors::{From, configured, find};
 
 /// Run Verilog or VHDL against the golden vectors
 ///
@@ -208,16 +208,13 @@ fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, console: &Console) -> Res
     let chosen: Vec<_> = match (args.block.as_slice(), args.top) {
         ([], true) => Vec::new(),
         ([], false) => every(map, rtl, console)?.into_iter().map(all).collect(),
-        (names, _) => names.iter().map(|name| named(name)).collect::<Result<_>>()?,
+        (names, _) => {
+            let named = names.iter().map(|name| configured(name, &setting, "--block"));
+            named.collect::<Result<_>>()?
+        }
     };
     let mut tasks = Vec::new();
     for (spec, configuration) in chosen {
-        if let Some(name) = configuration.filter(|&name| setting.as_configured && name != DEFAULT) {
-            let expected = "expected no configuration: a scenario or a key says what the block is";
-            return Err(Input::new("--block", expected)
-                .value(format!("{}.{name}", spec.name))
-                .into());
-        }
         tasks.extend(Task::every(spec, configuration, &setting, map)?);
     }
     if args.top {
@@ -226,21 +223,6 @@ fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, console: &Console) -> Res
         tasks.push(Task { name: format!("tof_top.{}", setting.setup.name), ..task });
     }
     Ok(tasks)
-}
-
-/// The block of a name, and one of its configurations where the name goes on: `tdc.leading`.
-fn named(name: &str) -> Result<(&'static Spec, Option<&str>)> {
-    let (block, configuration) =
-        name.split_once('.').map_or((name, None), |(block, rest)| (block, Some(rest)));
-    let spec = find(block, "--block")?;
-    let others = spec.configurations.iter().map(|other| other.name);
-    let known: Vec<_> = [DEFAULT].into_iter().chain(others).collect();
-    if configuration.is_some_and(|name| !known.contains(&name)) {
-        let expected =
-            format!("no such configuration of {block}; expected one of {}", known.join(", "));
-        return Err(Input::new("--block", expected).value(name).into());
-    }
-    Ok((spec, configuration))
 }
 
 /// All blocks that the design has, or the map names.

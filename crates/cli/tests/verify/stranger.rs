@@ -85,8 +85,8 @@ fn a_fault_in_each_of_its_modules_is_found() {
 #[test]
 fn what_its_map_and_options_are_for_is_said_without_them() {
     let tree = tree("map.toml", "", "");
-    let refused =
-        |args: &[&str]| common::refused(tree.path(), &[&["verify", "--rtl", "rtl"], args].concat());
+    let few = ["verify", "--rtl", "rtl", "--cycles", "100"];
+    let refused = |args: &[&str]| common::refused(tree.path(), &[&few, args].concat());
     let error = refused(&["--map", "map.toml"]);
     assert!(error.contains("widths.svh") && error.contains("-I DIR"), "{error}");
     let error = refused(&["-I", "include"]);

@@ -49,7 +49,8 @@ fn faults_that_only_another_configuration_shows_are_found() {
 
     let started = "algo_start && Centroid)";
     let folder = all("tof_top.v", started, "algo_start || Centroid)");
-    let list = verdicts(folder.path(), &["--block", "tof_top", "--cycles", "2000"]);
+    let both = ["--block", "tof_top.default", "--block", "tof_top.centroid", "--cycles", "2000"];
+    let list = verdicts(folder.path(), &both);
     assert_eq!(of(&list, "tof_top"), "pass");
     assert_eq!(of(&list, "tof_top.centroid"), "differs");
 }

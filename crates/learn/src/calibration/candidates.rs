@@ -8,7 +8,7 @@ use crate::estimation::acquisition::Acquisition;
 
 use super::Sightings;
 use super::goodness::Goodness;
-use super::samples::{Sampled, sampled, shown};
+use super::samples::{self, Sampled, sampled, shown};
 use super::scoring::climb;
 use super::shape::{Formula, Shape, Width};
 
@@ -74,6 +74,11 @@ impl Calibration {
         wanted: Option<Kind>,
         step_ps: f64,
     ) -> Result<Self> {
+        let sampling = samples::check(acquisition);
+        let can_sample = sampling.is_ok();
+        if wanted == Some(Kind::Samples) {
+            sampling?;
+        }
         let mut sightings = Sightings::new(acquisition, histograms)?;
         let assumed = acquisition.pulse;
         let mut candidates = vec![Candidate {
@@ -102,7 +107,6 @@ impl Calibration {
         let gain = 2.0 * (tail.log_likelihood - gaussian.log_likelihood);
         let formula = if gain > TAIL_GAIN { 2 } else { 1 };
         let is_doubtful = candidates[formula].goodness.chance < DOUBTFUL;
-        let can_sample = acquisition.free_running.is_none() && acquisition.jitter_ps == 0.0;
         let samples =
             wanted == Some(Kind::Samples) || (wanted.is_none() && is_doubtful && can_sample);
         if samples {

@@ -58,17 +58,11 @@ struct Seen {
     other: f64,
 }
 
-/// The density that histograms tell of, from a pulse that is near it; the sightings follow.
+/// Checks that a pulse can be measured under the conditions of an acquisition.
 ///
 /// # Errors
-/// When shots are not armed at the laser edge or clocks jitter, the step makes too few or too many samples, or the
-/// histograms leave no density.
-pub fn sampled(
-    acquisition: &Acquisition,
-    sightings: &mut Sightings,
-    near: &Pulse,
-    step_ps: f64,
-) -> Result<Sampled> {
+/// When shots are not armed at the laser edge, or clocks jitter.
+pub fn check(acquisition: &Acquisition) -> Result<()> {
     if acquisition.free_running.is_some() {
         let expected = "expected 0 for a measured pulse: shots that are armed at the laser edge";
         return Err(Input::new("scenario", expected).field("firmware.mode").value(1).into());
@@ -77,6 +71,19 @@ pub fn sampled(
         let expected = "expected 0 for a measured pulse: times that no jitter blurs";
         return Err(Input::new("scenario", expected).field("pll.jitter_rms_ps").into());
     }
+    Ok(())
+}
+
+/// The density that histograms tell of, from a pulse that is near it; the sightings follow.
+///
+/// # Errors
+/// When the step makes too few or too many samples, or the histograms leave no density.
+pub fn sampled(
+    acquisition: &Acquisition,
+    sightings: &mut Sightings,
+    near: &Pulse,
+    step_ps: f64,
+) -> Result<Sampled> {
     let sigma_ps = near.sigma_ps();
     let [begin_ps, end_ps] = near.ends_ps();
     let first_ps = begin_ps - MARGIN * sigma_ps;

@@ -170,8 +170,8 @@ impl Dut<'_> {
             let expected = "expected Verilog; for VHDL there is --language vhdl, without a map";
             return Err(fault(expected.to_owned()).into());
         }
+        bench.past = candidate.past;
         if let Some(map) = &candidate.map {
-            bench.past = candidate.past;
             create_directory(folder)?;
             map.apply(bench, task.spec, &candidate.found, folder)?;
         }

@@ -94,7 +94,9 @@ impl Simulator {
         let texts: Result<String> = bench.iter().map(|file| read_text(file)).collect();
         let mut job = Job::new(folder, top, &texts?, rtl, limits)?;
         job.first.extend(registers.then(|| "-DREGISTERS".into()));
-        job.first.extend(bench.iter().map(OsString::from));
+        // By a path without the folder's name, ccache knows the bench's program again.
+        let inside = |file: &PathBuf| file.strip_prefix(folder).unwrap_or(file).into();
+        job.first.extend(bench.iter().map(inside));
         self.make(&job, action)?;
         Ok(Compiled { simulator: self, folder: folder.to_owned(), program })
     }

@@ -63,6 +63,17 @@ impl<N: Number> Found<N> {
     }
 }
 
+/// The result of an estimation, and what its status depends on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Judged<N> {
+    /// The result.
+    pub found: Found<N>,
+    /// Limits that are exceeded: the solver's flags.
+    pub flags: [bool; 7],
+    /// Shots that wait at the first bin of the fit, if it has one.
+    pub waiting: Option<N>,
+}
+
 /// Computes the result of an estimation.
 pub fn verdict<I: Instrument>(
     p: &I,
@@ -70,7 +81,7 @@ pub fn verdict<I: Instrument>(
     [start, other]: [&Best<I::Number>; 2],
     last: &Point<I::Number>,
     information: &Information<I::Number>,
-) -> Found<I::Number> {
+) -> Judged<I::Number> {
     let Information { a11, a22, determinant, exponent, cut, move_by } = *information;
     let (whole, score, scales) = (I::Number::whole, score::<I::Number>, p.scales());
     let (word, count_bits) = (p.words().word_bits(), p.words().histogram.count_bits);
@@ -90,30 +101,38 @@ pub fn verdict<I: Instrument>(
     });
     let chi_square = terms.iter().map(|(terms, _)| terms.chi_square(count_bits));
     let first = p.window(last.arrival).find(|&bin| p.has(bin));
-    let used_up = first.is_some_and(|bin| shots.waiting(bin) < whole(LEAST_WAITING as i64));
+    let waiting = first.map(|bin| shots.waiting(bin));
     let margin = scales.sigma.floored(-3);
     // Largest variance of log S: a 16th unless the echo is certain, and with a score that is not sure, a 25th.
-    let unsure =
-        variance > I::Number::constant(40, 1024.0 / 25.0) && start.score < score(SURE_SCORE, 100.0);
-    let no_echo = unsure
-        || variance > whole(64) && start.score < score(CERTAIN_SCORE, 10_000.0)
+    let flags = [
+        variance > whole(64),
+        variance > I::Number::constant(40, 1024.0 / 25.0),
+        sigma > scales.sigma.floored(-4),
+        last.arrival < margin,
+        scales.end - last.arrival < margin,
+        -move_by > sigma + sigma,
+        move_by > sigma + sigma,
+    ];
+    let [faint, unsure, wide, at_begin, at_end, to_left, to_right] = flags;
+    let no_echo = unsure && start.score < score(SURE_SCORE, 100.0)
+        || faint && start.score < score(CERTAIN_SCORE, 10_000.0)
         || start.score < score(LEAST_SCORE, 25.0)
-        || sigma > scales.sigma.floored(-4);
-    let cut_off = last.arrival < margin || scales.end - last.arrival < margin;
+        || wide;
     let reasons = [
         (no_echo, Status::NoEcho),
-        (cut_off, Status::CutOff),
-        (used_up, Status::UsedUp),
+        (at_begin || at_end, Status::CutOff),
+        (waiting.is_some_and(|shots| shots < whole(LEAST_WAITING as i64)), Status::UsedUp),
         (other.score > score(ANOTHER_SCORE, 36.0), Status::Another),
-        (cut > 0 || move_by.abs() > sigma + sigma, Status::NotSettled),
+        (cut > 0 || to_left || to_right, Status::NotSettled),
         (far, Status::NoFit),
     ];
-    Found {
+    let found = Found {
         depth: to_depth(last.arrival) - scales.delay,
         sigma: to_depth(sigma),
         status: StatusSet::of(&reasons),
         chi_square: chi_square.fold(whole(0), |sum, term| sum + term),
-    }
+    };
+    Judged { found, flags, waiting }
 }
 
 /// A score: its word, or 64 log2 of the squared deviations that it stands for.
