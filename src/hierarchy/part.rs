@@ -15,8 +15,10 @@ pub struct Part {
     /// Number of ids to skip at the first id of a module that has none in the subset; the largest number where
     /// modules share a first id.
     unwanted: Box<[usize; IDS]>,
-    /// The same while the estimators stand still: they change only when the top counts a change.
+    /// The same while the estimators stand still.
     unwanted_if_still: Box<[usize; IDS]>,
+    /// Whether the top counts the changes of its estimators.
+    is_counted: bool,
     /// RAM words in the subset, sorted and unique. The RAM may be smaller.
     words: Vec<usize>,
     /// Whether the next edge of `clk_sys` may write a RAM word.
@@ -38,7 +40,14 @@ impl Part {
         };
         TofTop::default().visit(None, &mut unwanted);
         let Unwanted { counts: unwanted, if_still: unwanted_if_still, .. } = unwanted;
-        Part { wanted, unwanted, unwanted_if_still, words, writes: true, kept: None }
+        let (is_counted, writes, kept) = (false, true, None);
+        Part { wanted, unwanted, unwanted_if_still, is_counted, words, writes, kept }
+    }
+
+    /// Compares an estimator only if the top has counted a change: for a top in which only its own edges change
+    /// blocks.
+    pub fn of_whole_edges(self) -> Self {
+        Part { is_counted: true, ..self }
     }
 
     /// Reports every signal of the design as if it had changed.
@@ -57,7 +66,7 @@ impl Part {
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
         let between = kept.clocks.clk_sys;
-        let still = kept.estimator_changes == top.estimator_changes;
+        let still = self.is_counted && kept.estimator_changes == top.estimator_changes;
         let unwanted = if still { &self.unwanted_if_still } else { &self.unwanted };
         let wanted = Some((&*self.wanted, &**unwanted));
         top.visit(Some(kept), &mut Look { wanted, between, id: 0, sink });

@@ -44,7 +44,7 @@ impl Run<'_> {
         for name in signals {
             found.push(find(&entries, name)?);
         }
-        let part = Part::of(found.iter().map(|entry| entry.id));
+        let part = Part::of(found.iter().map(|entry| entry.id)).of_whole_edges();
         let shown = std::array::from_fn(|k| Shown::new(found[k]));
         let taps = self.setup.params.tdc.delays.taps();
         let values = Values::new(taps);

@@ -59,7 +59,7 @@ impl SteppedRun {
         let stops = power_up(&mut device);
         let entries = entries(&setup.params);
         let mut seen = Seen {
-            part: Part::of(entries.iter().map(|entry| entry.id)),
+            part: Part::of(entries.iter().map(|entry| entry.id)).of_whole_edges(),
             values: Values::new(setup.params.tdc.delays.taps()),
             begin: Time::ZERO,
         };

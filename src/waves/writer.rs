@@ -76,7 +76,8 @@ impl Waves {
                 Writer::Fst(Box::new(Fst::create(path, entries, encoder, provenance)?))
             }
         };
-        let shown = Box::new(Part::of(entries.iter().map(|entry| entry.id)));
+        let shown = Part::of(entries.iter().map(|entry| entry.id)).of_whole_edges();
+        let shown = Box::new(shown);
         let (path, state, row) = (path.to_owned(), WindowState::Blank, SpadOutputs::of(entries));
         Ok(Waves { path, writer, state, shown, row, last: 0, failed: None })
     }

@@ -44,7 +44,7 @@ struct Both {
 impl Both {
     fn new(seed: u64) -> Self {
         Both {
-            part: Part::of(0..IDS),
+            part: Part::of(0..IDS).of_whole_edges(),
             followed: Values(vec![0; IDS]),
             every_change: seed % 3 == 2,
             middle: seed % 2 == 1,

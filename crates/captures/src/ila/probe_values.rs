@@ -71,7 +71,7 @@ impl ProbeValues {
             present.insert(bits, 64 * (stride + 2 * operand));
         }
         let ids = probes.iter().chain(operands).map(|bits| bits.id);
-        ProbeValues { part: Part::of(ids), present }
+        ProbeValues { part: Part::of(ids).of_whole_edges(), present }
     }
 
     /// Updates the values.

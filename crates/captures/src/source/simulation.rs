@@ -61,7 +61,8 @@ impl signals::Origin for SimulationOrigin {
             let taps = TapDigits::new(&setup.params.tdc.decoder.encoder);
             let values = Values { feed: &mut *feed, places, taps };
             let until = if frames.is_some() { Time::NEVER } else { LONGEST_SIMULATION };
-            let mut probe = ChangeFeed { values, part: Part::of(0..IDS), until, gone: false };
+            let mut probe =
+                ChangeFeed { values, part: Part::of(0..IDS).of_whole_edges(), until, gone: false };
             let frames = frames.unwrap_or(u64::MAX);
             let end = Run::new(&setup).traced(frames, &mut probe, None)?.end;
             // That nobody listens any more is no fault.
