@@ -103,16 +103,9 @@ fn run(command: &mut Command) -> String {
     text
 }
 
-/// The packages that the program consists of, and how far each is optimised: what is built once and runs for seconds
-/// hardly, what runs for less not at all.
-const OURS: [(&str, u8); 6] = [
-    ("tofsim", 1),
-    ("tofsim-captures", 0),
-    ("tofsim-rtl", 0),
-    ("tofsim-learn", 0),
-    ("tofsim-studies", 0),
-    ("tofsim-cli", 0),
-];
+/// The packages that the program consists of.
+const OURS: [&str; 6] =
+    ["tofsim", "tofsim-captures", "tofsim-rtl", "tofsim-learn", "tofsim-studies", "tofsim-cli"];
 
 /// The tests that see a new block or effect: port tables, imports, documentation, and what the fast ways give.
 const SEE_THEM: [&str; 6] = [
@@ -148,10 +141,8 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
         run(&mut cargo);
     };
     cargo(&["fmt", "--check"]);
-    // The libraries are those that tests have.
-    let optimised =
-        |(package, level)| format!("--config=profile.test.package.{package}.opt-level={level}");
-    let slow = OURS.map(optimised);
+    // What is built once and runs for seconds is hardly optimised; the libraries are those that tests have.
+    let slow = OURS.map(|package| format!("--config=profile.test.package.{package}.opt-level=1"));
     let slow = slow.each_ref().map(String::as_str);
     let simulator = ["--offline", "--workspace", "--test", "simulator"];
     let program = ["--profile", "test", "--bin", "tofsim"];

@@ -83,8 +83,8 @@ pub struct Run {
 
 /// Compiles files with the checkers in a folder, and returns the program.
 pub fn compile(folder: &Path, top: &str, files: &[PathBuf], options: &[&str]) -> PathBuf {
-    // By paths without the folder's name, ccache knows a program again.
-    let files = files.iter().map(|path| path.strip_prefix(folder).unwrap_or(path));
+    let checkers =
+        ["tofsim_pkg.sv", "tofsim_photons.sv", "tofsim_checkers.sv"].map(|name| folder.join(name));
     let rpath = format!("-Wl,-rpath,{}", library().display());
     let built = Command::new("verilator")
         .args([
@@ -95,14 +95,14 @@ pub fn compile(folder: &Path, top: &str, files: &[PathBuf], options: &[&str]) ->
             "-Wno-style",
             "-Wno-TIMESCALEMOD",
         ])
-        .args(["-CFLAGS", "-O0", "--top-module", top, "-o", "bench", "--Mdir", "build"])
+        .args(["-CFLAGS", "-O0", "--top-module", top, "-o", "bench", "--Mdir"])
+        .arg(folder.join("build"))
         .args(options)
-        .args(["tofsim_pkg.sv", "tofsim_photons.sv", "tofsim_checkers.sv"])
+        .args(checkers)
         .args(files)
-        .arg("tofsim_bind.sv")
+        .arg(folder.join("tofsim_bind.sv"))
         .arg(library().join("libtofsim_dpi.so"))
         .args(["-LDFLAGS", &rpath])
-        .current_dir(folder)
         .output()
         .expect("verilator: apt-get install verilator");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
