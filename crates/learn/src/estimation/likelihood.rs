@@ -13,6 +13,7 @@ mod arming;
 mod climb;
 pub mod model;
 pub(crate) mod solve;
+mod steady;
 mod stretches;
 pub mod two_echoes;
 

@@ -39,7 +39,7 @@ pub struct Top<const N: usize> {
 /// The top that is reached from `at`.
 ///
 /// # Errors
-/// When the climb does not end, or its end has an echo that is none.
+/// When the climb does not end, leaves the bins, or its end has an echo that is none.
 pub fn climb<const N: usize>(
     model: &Model,
     histogram: &[u32],
@@ -55,7 +55,7 @@ pub fn climb<const N: usize>(
         let step = solve(information, gradient, damping, held);
         let gain = step.map(|step| (0..N).map(|k| step[k] * gradient[k]).sum::<f64>());
         if damping == 0.0 && gain.is_some_and(|gain| gain < TOLERANCE) {
-            return accept(model, at, value, information, held);
+            return accept(at, value, information, held);
         }
         let tried = step.map(|step| go(model, &at, &step));
         let reached = tried.map(|to| (to, model.log_likelihood(&to, histogram)));
@@ -66,9 +66,12 @@ pub fn climb<const N: usize>(
                 slope = model.slope(&at, histogram);
             }
             None if damping == 0.0 && gain.is_some_and(|gain| gain < NOTHING) => {
-                return accept(model, at, value, information, held);
+                return accept(at, value, information, held);
             }
             None => damping = (damping * 10.0).max(1e-3),
+        }
+        if (0..N - 1).step_by(2).any(|k| is_outside(model, at[k])) {
+            return Err(Failure::NoPeak);
         }
         if damping > STUCK || (1..N).step_by(2).any(|k| at[k].abs() > RUNAWAY) {
             break;
@@ -88,19 +91,21 @@ fn go<const N: usize>(model: &Model, at: &[f64; N], step: &[f64; N]) -> [f64; N]
 
 /// The top, if its signals are some.
 fn accept<const N: usize>(
-    model: &Model,
     at: [f64; N],
     value: f64,
     information: &Matrix<N>,
     held: bool,
 ) -> Result<Top<N>, Failure> {
     let variances = inverse_diagonal(information, held).ok_or(Failure::NoConvergence)?;
-    let within_ps = -model.sigma_ps..=model.end_ps + model.sigma_ps;
     // The deviation of ln S is that of S by S.
     let faint = |k: usize| variances[k + 1].sqrt() * SIGNIFICANCE > 1.0;
-    let outside = |k: usize| !within_ps.contains(&(at[k] * model.sigma_ps));
-    if (0..N - 1).step_by(2).any(|k| faint(k) || outside(k)) {
+    if (0..N - 1).step_by(2).any(faint) {
         return Err(Failure::NoPeak);
     }
     Ok(Top { at, value, variances })
+}
+
+/// Returns whether an echo there would come before the first bin or after the last, by more than its deviation.
+fn is_outside(model: &Model, arrival: f64) -> bool {
+    !(-model.sigma_ps..=model.end_ps + model.sigma_ps).contains(&(arrival * model.sigma_ps))
 }
