@@ -1,7 +1,7 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Brings the acquisition computer's signals into clk_sys, two flip-flops each.
+// Brings the acquisition computer's signals into clk_sys, two flip-flops each, which belong side by side.
 module control_sync #(
     parameter integer RateBits = 2
 ) (
@@ -13,11 +13,11 @@ module control_sync #(
     input wire dsp_en,                     // lets the estimator start
     input wire dsp_rst,                    // abandons the frame
     // The same in clk_sys
-    output reg mode_sync,
-    output reg [RateBits-1:0] laser_freq_sync,
-    output reg laser_en_sync,
-    output reg dsp_en_sync,
-    output reg dsp_rst_sync
+    (* ASYNC_REG = "TRUE" *) output reg mode_sync,
+    (* ASYNC_REG = "TRUE" *) output reg [RateBits-1:0] laser_freq_sync,
+    (* ASYNC_REG = "TRUE" *) output reg laser_en_sync,
+    (* ASYNC_REG = "TRUE" *) output reg dsp_en_sync,
+    (* ASYNC_REG = "TRUE" *) output reg dsp_rst_sync
 );
     (* ASYNC_REG = "TRUE" *) reg mode_meta;
     (* ASYNC_REG = "TRUE" *) reg [RateBits-1:0] laser_freq_meta;

@@ -57,7 +57,7 @@ module ecp5_top (
         .dsp_rst(dsp_rst),
         .depth(depth),
         .algo_done(algo_done),
-        // Left open as on the KC705; an ILA shows them.
+        // Left open: a logic analyser in the FPGA shows them.
         .sigma(),
         .status(),
         .valid(),

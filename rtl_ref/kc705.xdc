@@ -78,13 +78,59 @@ set_property -dict {PACKAGE_PIN D19  IOSTANDARD LVCMOS25} [get_ports {spad_sel[3
 set_property -dict {PACKAGE_PIN A20  IOSTANDARD LVCMOS25} [get_ports {spad_sel[38]}]    ;# FMC_HPC_LA21_P
 set_property -dict {PACKAGE_PIN A21  IOSTANDARD LVCMOS25} [get_ports {spad_sel[39]}]    ;# FMC_HPC_LA21_N
 
-# FMC HPC: acquisition computer, its outputs
-set_property -dict {PACKAGE_PIN C20  IOSTANDARD LVCMOS25} [get_ports mode]              ;# FMC_HPC_LA22_P
-set_property -dict {PACKAGE_PIN B20  IOSTANDARD LVCMOS25} [get_ports {laser_freq[0]}]   ;# FMC_HPC_LA22_N
-set_property -dict {PACKAGE_PIN B22  IOSTANDARD LVCMOS25} [get_ports {laser_freq[1]}]   ;# FMC_HPC_LA23_P
-set_property -dict {PACKAGE_PIN A22  IOSTANDARD LVCMOS25} [get_ports laser_en]          ;# FMC_HPC_LA23_N
-set_property -dict {PACKAGE_PIN A16  IOSTANDARD LVCMOS25} [get_ports dsp_en]            ;# FMC_HPC_LA24_P
-set_property -dict {PACKAGE_PIN A17  IOSTANDARD LVCMOS25} [get_ports dsp_rst]           ;# FMC_HPC_LA24_N
+# FMC HPC: acquisition computer, its outputs; with nothing plugged in, the laser is off and no frame begins
+set_property -dict {PACKAGE_PIN C20  IOSTANDARD LVCMOS25 PULLTYPE PULLDOWN} [get_ports mode] ;# FMC_HPC_LA22_P
+set_property -dict {PACKAGE_PIN B20  IOSTANDARD LVCMOS25 PULLTYPE PULLDOWN} [get_ports {laser_freq[0]}] ;# FMC_HPC_LA22_N
+set_property -dict {PACKAGE_PIN B22  IOSTANDARD LVCMOS25 PULLTYPE PULLDOWN} [get_ports {laser_freq[1]}] ;# FMC_HPC_LA23_P
+set_property -dict {PACKAGE_PIN A22  IOSTANDARD LVCMOS25 PULLTYPE PULLDOWN} [get_ports laser_en] ;# FMC_HPC_LA23_N
+set_property -dict {PACKAGE_PIN A16  IOSTANDARD LVCMOS25 PULLTYPE PULLDOWN} [get_ports dsp_en] ;# FMC_HPC_LA24_P
+set_property -dict {PACKAGE_PIN A17  IOSTANDARD LVCMOS25 PULLTYPE PULLDOWN} [get_ports dsp_rst] ;# FMC_HPC_LA24_N
+
+# FMC HPC: acquisition computer, its inputs about the depth
+set_property -dict {PACKAGE_PIN D12  IOSTANDARD LVCMOS25} [get_ports {sigma[0]}]    ;# FMC_HPC_HA00_CC_P
+set_property -dict {PACKAGE_PIN D13  IOSTANDARD LVCMOS25} [get_ports {sigma[1]}]    ;# FMC_HPC_HA00_CC_N
+set_property -dict {PACKAGE_PIN H14  IOSTANDARD LVCMOS25} [get_ports {sigma[2]}]    ;# FMC_HPC_HA01_CC_P
+set_property -dict {PACKAGE_PIN G14  IOSTANDARD LVCMOS25} [get_ports {sigma[3]}]    ;# FMC_HPC_HA01_CC_N
+set_property -dict {PACKAGE_PIN D11  IOSTANDARD LVCMOS25} [get_ports {sigma[4]}]    ;# FMC_HPC_HA02_P
+set_property -dict {PACKAGE_PIN C11  IOSTANDARD LVCMOS25} [get_ports {sigma[5]}]    ;# FMC_HPC_HA02_N
+set_property -dict {PACKAGE_PIN C12  IOSTANDARD LVCMOS25} [get_ports {sigma[6]}]    ;# FMC_HPC_HA03_P
+set_property -dict {PACKAGE_PIN B12  IOSTANDARD LVCMOS25} [get_ports {sigma[7]}]    ;# FMC_HPC_HA03_N
+set_property -dict {PACKAGE_PIN F11  IOSTANDARD LVCMOS25} [get_ports {sigma[8]}]    ;# FMC_HPC_HA04_P
+set_property -dict {PACKAGE_PIN E11  IOSTANDARD LVCMOS25} [get_ports {sigma[9]}]    ;# FMC_HPC_HA04_N
+set_property -dict {PACKAGE_PIN F15  IOSTANDARD LVCMOS25} [get_ports {sigma[10]}]   ;# FMC_HPC_HA05_P
+set_property -dict {PACKAGE_PIN E16  IOSTANDARD LVCMOS25} [get_ports {sigma[11]}]   ;# FMC_HPC_HA05_N
+set_property -dict {PACKAGE_PIN D14  IOSTANDARD LVCMOS25} [get_ports {sigma[12]}]   ;# FMC_HPC_HA06_P
+set_property -dict {PACKAGE_PIN C14  IOSTANDARD LVCMOS25} [get_ports {sigma[13]}]   ;# FMC_HPC_HA06_N
+set_property -dict {PACKAGE_PIN B14  IOSTANDARD LVCMOS25} [get_ports {sigma[14]}]   ;# FMC_HPC_HA07_P
+set_property -dict {PACKAGE_PIN A15  IOSTANDARD LVCMOS25} [get_ports {sigma[15]}]   ;# FMC_HPC_HA07_N
+set_property -dict {PACKAGE_PIN E14  IOSTANDARD LVCMOS25} [get_ports {sigma[16]}]   ;# FMC_HPC_HA08_P
+set_property -dict {PACKAGE_PIN E15  IOSTANDARD LVCMOS25} [get_ports {sigma[17]}]   ;# FMC_HPC_HA08_N
+set_property -dict {PACKAGE_PIN F12  IOSTANDARD LVCMOS25} [get_ports {sigma[18]}]   ;# FMC_HPC_HA09_P
+set_property -dict {PACKAGE_PIN E13  IOSTANDARD LVCMOS25} [get_ports {sigma[19]}]   ;# FMC_HPC_HA09_N
+set_property -dict {PACKAGE_PIN A11  IOSTANDARD LVCMOS25} [get_ports {sigma[20]}]   ;# FMC_HPC_HA10_P
+set_property -dict {PACKAGE_PIN A12  IOSTANDARD LVCMOS25} [get_ports {sigma[21]}]   ;# FMC_HPC_HA10_N
+set_property -dict {PACKAGE_PIN B13  IOSTANDARD LVCMOS25} [get_ports {sigma[22]}]   ;# FMC_HPC_HA11_P
+set_property -dict {PACKAGE_PIN A13  IOSTANDARD LVCMOS25} [get_ports {sigma[23]}]   ;# FMC_HPC_HA11_N
+set_property -dict {PACKAGE_PIN C15  IOSTANDARD LVCMOS25} [get_ports {sigma[24]}]   ;# FMC_HPC_HA12_P
+set_property -dict {PACKAGE_PIN B15  IOSTANDARD LVCMOS25} [get_ports {sigma[25]}]   ;# FMC_HPC_HA12_N
+set_property -dict {PACKAGE_PIN L16  IOSTANDARD LVCMOS25} [get_ports {sigma[26]}]   ;# FMC_HPC_HA13_P
+set_property -dict {PACKAGE_PIN K16  IOSTANDARD LVCMOS25} [get_ports {sigma[27]}]   ;# FMC_HPC_HA13_N
+set_property -dict {PACKAGE_PIN J16  IOSTANDARD LVCMOS25} [get_ports {sigma[28]}]   ;# FMC_HPC_HA14_P
+set_property -dict {PACKAGE_PIN H16  IOSTANDARD LVCMOS25} [get_ports {sigma[29]}]   ;# FMC_HPC_HA14_N
+set_property -dict {PACKAGE_PIN H15  IOSTANDARD LVCMOS25} [get_ports {sigma[30]}]   ;# FMC_HPC_HA15_P
+set_property -dict {PACKAGE_PIN G15  IOSTANDARD LVCMOS25} [get_ports {sigma[31]}]   ;# FMC_HPC_HA15_N
+set_property -dict {PACKAGE_PIN L15  IOSTANDARD LVCMOS25} [get_ports {sigma[32]}]   ;# FMC_HPC_HA16_P
+set_property -dict {PACKAGE_PIN K15  IOSTANDARD LVCMOS25} [get_ports {sigma[33]}]   ;# FMC_HPC_HA16_N
+set_property -dict {PACKAGE_PIN G13  IOSTANDARD LVCMOS25} [get_ports {sigma[34]}]   ;# FMC_HPC_HA17_CC_P
+set_property -dict {PACKAGE_PIN F13  IOSTANDARD LVCMOS25} [get_ports {sigma[35]}]   ;# FMC_HPC_HA17_CC_N
+set_property -dict {PACKAGE_PIN K14  IOSTANDARD LVCMOS25} [get_ports {status[0]}]   ;# FMC_HPC_HA18_P
+set_property -dict {PACKAGE_PIN J14  IOSTANDARD LVCMOS25} [get_ports {status[1]}]   ;# FMC_HPC_HA18_N
+set_property -dict {PACKAGE_PIN H11  IOSTANDARD LVCMOS25} [get_ports {status[2]}]   ;# FMC_HPC_HA19_P
+set_property -dict {PACKAGE_PIN H12  IOSTANDARD LVCMOS25} [get_ports {status[3]}]   ;# FMC_HPC_HA19_N
+set_property -dict {PACKAGE_PIN K13  IOSTANDARD LVCMOS25} [get_ports {status[4]}]   ;# FMC_HPC_HA20_P
+set_property -dict {PACKAGE_PIN J13  IOSTANDARD LVCMOS25} [get_ports {status[5]}]   ;# FMC_HPC_HA20_N
+set_property -dict {PACKAGE_PIN J11  IOSTANDARD LVCMOS25} [get_ports {status[6]}]   ;# FMC_HPC_HA21_P
+set_property -dict {PACKAGE_PIN J12  IOSTANDARD LVCMOS25} [get_ports valid]         ;# FMC_HPC_HA21_N
 
 # FMC LPC: acquisition computer, its inputs
 set_property -dict {PACKAGE_PIN AD23 IOSTANDARD LVCMOS25} [get_ports {depth[0]}]        ;# FMC_LPC_LA00_CC_P

@@ -23,6 +23,9 @@ module kc705_top (
     input wire dsp_en,                // lets the estimator start
     input wire dsp_rst,               // abandons the frame
     output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
+    output wire [35:0] sigma,         // its standard deviation, from likelihood_estimator only [2^-29 m]
+    output wire [6:0] status,         // why not to believe it; likewise
+    output wire valid,                // the status says nothing against it; likewise
     output wire algo_done,            // the depth is ready; one cycle
     output wire hist_valid,           // a word of the histogram is being read
     output wire [7:0] hist_bin,       // which word
@@ -55,10 +58,9 @@ module kc705_top (
         .dsp_rst(dsp_rst),
         .depth(depth),
         .algo_done(algo_done),
-        // The FMC connectors have no pins left for them; an ILA shows them.
-        .sigma(),
-        .status(),
-        .valid(),
+        .sigma(sigma),
+        .status(status),
+        .valid(valid),
         .hist_valid(hist_valid),
         .hist_bin(hist_bin),
         .hist_count(hist_count),

@@ -6,7 +6,7 @@ module reset_sync (
     input wire clk,       // clock of the domain
     input wire rst,       // reset button of the board, asynchronous
     input wire locked,    // the PLL has locked
-    output reg rst_sync   // synchronous reset of the domain, active high
+    (* ASYNC_REG = "TRUE" *) output reg rst_sync  // synchronous reset of the domain, active high
 );
     (* ASYNC_REG = "TRUE" *) reg meta;  // may go metastable
 

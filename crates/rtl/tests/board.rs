@@ -9,6 +9,7 @@ use std::process::Command;
 use crate::common;
 
 mod pins;
+mod scripts;
 
 /// Taps of the chain: few and long ones.
 const TAPS: u64 = 64;

@@ -11,7 +11,9 @@ module bench;
     reg [1:0] laser_freq;
     wire locked, laser_on_lvds_p, laser_on_lvds_n, spad_rst, algo_done, hist_valid, frame_done;
     wire [39:0] spad_sel;
-    wire [35:0] depth;
+    wire [35:0] depth, sigma;
+    wire [6:0] status;
+    wire valid;
     wire [7:0] hist_bin;
     wire [15:0] hist_count;
 
@@ -22,9 +24,14 @@ module bench;
         .cpu_reset(rst),
         .locked(locked),
         .laser_on_lvds_n(laser_on_lvds_n),
+        .sigma(sigma),
+        .status(status),
+        .valid(valid),
 `elsif ECP5
     wire locked_n, clk_in_en;
 
+    // It has no pins for them. They belong to an estimator that this design does not have.
+    assign {sigma, status, valid} = 44'd0;
     assign locked = !locked_n;
     assign laser_on_lvds_n = !laser_on_lvds_p;
     ecp5_top top (
@@ -43,6 +50,9 @@ module bench;
         .rst(rst),
         .locked(locked),
         .laser_on_lvds_n(laser_on_lvds_n),
+        .sigma(sigma),
+        .status(status),
+        .valid(valid),
 `endif
         .laser_on_lvds_p(laser_on_lvds_p),
         .tdc_stop(tdc_stop),
@@ -116,16 +126,16 @@ module bench;
     end
 
     integer quarter;
-    reg [107:0] now, before;
+    reg [151:0] now, before;
     initial begin
-        before = {108{1'bx}};
+        before = {152{1'bx}};
         #(Begin - 1);
         for (quarter = 0; quarter < 4 * Cycles; quarter = quarter + 1) begin
-            now = {locked, laser_on_lvds_p, laser_on_lvds_n, spad_rst, spad_sel, depth, algo_done, hist_valid, hist_bin,
-                   hist_count, frame_done};
-            if (now !== before) $display("quarter %0d: locked %b laser %b%b spad %b %h depth %h %b hist %b %h %h done %b",
-                quarter, locked, laser_on_lvds_p, laser_on_lvds_n, spad_rst, spad_sel, depth, algo_done, hist_valid,
-                hist_bin, hist_count, frame_done);
+            now = {locked, laser_on_lvds_p, laser_on_lvds_n, spad_rst, spad_sel, depth, sigma, status, valid, algo_done,
+                   hist_valid, hist_bin, hist_count, frame_done};
+            if (now !== before) $display("quarter %0d: locked %b laser %b%b spad %b %h depth %h %h %h %b %b hist %b %h %h done %b",
+                quarter, locked, laser_on_lvds_p, laser_on_lvds_n, spad_rst, spad_sel, depth, sigma, status, valid,
+                algo_done, hist_valid, hist_bin, hist_count, frame_done);
             before = now;
             #(Quarter);
         end

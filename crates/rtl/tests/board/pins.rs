@@ -1,4 +1,4 @@
-//! The constraint files give each port of the boards' tops a pin and a standard.
+//! The constraint files give each port of the boards' tops a pin and a standard, and pull the controls down.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -8,9 +8,19 @@ use super::{between, root};
 /// The bits of a top's ports.
 fn ports(top: &str) -> BTreeSet<String> {
     let text = fs::read_to_string(root().join(format!("rtl_ref/{top}.v"))).unwrap();
+    bits(&text, &["input wire ", "output wire "])
+}
+
+/// The bits of a top's inputs from the acquisition computer.
+fn controls(top: &str) -> BTreeSet<String> {
+    let text = fs::read_to_string(root().join(format!("rtl_ref/{top}.v"))).unwrap();
+    bits(between(&text, "// Acquisition computer\n", "\n);").unwrap(), &["input wire "])
+}
+
+/// The bits of ports that are declared so.
+fn bits(text: &str, kinds: &[&str]) -> BTreeSet<String> {
     let mut bits = BTreeSet::new();
     for line in text.lines().map(str::trim) {
-        let kinds = ["input wire ", "output wire "];
         let Some(rest) = kinds.iter().find_map(|kind| line.strip_prefix(kind)) else {
             continue;
         };
@@ -65,6 +75,11 @@ fn each_port_of_the_kc705_has_a_pin() {
     let standards =
         named.iter().filter(|(_, line)| line.contains("IOSTANDARD ")).map(|(port, _)| &**port);
     check_pins("kc705_top", pins, standards);
+    let pulled = named.iter().filter(|(_, line)| line.contains(" PULLTYPE PULLDOWN}"));
+    assert_eq!(
+        pulled.map(|(port, _)| port.clone()).collect::<BTreeSet<_>>(),
+        controls("kc705_top")
+    );
 }
 
 #[test]
@@ -76,4 +91,7 @@ fn each_port_of_the_ecp5_has_a_pin() {
     });
     let standards = lines().filter_map(|line| between(line, "IOBUF PORT \"", "\" IO_TYPE="));
     check_pins("ecp5_top", pins, standards);
+    let pulled = lines().filter(|line| line.contains(" PULLMODE=DOWN;"));
+    let pulled = pulled.filter_map(|line| between(line, "IOBUF PORT \"", "\""));
+    assert_eq!(pulled.map(str::to_owned).collect::<BTreeSet<_>>(), controls("ecp5_top"));
 }

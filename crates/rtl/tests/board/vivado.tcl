@@ -1,0 +1,37 @@
+# Vivado's commands as far as the scripts of rtl_ref use them, for Yosys: it reads the Verilog and finds all modules and
+# ROMs; the others are printed. SLACK is what the routed design has.
+proc printed {name} {
+    proc $name {args} "puts \"$name \$args\""
+}
+foreach name {create_clock set_false_path set_property report_utilization report_timing_summary report_cdc report_drc
+        opt_design place_design phys_opt_design route_design write_checkpoint write_bitstream} {
+    printed $name
+}
+foreach name {get_ports get_pins get_cells current_design all_outputs get_timing_paths} {
+    proc $name {args} "return \"$name \$args\""
+}
+
+proc read_verilog {files} {
+    yosys read_verilog -lib +/xilinx/cells_sim.v +/xilinx/cells_xtra.v
+    yosys read_verilog -DSYNTHESIS {*}$files
+}
+
+proc read_xdc {args} {
+    puts "read_xdc $args"
+    uplevel #0 source [lindex $args end]
+}
+
+proc synth_design {args} {
+    puts "synth_design $args"
+    yosys hierarchy -check -top [dict get $args -top]
+}
+
+proc get_property {name of} {
+    if {$name ne "SLACK"} {
+        error "get_property $name"
+    }
+    return $::env(SLACK)
+}
+
+set argv [list $::env(OUT)]
+source $::env(SCRIPT)
