@@ -40,19 +40,25 @@ fn below(
     path: &str,
     renamed: &mut Vec<RenamedKey>,
 ) -> Result<()> {
-    let properties = resolve(root, schema)["properties"].as_object();
-    for (key, schema) in properties.into_iter().flatten() {
-        let present = format!("{path}{key}");
-        let former = schema["formerly"].as_str().unwrap_or_default();
-        if let Some(item) = table.remove(former) {
-            let (former, value) = (format!("{path}{former}"), shown(&item));
-            if table.insert(key, item).is_some() {
-                let expected = format!("expected one of {present} and its former name");
-                return Err(Input::new(source, expected).field(former).value(value).into());
-            }
-            renamed.push(RenamedKey { former, present, value });
-        } else if let Some(inner) = table.get_mut(key).and_then(|item| item.as_table_like_mut()) {
-            below(source, inner, root, schema, &format!("{present}."), renamed)?;
+    let Some(properties) = resolve(root, schema)["properties"].as_object() else {
+        return Ok(());
+    };
+    let formerly = properties.iter().filter_map(|(key, of)| Some((key, of.get("formerly")?)));
+    for (key, former) in formerly {
+        let former = former.as_str().unwrap_or_default();
+        let Some(item) = table.remove(former) else { continue };
+        let (former, present) = (format!("{path}{former}"), format!("{path}{key}"));
+        let value = shown(&item);
+        if table.insert(key, item).is_some() {
+            let expected = format!("expected one of {present} and its former name");
+            return Err(Input::new(source, expected).field(former).value(value).into());
+        }
+        renamed.push(RenamedKey { former, present, value });
+    }
+    for (key, item) in table.iter_mut() {
+        let key = key.get();
+        if let Some((inner, schema)) = item.as_table_like_mut().zip(properties.get(key)) {
+            below(source, inner, root, schema, &format!("{path}{key}."), renamed)?;
         }
     }
     Ok(())
