@@ -132,6 +132,10 @@ impl HistogramBuilder {
     #[inline(always)]
     pub fn tick(&mut self, i: &In, p: &Params) {
         let q = self.registers;
+        // No word to clear and no hit: `writing` is the second of its cycles.
+        if !(i.clear | i.tdc_valid | q.counting) {
+            return;
+        }
         let reading = q.counting && !q.writing;
         if i.clear | q.counting {
             let word = &mut self.ram[self.address(i).index()];

@@ -32,7 +32,7 @@ impl Clocked for ResetSync {
 
     #[inline(always)]
     fn next(&self, i: &In, (): &()) -> Self {
-        ResetSync { rst_sync: self.meta, meta: i.rst || !i.locked }
+        ResetSync { rst_sync: self.meta, meta: i.rst | !i.locked }
     }
 
     #[inline(always)]

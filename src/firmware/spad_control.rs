@@ -34,7 +34,7 @@ impl Clocked for SpadControl {
 
     #[inline(always)]
     fn tick(&mut self, i: &In, (): &()) {
-        self.spad_rst = i.pre_start && !i.mode;
+        self.spad_rst = i.pre_start & !i.mode;
         if i.rst {
             *self = Self::default();
         }

@@ -211,7 +211,7 @@ impl TofTop {
         let vcsel_driver = Wires::vcsel_driver(self);
         let spad_control = Wires::spad_control(self);
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
-        let tdc_calibration = Wires::tdc_calibration(self);
+        let tdc_calibration = p.tdc_calibration.as_ref().map(|p| (Wires::tdc_calibration(self), p));
         let histogram_builder = Wires::histogram_builder(self);
         let estimator = self.slot_inputs(p);
 
@@ -222,8 +222,8 @@ impl TofTop {
         self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
         self.spad_control.tick(&spad_control, &());
         self.convert(p, &tdc, &code_preload, taps);
-        if let Some(p) = &p.tdc_calibration {
-            self.tdc_calibration.tick(&tdc_calibration, p);
+        if let Some((inputs, p)) = tdc_calibration {
+            self.tdc_calibration.tick(&inputs, p);
         }
         self.histogram_builder.tick(&histogram_builder, &p.histogram);
         if let Some(inputs) = estimator {

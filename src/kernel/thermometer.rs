@@ -8,27 +8,27 @@ pub const CAPACITY: usize = 11;
 /// Bits of a rank: lines have less than 2048 taps.
 const BITS: usize = 11;
 
+/// Bits below the ranks, of which the shape needs five.
+const SHAPE_BITS: usize = 128 - CAPACITY * BITS;
+
 /// The taps of a line, in order of arrival, that show the level which has reached them.
 ///
 /// The input of the line alternates, so its taps are a few runs of ones and zeros. The newest
 /// level fills the taps before the first rank, the opposite one the taps up to the second, and so
-/// on: two words instead of a bit for each tap, and the ones count is an alternating sum. The form is
+/// on: one word instead of a bit for each tap, and the ones count is an alternating sum. The form is
 /// canonical (ranks strictly increasing, from 1 to one less than there are taps, unused ones zero), so
-/// that equal taps compare equal. How many taps there are is known to who asks.
+/// that equal taps compare equal. The caller knows the number of taps.
+///
+/// The lowest bits of the word are the shape: twice the number of transitions inside, and one more if the newest level
+/// is high. A rank for each transition stands above it, the newest lowest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Thermometer {
-    /// A rank for each transition, the newest lowest. One word, like `shape`, because processors
-    /// stall on reading together what was written apart.
-    ranks: u128,
-    /// Twice the number of transitions inside, and one more if the newest level is high.
-    shape: u16,
-}
+pub struct Thermometer(u128);
 
 impl Thermometer {
     /// All taps at one level.
     #[inline(always)]
     pub const fn settled(level: bool) -> Self {
-        Thermometer { ranks: 0, shape: level as u16 }
+        Thermometer(level as u128)
     }
 
     /// The taps when the line's input is now at `level` and its last transitions, newest first,
@@ -51,7 +51,7 @@ impl Thermometer {
     pub const fn single(level: bool, rank: usize) -> Self {
         match rank {
             0 => Self::settled(!level),
-            _ => Thermometer { ranks: rank as u128, shape: 2 + level as u16 },
+            _ => Thermometer(placed(rank, 0) + 2 + level as u128),
         }
     }
 
@@ -61,29 +61,24 @@ impl Thermometer {
     pub fn push(&mut self, rank: usize) {
         let len = self.len();
         if rank == 0 {
-            self.shape ^= 1;
-        } else if len == 0 {
-            self.ranks = rank as u128;
-            self.shape += 2;
-        } else if self.rank(len - 1) == rank {
-            self.ranks ^= (rank as u128) << (BITS * (len - 1));
-            self.shape -= 2;
+            self.0 ^= 1;
+        } else if len > 0 && self.rank(len - 1) == rank {
+            self.0 -= placed(rank, len - 1) + 2;
         } else if len < CAPACITY {
-            self.ranks |= (rank as u128) << (BITS * len);
-            self.shape += 2;
+            self.0 += placed(rank, len) + 2;
         }
     }
 
     /// Returns whether no transition is inside.
     #[inline(always)]
     pub const fn is_settled(&self) -> bool {
-        self.shape < 2
+        self.shape() < 2
     }
 
     /// Returns whether all taps are at that level.
     #[inline(always)]
     pub const fn is_settled_at(&self, level: bool) -> bool {
-        self.shape == level as u16
+        self.0 == level as u128
     }
 
     /// The level of the tap that is `position`-th to be reached, from 0.
@@ -135,25 +130,41 @@ impl Thermometer {
 
     #[inline(always)]
     fn level(&self) -> bool {
-        self.shape % 2 == 1
+        self.0 % 2 == 1
     }
 
     /// Returns how many transitions are inside.
     #[inline(always)]
     const fn len(&self) -> usize {
-        (self.shape / 2) as usize
+        self.shape() / 2
+    }
+
+    #[inline(always)]
+    const fn shape(&self) -> usize {
+        self.0 as usize & ((1 << SHAPE_BITS) - 1)
     }
 
     /// The rank of the `nth` newest transition.
     #[inline(always)]
     const fn rank(&self, nth: usize) -> usize {
-        (self.ranks >> (BITS * nth)) as usize & ((1 << BITS) - 1)
+        (self.0 >> (SHAPE_BITS + BITS * nth)) as usize & ((1 << BITS) - 1)
     }
 
     #[inline(always)]
-    fn ranks(&self) -> impl Iterator<Item = usize> {
-        (0..self.len()).map(|nth| self.rank(nth))
+    fn ranks(&self) -> impl Iterator<Item = usize> + use<> {
+        let mut above = self.0 >> SHAPE_BITS;
+        (0..self.len()).map(move |_| {
+            let rank = above as usize & ((1 << BITS) - 1);
+            above >>= BITS;
+            rank
+        })
     }
+}
+
+/// A rank where that of the `nth` newest transition stands.
+#[inline(always)]
+const fn placed(rank: usize, nth: usize) -> u128 {
+    (rank as u128) << (SHAPE_BITS + BITS * nth)
 }
 
 #[cfg(test)]

@@ -94,8 +94,9 @@ impl Frames {
     /// Counts the hit that the TDC keeps in this cycle.
     #[inline(always)]
     pub fn count_hit(&mut self, top: &TofTop) {
-        self.tdc_hits +=
-            (top.tdc.tdc_latch.hit && !top.tdc_calibration.registers.calibrating) as u64;
+        if top.tdc.tdc_latch.hit && !top.tdc_calibration.registers.calibrating {
+            self.tdc_hits += 1;
+        }
     }
 
     fn turn(&mut self, cycle: u64, top: &TofTop, p: &Params) -> Option<Frame> {

@@ -7,7 +7,7 @@ use crate::kernel::Clocked;
 use super::{CodeSource, HistogramSource, Params, TofTop, Wires};
 
 impl TofTop {
-    /// Takes the edge's part of the TDC or of its stand-in.
+    /// Takes the edge's part of the TDC or of its stand-in, and its code.
     #[inline(always)]
     pub(crate) fn convert(
         &mut self,
@@ -17,34 +17,30 @@ impl TofTop {
         taps: Taps,
     ) {
         match &p.code_source {
-            CodeSource::Tdc => self.tdc.rise(tdc, &p.tdc, taps),
+            CodeSource::Tdc => {
+                self.tdc.rise(tdc, &p.tdc, taps);
+                self.take_code();
+            }
             CodeSource::Preload(rom) => {
                 self.code_preload.tick(code_preload, rom);
-            }
-        }
-    }
-
-    /// The code, from the registers of its source.
-    #[inline(always)]
-    pub(crate) fn take_code(&mut self, p: &Params) {
-        match &p.code_source {
-            CodeSource::Tdc => {
-                let decoder = &self.tdc.tdc_decoder;
-                (self.nets.tdc_valid, self.nets.tdc_code) = (decoder.tdc_valid, decoder.tdc_code);
-            }
-            CodeSource::Preload(_) => {
                 let preload = &self.code_preload;
                 (self.nets.tdc_valid, self.nets.tdc_code) = (preload.tdc_valid, preload.tdc_code);
             }
         }
     }
 
-    /// Combinational wires, which only registers drive. Every edge does this; at power-up it is for
+    /// The code, from the registers of the TDC.
+    #[inline(always)]
+    pub(crate) fn take_code(&mut self) {
+        let decoder = &self.tdc.tdc_decoder;
+        (self.nets.tdc_valid, self.nets.tdc_code) = (decoder.tdc_valid, decoder.tdc_code);
+    }
+
+    /// Combinational wires beside the code, which only registers drive. Every edge does this; at power-up it is for
     /// who makes the device.
     #[inline(always)]
     pub fn settle(&mut self, p: &Params) {
-        self.nets.rst_dsp = self.reset_sync_sys.rst_sync || self.control_sync.dsp_rst_sync;
-        self.take_code(p);
+        self.nets.rst_dsp = self.reset_sync_sys.rst_sync | self.control_sync.dsp_rst_sync;
         self.nets.count = match &p.histogram_source {
             HistogramSource::Builder => {
                 self.histogram_builder.count(&Wires::histogram_builder(self))

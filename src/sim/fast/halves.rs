@@ -63,7 +63,6 @@ fn taps_hold(device: &Device) -> bool {
 pub(super) fn convert(top: &mut TofTop, p: &Params, taps: Taps) {
     count(top, p);
     top.convert(p, &tdc_inputs(top), &preload_inputs(top), taps);
-    top.take_code(p);
 }
 
 /// Takes the part of the converter that samples and keeps hits.
@@ -130,7 +129,7 @@ pub(super) fn count_hits(top: &mut TofTop, p: &Params, cycles: u64) {
         count(top, p);
         if let CodeSource::Tdc = p.code_source {
             top.tdc.decode(&tdc_inputs(top), &p.tdc);
-            top.take_code(p);
+            top.take_code();
         }
         left -= 1;
     }

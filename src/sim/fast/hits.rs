@@ -113,5 +113,5 @@ fn come_to_rest(top: &mut TofTop, p: &Params, edges: u64) {
 fn decode(top: &mut TofTop, p: &Params, i: &tdc_decoder::In) {
     count(top, p);
     top.tdc.tdc_decoder.tick(i, &p.tdc.decoder);
-    top.take_code(p);
+    top.take_code();
 }
