@@ -132,7 +132,7 @@ impl HistogramBuilder {
     #[inline(always)]
     pub fn tick(&mut self, i: &In, p: &Params) {
         let q = self.registers;
-        // No word to clear and no hit: `writing` is the second of its cycles.
+        // Nothing is to be cleared, and no hit is being counted.
         if !(i.clear | i.tdc_valid | q.counting) {
             return;
         }

@@ -136,7 +136,7 @@ impl Device {
         probe: &mut T,
         listener: &mut R,
     ) {
-        let [now, middle] = self.coming_edges();
+        let [now, middle] = [0, 1].map(|half| self.rise_laser_at(2 * self.cycle + half));
         self.before_edge(Edge::Both, now, probe, listener);
         self.settle(now, probe, listener);
         let lit = self.top.nets.laser_on;
@@ -228,17 +228,6 @@ impl Device {
 
     fn clocks(&mut self, clk_sys: bool, clk_laser: bool) {
         (self.top.clocks.clk_sys, self.top.clocks.clk_laser) = (clk_sys, clk_laser);
-    }
-
-    /// Returns the instants of the two edges of `clk_laser` in the coming cycle: with `clk_sys`, and in the middle.
-    #[inline(always)]
-    fn coming_edges(&mut self) -> [Time; 2] {
-        let numbers = [2 * self.cycle, 2 * self.cycle + 1];
-        let ideal = numbers.map(|n| self.pll.clk_laser.rise(n));
-        match &mut self.jitter {
-            None => ideal,
-            Some(jitter) => [0, 1].map(|k| jitter.shift(ideal[k], numbers[k])),
-        }
     }
 
     /// Returns the instant of rising edge `n` of `clk_laser`.

@@ -1,5 +1,5 @@
 # Vivado's commands as far as the scripts of rtl_ref use them, for Yosys: it reads the Verilog and finds all modules and
-# ROMs; the others are printed. SLACK is what the routed design has.
+# ROMs; the others are printed. SLACK has the slacks of the routed design for setup and hold, max and min.
 proc printed {name} {
     proc $name {args} "puts \"$name \$args\""
 }
@@ -30,7 +30,7 @@ proc get_property {name of} {
     if {$name ne "SLACK"} {
         error "get_property $name"
     }
-    return $::env(SLACK)
+    return [dict get $::env(SLACK) [lindex $of end]]
 }
 
 set argv [list $::env(OUT)]

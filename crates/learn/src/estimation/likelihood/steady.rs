@@ -5,8 +5,8 @@
 //! solved for, by generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20,
 //! 1983), in some ten periods.
 //!
-//! What repeats with the period is also what a dead time shorter by whole periods gives, but for its sum: the
-//! diode is armed or dead.
+//! Because all of it repeats, a dead time shorter by whole periods has the same solution but for a factor. The
+//! factor follows from the diode being either armed or dead.
 
 use tofsim::kernel::pulse::Pulse;
 
@@ -68,6 +68,7 @@ impl Steady {
             armed.push(step_armed);
             back.push(step_back);
         });
+        // The chances that it is armed and that it is dead, which have to be 1.
         let sum = |parts: &[f64]| parts.iter().sum::<f64>();
         let whole = (sum(&armed) + dead * sum(&back)) / count as f64;
         [&mut armed, &mut back].into_iter().flatten().for_each(|value| *value /= whole);
