@@ -21,6 +21,7 @@ pub mod likelihood_sums;
 pub mod likelihood_terms;
 pub mod lvds_output;
 pub mod pll;
+pub mod registers;
 pub mod reset_sync;
 pub mod spad_control;
 pub mod tansig;

@@ -1,0 +1,3 @@
+//! Registers of the host.
+
+pub mod map;
