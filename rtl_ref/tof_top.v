@@ -62,6 +62,14 @@ module tof_top #(
     parameter integer Divide = 1,
     parameter integer OutputDivide = 8,
     parameter [63:0] LockTime = 64'd1000000,
+    // A host controls the firmware through registers, and laser_guard guards the laser; 0: the pins control it
+    parameter [0:0] Hosted = 1'b0,
+    parameter [63:0] Baud = 64'd921600,          // of uart_bridge [1/s]
+    parameter [63:0] ParametersHash = 64'd0,     // see registers
+    // See laser_guard
+    parameter [31:0] HostTimeout = 32'd62500000,
+    parameter [3:0] LongestPulse = 4'd1,
+    parameter [15:0] ShortestPeriod = 16'd12,
     parameter integer Codes = 27756,             // words in CodeFile
     // Contents of ROMs, and the simulated chain's delays
     parameter W1File = "rtl_ref/w1.mem",
@@ -85,7 +93,10 @@ module tof_top #(
     // Board
     input wire clk_in,                // oscillator
     input wire rst,                   // reset button, asynchronous
+    // It sets a register of laser_guard, and others take it at an edge.
+    // verilator lint_off SYNCASYNCNET
     output wire locked,               // the clocks run
+    // verilator lint_on SYNCASYNCNET
     // Laser
     output wire laser_on_lvds_p,      // positive pin
     output wire laser_on_lvds_n,      // negative pin
@@ -100,6 +111,11 @@ module tof_top #(
     input wire laser_en,              // lets the laser fire, asynchronous
     input wire dsp_en,                // lets the estimator start, asynchronous
     input wire dsp_rst,               // abandons the frame, asynchronous
+    // Host
+    input wire uart_rx,               // from it, asynchronous
+    output wire uart_tx,              // to it
+    input wire interlock,             // the laser's interlock is open, asynchronous
+    input wire select_pins,           // the control pins are in force, and not the registers, asynchronous
     output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
     output wire [35:0] sigma,         // its standard deviation, from likelihood_estimator only [2^-29 m]
     output wire [6:0] status,         // why not to believe it; likewise
@@ -152,7 +168,23 @@ module tof_top #(
     wire calibrating, rings, n_valid;
     wire [$clog2(Taps+1)-1:0] n;
     wire [AgeBits-1:0] calibrated_age;
-    assign ring_on = Calibrated && rings;
+    assign ring_on = Calibrated && rings || Hosted && host_ring_on;
+
+    // Nothing of them stays without a host.
+    localparam integer Halves = PulseHalfCycles > 1 ? 2 : 1;
+    localparam [63:0] SystemHz = 64'd1 * InputHz * Multiply / (64'd1 * Divide * OutputDivide);
+    localparam [63:0] BitCycles = (SystemHz + Baud / 64'd2) / Baud;
+    localparam [63:0] TimeoutCycles = SystemHz / 64'd10;
+    wire [31:0] address, write_data, read_data;
+    wire write_en, heard, arm, disarm;
+    wire armed, pins_selected, interlock_sync;
+    wire host_silent, unlocked, interlocked, pulse_too_long, rate_too_high;
+    wire host_mode, host_laser_en, host_dsp_en, host_dsp_rst, host_ring_on;
+    wire [RateBits-1:0] host_laser_freq;
+    wire [Halves-1:0] laser_pulse, laser_block;
+    wire laser_off;
+    wire by_host = Hosted && !pins_selected;
+    wire clk_host = clk_sys && Hosted, clk_host_laser = clk_laser && Hosted;
 
     // The acquisition computer's reset leaves the laser and the synchronisers alone.
     wire rst_dsp = rst_sys || dsp_rst_sync;
@@ -192,11 +224,11 @@ module tof_top #(
         .RateBits(RateBits)
     ) control_sync (
         .clk_sys(clk_sys),
-        .mode(mode),
-        .laser_freq(laser_freq),
-        .laser_en(laser_en),
-        .dsp_en(dsp_en),
-        .dsp_rst(dsp_rst),
+        .mode(by_host ? host_mode : mode),
+        .laser_freq(by_host ? host_laser_freq : laser_freq),
+        .laser_en((by_host ? host_laser_en : laser_en) && (armed || !Hosted)),
+        .dsp_en(by_host ? host_dsp_en : dsp_en),
+        .dsp_rst(by_host ? host_dsp_rst : dsp_rst),
         .mode_sync(mode_sync),
         .laser_freq_sync(laser_freq_sync),
         .laser_en_sync(laser_en_sync),
@@ -230,7 +262,8 @@ module tof_top #(
         .LaserPeriods(LaserPeriods),
         .RateBits(RateBits),
         .PeriodBits(PeriodBits),
-        .PulseHalfCycles(PulseHalfCycles)
+        .PulseHalfCycles(PulseHalfCycles),
+        .Hosted(Hosted)
     ) vcsel_driver (
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
@@ -239,6 +272,9 @@ module tof_top #(
         .acquire(acquire),
         .laser_en(laser_en_sync),
         .laser_freq(laser_freq_sync),
+        .laser_off(laser_off),
+        .laser_block(laser_block),
+        .laser_pulse(laser_pulse),
         .pre_start(pre_start),
         .start(start),
         .laser_on(laser_on)
@@ -277,7 +313,7 @@ module tof_top #(
         .rst(rst_dsp),
         .start(start && !CodeSource),
         .tdc_stop(tdc_stop && !CodeSource),
-        .free(rings),
+        .free(rings || Hosted && host_ring_on),
         .calibrated_age(calibrated_age),
         .n_valid(n_valid),
         .n(n),
@@ -427,5 +463,97 @@ module tof_top #(
         // verilator lint_on PINCONNECTEMPTY
         .valid(likelihood_valid),
         .algo_done(likelihood_done)
+    );
+
+    uart_bridge #(
+        .BitCycles(BitCycles[15:0]),
+        .TimeoutCycles(TimeoutCycles[31:0])
+    ) uart_bridge (
+        .clk_sys(clk_host),
+        .rst(rst_sys),
+        .uart_rx(uart_rx),
+        .uart_tx(uart_tx),
+        .read_data(read_data),
+        .address(address),
+        .write_en(write_en),
+        .write_data(write_data),
+        .heard(heard)
+    );
+
+    registers #(
+        .ParametersHash(ParametersHash),
+        .SystemHz(SystemHz[31:0]),
+        .HostTimeout(HostTimeout),
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .RateBits(RateBits),
+        .Taps(Taps)
+    ) registers (
+        .clk_sys(clk_host),
+        .rst(rst_sys),
+        .address(address),
+        .write_en(write_en),
+        .write_data(write_data),
+        .read_data(read_data),
+        .pins_selected(pins_selected),
+        .armed(armed),
+        .interlock_sync(interlock_sync),
+        .host_silent(host_silent),
+        .unlocked(unlocked),
+        .interlocked(interlocked),
+        .pulse_too_long(pulse_too_long),
+        .rate_too_high(rate_too_high),
+        .arm(arm),
+        .disarm(disarm),
+        .start(start),
+        .tdc_valid(tdc_valid),
+        .n_valid(n_valid),
+        .n(n),
+        .calibrating(calibrating),
+        .acquire(acquire),
+        .hist_valid(read_en),
+        .hist_bin(read_addr),
+        .hist_count(count),
+        .frame_done(frame_done),
+        .depth(depth),
+        .sigma(sigma),
+        .status(status),
+        .valid(valid),
+        .host_mode(host_mode),
+        .host_laser_freq(host_laser_freq),
+        .host_laser_en(host_laser_en),
+        .host_dsp_en(host_dsp_en),
+        .host_dsp_rst(host_dsp_rst),
+        .host_ring_on(host_ring_on)
+    );
+
+    laser_guard #(
+        .Halves(Halves),
+        .HostTimeout(HostTimeout),
+        .LongestPulse(LongestPulse),
+        .ShortestPeriod(ShortestPeriod)
+    ) laser_guard (
+        .clk_sys(clk_host),
+        .clk_laser(clk_host_laser),
+        .rst(rst_sys),
+        .rst_laser(rst_laser),
+        .locked(locked),
+        .interlock(interlock && Hosted),
+        .select_pins(select_pins),
+        .laser_en(laser_en),
+        .heard(heard),
+        .arm(arm),
+        .disarm(disarm),
+        .laser_pulse(laser_pulse),
+        .laser_block(laser_block),
+        .laser_off(laser_off),
+        .armed(armed),
+        .pins_selected(pins_selected),
+        .interlock_sync(interlock_sync),
+        .host_silent(host_silent),
+        .unlocked(unlocked),
+        .interlocked(interlocked),
+        .pulse_too_long(pulse_too_long),
+        .rate_too_high(rate_too_high)
     );
 endmodule

@@ -19,7 +19,8 @@ module vcsel_driver #(
     parameter [16*8-1:0] LaserPeriods = {{5{16'd6}}, 16'd8, 16'd13, 16'd25},
     parameter integer RateBits = 2,
     parameter integer PeriodBits = 5,
-    parameter integer PulseHalfCycles = 1  // length of the pulse [half cycles of clk_laser], 1 to 8
+    parameter integer PulseHalfCycles = 1, // length of the pulse [half cycles of clk_laser], 1 to 8
+    parameter [0:0] Hosted = 1'b0          // see ddr_output
 ) (
     input wire clk_sys,
     input wire clk_laser,
@@ -29,6 +30,12 @@ module vcsel_driver #(
     input wire acquire,           // lets the counter run
     input wire laser_en,          // lets the laser fire
     input wire [RateBits-1:0] laser_freq,  // repetition rate
+    // laser_guard, see ddr_output
+    input wire laser_off,
+    input wire [(PulseHalfCycles > 1 ? 2 : 1)-1:0] laser_block,
+    // Enables of the output register, for either half of its cycle; from the cycle of clk_laser before the
+    // laser edge on
+    output reg [(PulseHalfCycles > 1 ? 2 : 1)-1:0] laser_pulse,
     // The shot
     output reg pre_start,         // two cycles before the laser edge; one cycle
     output reg start,             // from the laser edge on; one cycle
@@ -48,9 +55,6 @@ module vcsel_driver #(
     reg fire_last;     // fire at the edge before
     reg pulse_0;       // laser_pulse on its way
     reg pulse_1;
-    // Enables of the output register, for either half of its cycle; from the cycle of clk_laser before the
-    // laser edge on
-    reg [Halves-1:0] laser_pulse;
     reg [Kept-1:0] stretch;  // pulse_1 in the cycles before
 
     reg pre_start_next, start_next, fire_next, enable_next, pulse_0_next;
@@ -133,10 +137,13 @@ module vcsel_driver #(
     end
 
     ddr_output #(
-        .Halves(Halves)
+        .Halves(Halves),
+        .Hosted(Hosted)
     ) ddr_output (
         .clk_laser(clk_laser),
         .d(laser_pulse),
+        .off(laser_off),
+        .block(laser_block),
         .q(laser_on)
     );
 endmodule

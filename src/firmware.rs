@@ -13,6 +13,7 @@ pub mod forward2;
 pub mod frame_ctrl;
 pub mod histogram_builder;
 pub mod histogram_preload;
+pub mod laser_guard;
 pub mod likelihood_estimator;
 pub mod likelihood_memory;
 pub mod likelihood_scan;
@@ -30,6 +31,7 @@ pub mod tdc_calibration;
 pub mod tdc_decoder;
 pub mod tdc_latch;
 pub mod tof_top;
+pub mod uart_bridge;
 pub mod vcsel_driver;
 
 /// Calls a macro with the list of the firmware's estimators, after what is given to it: meaning, variant, name in a

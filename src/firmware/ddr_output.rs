@@ -13,6 +13,13 @@ signals! {
         /// Levels for the first half of the coming cycle and for its second.
         #[size(Halves)]
         pub d: U<2>,
+        /// The output is low, asynchronous.
+        #[only_if(Hosted)]
+        pub off: bool,
+        /// Levels of `d` that do not pass.
+        #[only_if(Hosted)]
+        #[size(Halves)]
+        pub block: U<2>,
     }
 }
 
@@ -31,7 +38,14 @@ impl DdrOutput {
     /// After a rising edge.
     #[inline(always)]
     pub fn rise(&self, i: &In) -> Self {
-        DdrOutput { q: i.d.get() & 1 == 1, second: U::new(i.d.get() >> 1) }
+        let d = i.d.get() & !i.block.get();
+        DdrOutput { q: d & 1 == 1, second: U::new(d >> 1) }.settled(i)
+    }
+
+    /// Low while it is off, without an edge.
+    #[inline(always)]
+    pub fn settled(&self, i: &In) -> Self {
+        if i.off { DdrOutput::default() } else { *self }
     }
 
     /// After a falling edge.

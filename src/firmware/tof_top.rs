@@ -15,11 +15,14 @@ use super::depth_estimator::{self, DepthEstimator};
 use super::frame_ctrl::{self, FrameCtrl};
 use super::histogram_builder::{self, HistogramBuilder};
 use super::histogram_preload::{self, HistogramPreload};
+use super::laser_guard::{self, LaserGuard};
 use super::likelihood_estimator::{self, LikelihoodEstimator};
+use super::registers::{self, RegisterFile};
 use super::reset_sync::{self, ResetSync};
 use super::spad_control::{self, SpadControl};
 use super::tdc::{self, Tdc};
 use super::tdc_calibration::{self, TdcCalibration};
+use super::uart_bridge::{self, UartBridge};
 use super::vcsel_driver::{self, VcselDriver};
 use super::{lvds_output, pll};
 
@@ -79,6 +82,12 @@ pub struct TofTop {
     pub centroid_estimator: CentroidEstimator,
     /// Likelihood estimator.
     pub likelihood_estimator: LikelihoodEstimator,
+    /// Serial line of a host, which runs do not have.
+    pub uart_bridge: UartBridge,
+    /// Its registers.
+    pub registers: RegisterFile,
+    /// Guard of the laser.
+    pub laser_guard: LaserGuard,
     /// Outputs of the estimator in use.
     pub slot: SlotOut,
     /// Inputs at which the estimator in the slot rests, if it does: no edge changes it until one of them changes.
@@ -110,6 +119,7 @@ connect! {
         output hist_count <- this.nets.count;
         output frame_done <- this.frame_ctrl.frame_done;
         output locked <- this.pll.locked;
+        output uart_tx <- this.uart_bridge.uart_tx;
     }
     pll(clk_in): pll::In {} -> { clk_sys: this.clocks.clk_sys, clk_laser: this.clocks.clk_laser, }
     reset_sync_sys(clk <- clk_sys): reset_sync::In {
@@ -137,6 +147,8 @@ connect! {
         acquire <- this.frame_ctrl.acquire;
         laser_en <- this.control_sync.laser_en_sync;
         laser_freq <- this.control_sync.laser_freq_sync;
+        laser_off <- this.laser_guard.registers.laser_off;
+        laser_block <- this.laser_guard.registers_laser.laser_block;
     }
     lvds_output(): lvds_output::In {
         i <- this.vcsel_driver.ddr_output.q;
@@ -185,6 +197,36 @@ connect! {
         algo_start <- this.frame_ctrl.algo_start;
         mode <- this.control_sync.mode_sync;
         count <- this.nets.count;
+    }
+    uart_bridge(clk_sys): uart_bridge::In {
+        rst <- this.reset_sync_sys.rst_sync;
+        uart_rx <- this.pins.uart_rx;
+        read_data <- this.registers.registers.read_data;
+    }
+    registers(clk_sys): registers::In {
+        rst <- this.reset_sync_sys.rst_sync;
+        [address, write_en, write_data] <- this.uart_bridge;
+        [pins_selected, armed, interlock_sync, host_silent] <- this.laser_guard.registers;
+        [unlocked, interlocked, pulse_too_long, rate_too_high] <- this.laser_guard.registers;
+        start <- this.vcsel_driver.registers.start;
+        tdc_valid <- this.nets.tdc_valid;
+        [n_valid, n] <- this.tdc.tdc_decoder;
+        calibrating <- this.tdc_calibration.registers.calibrating;
+        acquire <- this.frame_ctrl.acquire;
+        hist_valid <- this.slot.read_en;
+        hist_bin <- this.slot.read_addr;
+        hist_count <- this.nets.count;
+        frame_done <- this.frame_ctrl.frame_done;
+        [depth, sigma, status, valid] <- this.slot.words;
+    }
+    laser_guard(clk_sys, clk_laser): laser_guard::In {
+        rst <- this.reset_sync_sys.rst_sync;
+        rst_laser <- this.reset_sync_laser.rst_sync;
+        locked <- this.pll.locked;
+        [interlock, select_pins, laser_en] <- this.pins;
+        heard <- this.uart_bridge.heard;
+        [arm, disarm] <- this.registers.registers;
+        laser_pulse <- this.vcsel_driver.registers_laser.laser_pulse;
     }
 }
 

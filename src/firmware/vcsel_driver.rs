@@ -47,6 +47,13 @@ signals! {
         /// Repetition rate.
         #[size(RateBits)]
         pub laser_freq: Rate,
+        /// The output is low, whatever the clocks do.
+        #[only_if(Hosted)]
+        pub laser_off: bool,
+        /// Enables of the output register that do not pass.
+        #[only_if(Hosted)]
+        #[size(Halves)]
+        pub laser_block: U<2>,
     }
 }
 
@@ -79,9 +86,10 @@ signals! {
         pulse: [bool; 2],
         /// Enables of the output register, for either half of its cycle; the cycle of `clk_laser` before the
         /// laser edge, and on with a longer pulse.
+        #[only_if(Hosted)]
         #[size(Halves)]
         #[view(probe = true)]
-        laser_pulse: U<2>,
+        pub laser_pulse: U<2>,
         /// `pulse_1` in the cycles before, as many as a longer pulse goes on for.
         #[size(Stretch)]
         stretch: U<3>,
@@ -101,12 +109,14 @@ pub struct VcselDriver {
 
 connect! {
     /// Port connections inside the driver.
-    pub struct Wires(this: &VcselDriver) {
+    pub struct Wires(this: &VcselDriver, i: &In) {
         signals registers, registers_laser;
         output laser_on <- this.ddr_output.q;
     }
     ddr_output(clk_laser): ddr_output::In {
         d <- this.registers_laser.laser_pulse;
+        off <- i.laser_off;
+        block <- i.laser_block;
     }
 }
 
@@ -221,9 +231,14 @@ impl VcselDriver {
     #[inline(always)]
     pub fn rise_laser(&mut self, i: &In, p: &Params) {
         if self.has_pulse() {
-            self.ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
+            self.ddr_output = self.ddr_output.rise(&Wires::ddr_output(self, i));
             self.registers_laser.tick(&self.laser_inputs(i), p);
         }
+    }
+
+    /// What needs no edge: the guard has switched the output off.
+    pub fn settle(&mut self, i: &In) {
+        self.ddr_output = self.ddr_output.settled(&Wires::ddr_output(self, i));
     }
 
     /// A falling edge of `clk_laser`.

@@ -4,6 +4,7 @@ use crate::firmware::tof_top::FirmwareEstimator;
 use crate::firmware::tof_top::TofTop;
 use crate::kernel::module::{Alias, Instance, Module, Visitor};
 use crate::kernel::signals::{Signal, Signals, View};
+use crate::kernel::sizes::Size;
 
 use super::entry::{Entry, Kind, TOP};
 
@@ -23,6 +24,13 @@ pub(super) struct Build {
     aliases: Vec<Shown>,
 }
 
+/// What an input port has of its own, and not from the stored signal.
+#[derive(Clone, Copy)]
+struct Port {
+    doc: &'static str,
+    only_if: Option<Size>,
+}
+
 /// An alias of a stored signal.
 struct Shown {
     /// Index of the scope.
@@ -31,8 +39,8 @@ struct Shown {
     kind: Kind,
     /// Path of the field that stores the value.
     holder: String,
-    /// Meaning of the port, if it differs from that of the stored signal.
-    doc: Option<&'static str>,
+    /// The input port, if it is one of a module inside.
+    port: Option<Port>,
 }
 
 impl Build {
@@ -51,9 +59,9 @@ impl Build {
         self.scopes.iter().position(|scope| scope == path).unwrap_or_default()
     }
 
-    fn alias(&mut self, name: &'static str, kind: Kind, holder: String, doc: Option<&'static str>) {
+    fn alias(&mut self, name: &'static str, kind: Kind, holder: String, port: Option<Port>) {
         let scope = self.place(&self.path);
-        self.aliases.push(Shown { scope, name, kind, holder, doc });
+        self.aliases.push(Shown { scope, name, kind, holder, port });
     }
 
     /// Returns the path of the field that stores the value of `source`, an expression inside the module at `parent`.
@@ -101,8 +109,10 @@ impl Build {
         };
         let entry = |(id, field): (usize, &String)| {
             let (name, of) = (name(field)?, &self.held[id].1.signal);
-            let (doc, output) = (alias.doc.unwrap_or(of.doc), alias.kind == Kind::Output);
-            let signal = Signal { name, doc, output, view: View::NONE, ..of.clone() };
+            let stored = Port { doc: of.doc, only_if: of.only_if };
+            let Port { doc, only_if } = alias.port.unwrap_or(stored);
+            let output = alias.kind == Kind::Output;
+            let signal = Signal { name, doc, only_if, output, view: View::NONE, ..of.clone() };
             let scope = scope_path(&self.scopes[alias.scope]);
             Some((alias.scope, Entry { scope, signal, kind: alias.kind, id }))
         };
@@ -154,7 +164,9 @@ impl Visitor for Build {
         let inputs = (instance.inputs)();
         for (port, holder) in sources {
             let is_port = |s: &&Signal| s.name == port || s.name == format!("{port}_0");
-            self.alias(port, Kind::Input, holder, inputs.iter().find(is_port).map(|s| s.doc));
+            let own = inputs.iter().find(is_port);
+            let own = own.map(|s| Port { doc: s.doc, only_if: s.only_if });
+            self.alias(port, Kind::Input, holder, own);
         }
         for (port, source) in own {
             self.alias(port, Kind::Input, clock(source), None);

@@ -70,6 +70,8 @@ sizes! { s:
     CountStages = s.count_stages;
     /// 1 if the firmware calibrates its TDC.
     Calibrated = s.calibrates.into();
+    /// 1 if a host controls the firmware through registers.
+    Hosted = s.hosted.into();
     /// Bits of a number of hits of a calibration.
     HitsBits = s.hits_log2 + 1;
     /// Bits of a sum over the hits of a calibration.

@@ -100,6 +100,7 @@ pub fn pins_at_power_up(firmware: &Firmware) -> Pins {
         laser_en: firmware.laser_en && !firmware.dark_frames,
         dsp_en: firmware.dsp_en,
         dsp_rst: firmware.dsp_rst,
+        ..Pins::default()
     }
 }
 

@@ -59,9 +59,9 @@ fn vector(output: bool, width: u32) -> PortShape {
     PortShape { output, width, words: None }
 }
 
-/// Ports for the most neurons, and with a calibration; all else is as large as by default.
+/// Ports for the most neurons, with a calibration and a host; all else is as large as by default.
 fn sizes() -> Sizes {
-    Sizes { neurons: MOST_NEURONS as u32, calibrates: true, ..Sizes::default() }
+    Sizes { neurons: MOST_NEURONS as u32, calibrates: true, hosted: true, ..Sizes::default() }
 }
 
 /// Ports of each module as Rust has them; a module with several instances has one name for all.

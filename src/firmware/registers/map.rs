@@ -184,10 +184,10 @@ impl RegisterBit {
 bits! {
     /// Bits of [`STATUS`].
     STATUS_BITS:
-    /// The PLL has locked.
+    /// The PLL has locked; without, nothing answers.
     LOCKED = "locked", 0, 1;
-    /// A calibration of the TDC is under way.
-    CALIBRATING = "calibrating", 1, 1;
+    /// The TDC has been calibrated, and is not being calibrated.
+    CALIBRATED = "calibrated", 1, 1;
     /// Shots are being taken.
     ACQUIRING = "acquiring", 2, 1;
     /// The switch selects the control pins.

@@ -26,6 +26,15 @@ signals! {
         pub dsp_en: bool,
         /// Abandons the frame, asynchronous.
         pub dsp_rst: bool,
+        /// From the host, asynchronous.
+        #[only_if(Hosted)]
+        pub uart_rx: bool = true,
+        /// The interlock is open, asynchronous.
+        #[only_if(Hosted)]
+        pub interlock: bool,
+        /// The control pins are in force, and not the registers, asynchronous.
+        #[only_if(Hosted)]
+        pub select_pins: bool,
     }
 }
 
@@ -98,7 +107,12 @@ pub struct Params {
     pub code_source: CodeSource,
     /// Source of the estimator's histogram.
     pub histogram_source: HistogramSource,
+    /// Whether a host controls the firmware through registers. A run has none: its control signals come from pins.
+    pub is_hosted: bool,
 }
+
+/// Modules between the host and the firmware.
+const OF_HOST: [&str; 3] = ["uart_bridge", "registers", "laser_guard"];
 
 impl Params {
     /// Modules of the top that are left out: stand-ins, or what they stand in for.
@@ -116,9 +130,11 @@ impl Params {
             },
         ];
         let calibration = self.tdc_calibration.is_none().then_some("tdc_calibration");
+        let host = OF_HOST.into_iter().filter(|_| !self.is_hosted);
         sources
             .into_iter()
             .chain(calibration)
+            .chain(host)
             .chain(others.map(FirmwareEstimator::module))
             .collect()
     }

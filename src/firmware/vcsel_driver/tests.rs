@@ -30,7 +30,7 @@ fn run(driver: &mut VcselDriver, i: &In, cycles: usize) -> Vec<[bool; 6]> {
 
 fn input(laser_freq: u64) -> In {
     let laser_freq = U::new(laser_freq);
-    In { rst: false, rst_laser: false, acquire: true, laser_en: true, laser_freq }
+    In { rst: false, rst_laser: false, acquire: true, laser_en: true, laser_freq, ..In::default() }
 }
 
 fn ready(i: &In) -> VcselDriver {

@@ -19,6 +19,8 @@ pub struct Sizes {
     pub age_bits: u32,
     /// Registers of the ones count.
     pub count_stages: u32,
+    /// True if a host controls the firmware through registers.
+    pub hosted: bool,
     /// True if the firmware calibrates its TDC.
     pub calibrates: bool,
     /// Hits of a calibration, as a power of two.

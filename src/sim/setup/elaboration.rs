@@ -60,6 +60,7 @@ impl Setup {
             estimator: scenario.estimator.kind,
             code_source,
             histogram_source,
+            is_hosted: false,
         };
         let slowest = converter.course.as_ref().map_or(1.0, |course| course.slowest);
         check_fits(&name, &scenario, &params, slowest)?;

@@ -65,6 +65,7 @@ pub fn with_delays(taps: &[i64]) -> Params {
         estimator: FirmwareEstimator::Network,
         code_source: CodeSource::Tdc,
         histogram_source: HistogramSource::Builder,
+        is_hosted: false,
     }
 }
 

@@ -29,6 +29,7 @@ blocks! {
     frame_ctrl
     histogram_builder
     histogram_preload
+    laser_guard
     likelihood_estimator
     likelihood_memory
     likelihood_scan
@@ -37,6 +38,7 @@ blocks! {
     likelihood_terms
     lvds_output
     pll
+    registers
     reset_sync
     spad_control
     tansig
@@ -45,6 +47,7 @@ blocks! {
     tdc_decoder
     tdc_latch
     tof_top
+    uart_bridge
     vcsel_driver
 }
 

@@ -24,6 +24,8 @@ pub struct Configuration {
     pub module: Option<&'static str>,
     /// Hidden neurons, if they are more than those of the scenario's network.
     pub neurons: Option<usize>,
+    /// Whether a host controls the firmware.
+    pub is_hosted: bool,
 }
 
 /// Sixteen hidden neurons.
@@ -83,6 +85,19 @@ pub const CLOCKS: Configuration = Configuration {
 pub const LONG_PULSE: Configuration =
     Configuration { name: "long_pulse", set: &["firmware.pulse_half_cycles=5"], ..DEFAULTS };
 
+/// A host, whose guard can block the laser.
+pub const HOSTED: Configuration = Configuration {
+    name: "hosted",
+    parameters: &["Hosted"],
+    module: Some("laser_guard"),
+    is_hosted: true,
+    ..DEFAULTS
+};
+
+/// The same with laser pulses of two cycles and a half.
+pub const HOSTED_LONG_PULSE: Configuration =
+    Configuration { name: "hosted_long_pulse", set: LONG_PULSE.set, ..HOSTED };
+
 /// Nothing else than usual.
 pub(super) const DEFAULTS: Configuration = Configuration {
     name: "",
@@ -91,6 +106,7 @@ pub(super) const DEFAULTS: Configuration = Configuration {
     parameters: &[],
     module: None,
     neurons: None,
+    is_hosted: false,
 };
 
 impl Configuration {
@@ -106,6 +122,7 @@ impl Configuration {
             let network = setup.network.params(&setup.params.histogram);
             setup.params.estimators.depth_estimator = Arc::new(network);
         }
+        setup.params.is_hosted = self.is_hosted;
         Ok(Setting { setup, ..base.clone() })
     }
 }

@@ -53,7 +53,7 @@ impl Parameter {
 pub type Parameters = Vec<(&'static str, Parameter)>;
 
 /// Parameters that say what a design has. Benches set them before those that say how large it is.
-const OPTIONS: [&str; 5] = ["Neurons", "CountStages", "Decoder", "Order", "Calibrated"];
+const OPTIONS: [&str; 6] = ["Neurons", "CountStages", "Decoder", "Order", "Calibrated", "Hosted"];
 
 /// Names of the parameters that a module's Verilog declares, in its order.
 pub fn declared(verilog: &'static str) -> impl Iterator<Item = &'static str> {

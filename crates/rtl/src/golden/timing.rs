@@ -94,6 +94,20 @@ pub const BOTH: Timing = cycle(
     ],
 );
 
+/// Both clocks, where the laser's enables may change with the edge of `clk_laser` in the middle.
+pub const BOTH_WITH_PULSE: Timing = cycle(
+    "clk_sys",
+    &[
+        step(1, true, &[("clk_laser", false)]),
+        step(1, true, &[("clk_sys", false), ("clk_laser", true)]),
+        BenchStep {
+            late: Some(("laser_pulse", "laser_pulse_late")),
+            ..step(1, true, &[("clk_laser", false)])
+        },
+        step(1, true, &[("clk_sys", true), ("clk_laser", true)]),
+    ],
+);
+
 /// Cycle whose clocks are made by the block's own PLL.
 pub const OWN: Timing = Timing { oscillator: true, ..cycle("clk_sys", &[step(1, true, &[]); 4]) };
 

@@ -10,15 +10,21 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &["laser_on", "fire_last", "pulse_0", "pulse_1", "laser_pulse", "stretch", "ddr_output.q", "ddr_output.second"],
     latency: &[Latency { from: "acquire", to: "start", cycles: |_| 5 }],
-    configurations: &[Configuration { parameters: &["PulseHalfCycles"], ..LONG_PULSE }],
-    model: Some(Model::new::<In>(|at| {
-        let (i, driver) = (at.input(), &mut at.top.vcsel_driver);
-        match at.edge {
-            Edge::Rise => driver.rise(&i, &at.params.vcsel_driver),
-            Edge::Middle => driver.rise_laser(&i, &at.params.vcsel_driver),
-            Edge::Fall => driver.fall_laser(),
-        }
-    })),
+    configurations: &[Configuration { parameters: &["PulseHalfCycles"], ..LONG_PULSE }, HOSTED],
+    model: Some(Model {
+        settle: |at| {
+            let i = at.input();
+            at.top.vcsel_driver.settle(&i);
+        },
+        ..Model::new::<In>(|at| {
+            let (i, driver) = (at.input(), &mut at.top.vcsel_driver);
+            match at.edge {
+                Edge::Rise => driver.rise(&i, &at.params.vcsel_driver),
+                Edge::Middle => driver.rise_laser(&i, &at.params.vcsel_driver),
+                Edge::Fall => driver.fall_laser(),
+            }
+        })
+    }),
     ..Spec::new("vcsel_driver", "vcsel_driver", record)
 };
 
@@ -38,6 +44,13 @@ signals! {
         /// Repetition rate.
         #[size(RateBits)]
         laser_freq: Rate,
+        /// The output is low.
+        #[only_if(Hosted)]
+        laser_off: bool,
+        /// Enables that do not pass.
+        #[only_if(Hosted)]
+        #[size(Halves)]
+        laser_block: U<2>,
     }
 }
 
@@ -65,9 +78,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         (0..4).flat_map(|left| [1, 2, 4].map(|what| left * 8 + what)),
     );
     let mut resets = Cover::new("rst_laser in the first half of a cycle x 2 + in the second", 0..4);
+    let is_hosted = setting.setup.params.is_hosted;
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     let laser_freq = Rate::new(usable[usable.len() - 1]);
-    let mut i = In { rst: true, rst_laser: true, acquire: true, laser_en: true, laser_freq };
+    let mut i = In { rst: true, rst_laser: true, acquire: true, laser_en: true, laser_freq, ..In::default() };
     let lines = Setting::CYCLES.max((800 * longest).min(10 * USUAL * LONG) as usize);
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let place = run.top.vcsel_driver.registers.place(p);
@@ -91,8 +105,15 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             let left = p.periods[rate as usize] - 1 - count;
             endings.see(left * 8 + bits([i.rst, i.rst_laser, !i.acquire]));
         }
-        let In { rst, rst_laser, acquire, laser_en, laser_freq } = i;
-        run.line(&Stimulus { rst, rst_laser, rst_laser_late: late, acquire, laser_en, laser_freq });
+        if is_hosted {
+            i.laser_off ^= run.draw.one_in(if i.laser_off { 8 } else { 60 });
+            i.laser_block = U::new(if run.draw.one_in(3) { run.draw.bits() } else { 0 });
+        }
+        run.top.vcsel_driver.settle(&i);
+        let In { rst, rst_laser, acquire, laser_en, laser_freq, laser_off, laser_block } = i;
+        run.line(&Stimulus {
+            rst, rst_laser, rst_laser_late: late, acquire, laser_en, laser_freq, laser_off, laser_block,
+        });
         run.top.vcsel_driver.fall_laser();
         run.sample();
         if cycle > 0 {

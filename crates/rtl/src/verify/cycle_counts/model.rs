@@ -114,6 +114,7 @@ fn shots(design: &CountedDesign, mode: bool, code: u64, measured: &mut Measured)
         acquire: false,
         laser_en: true,
         laser_freq,
+        ..vcsel_driver::In::default()
     };
     let (mut driver, p, half_ps) = (VcselDriver::default(), &design.laser, design.half_ps);
     driver.rise(&i, p);
