@@ -5,7 +5,13 @@
 // macro ECP5.
 `ifdef SYNTHESIS
 `ifdef ECP5
-module ecp5_top (
+module ecp5_top #(
+    parameter [0:0] Hosted = 1'b1,               // see tof_top
+    parameter [0:0] Calibrated = 1'b1,
+    parameter [15:0] CalibrationFrames = 16'd64,
+    // Of the scenario kc705 with tdc.recalibrate_frames=64, pll.divide=2 and pll.output_divide=4
+    parameter [63:0] ParametersHash = 64'd0
+) (
     // Board
     input wire clk_in,                // oscillator, 200 MHz
     output wire clk_in_en,            // its enable
@@ -13,6 +19,12 @@ module ecp5_top (
     output wire locked_n,             // LED, active low: the clocks run
     // Laser
     output wire laser_on_lvds_p,      // positive pin; its I/O cell drives the negative one
+    // Host, over the USB-UART
+    input wire uart_rx,               // from it
+    output wire uart_tx,              // to it
+    output wire armed_n,              // LED, active low: the laser may fire
+    input wire interlock,             // low while the laser's interlock is closed
+    input wire select_pins_n,         // switch, active low: the acquisition computer's pins are in force, and not the host
     // SPAD array
     input wire tdc_stop,              // its output, asynchronous
     output wire spad_rst,             // recharges the SPAD and keeps it off
@@ -30,13 +42,23 @@ module ecp5_top (
     output wire [15:0] hist_count,    // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
-    wire locked;
+    wire locked, armed, ring_on, ring;
 
     assign clk_in_en = 1'b1;
     assign locked_n = !locked;
+    assign armed_n = !armed;
+
+    ring_oscillator ring_oscillator (
+        .enable(ring_on),
+        .pulse(ring)
+    );
 
     // The VCO at 500 MHz.
     tof_top #(
+        .Hosted(Hosted),
+        .ParametersHash(ParametersHash),
+        .Calibrated(Calibrated),
+        .CalibrationFrames(CalibrationFrames),
         .InputHz(200000000),
         .Multiply(5),
         .Divide(2),
@@ -47,7 +69,8 @@ module ecp5_top (
         .locked(locked),
         .laser_on_lvds_p(laser_on_lvds_p),
         .laser_on_lvds_n(),
-        .tdc_stop(tdc_stop),
+        .tdc_stop(ring_on ? ring : tdc_stop),
+        .ring_on(ring_on),
         .spad_rst(spad_rst),
         .spad_sel(spad_sel),
         .mode(mode),
@@ -55,6 +78,11 @@ module ecp5_top (
         .laser_en(laser_en),
         .dsp_en(dsp_en),
         .dsp_rst(dsp_rst),
+        .uart_rx(uart_rx),
+        .uart_tx(uart_tx),
+        .armed(armed),
+        .interlock(interlock),
+        .select_pins(!select_pins_n),
         .depth(depth),
         .algo_done(algo_done),
         // Left open: a logic analyser in the FPGA shows them.

@@ -15,6 +15,14 @@ set_property -dict {PACKAGE_PIN AD11 IOSTANDARD LVDS} [get_ports sysclk_n]
 set_property -dict {PACKAGE_PIN AB7 IOSTANDARD LVCMOS15} [get_ports cpu_reset]
 set_property -dict {PACKAGE_PIN AB8 IOSTANDARD LVCMOS15} [get_ports locked]
 
+# [board] CP2103 USB-UART; GPIO LED 1. [choice] The interlock at the SMA J13, open while nothing is plugged in;
+# switch 1 of SW11, pulled down by the board.
+set_property -dict {PACKAGE_PIN M19 IOSTANDARD LVCMOS25 PULLTYPE PULLUP} [get_ports uart_rx]
+set_property -dict {PACKAGE_PIN K24 IOSTANDARD LVCMOS25} [get_ports uart_tx]
+set_property -dict {PACKAGE_PIN AA8 IOSTANDARD LVCMOS15} [get_ports armed]
+set_property -dict {PACKAGE_PIN Y23 IOSTANDARD LVCMOS25 PULLTYPE PULLUP} [get_ports interlock]
+set_property -dict {PACKAGE_PIN Y29 IOSTANDARD LVCMOS25} [get_ports select_pins]
+
 # The PLL's outputs are derived from this clock by Vivado; clk_sys and clk_laser are synchronous, and
 # the path between them (fire to laser_pulse) has 4 ns.
 create_clock -period 5.000 -name clk_in [get_ports sysclk_p]
@@ -23,11 +31,25 @@ create_clock -period 5.000 -name clk_in [get_ports sysclk_p]
 # which is longer than a clock period on purpose.
 set_false_path -to [get_pins tof_top/reset_sync_*/meta_reg/D]
 set_false_path -to [get_pins tof_top/control_sync/*_meta_reg*/D]
+set_false_path -to [get_pins tof_top/uart_bridge/rx_meta_reg/D]
+set_false_path -to [get_pins tof_top/laser_guard/*_meta_reg/D]
 set_false_path -from [get_ports tdc_stop]
 
-# [choice] The acquisition computer samples with its own clock or an analyser's; the SPAD array is
-# slow. The laser's pulse leaves from a register in the pin.
-set_false_path -to [all_outputs]
+# What switches the laser off needs no clock; when it lets go, the laser's register has nothing to emit yet.
+set_false_path -to [get_pins tof_top/laser_guard/*/PRE]
+set_false_path -to [get_pins tof_top/vcsel_driver/ddr_output/oddr/R]
+
+# The ring oscillator: a clock of its own, uncorrelated on purpose.
+create_clock -period 2.000 -name ring [get_pins ring_oscillator/stage[14].lut/O]
+set_clock_groups -asynchronous -group [get_clocks ring]
+
+# [choice] The estimate is at the pins 8 ns after its edge of clk_sys at the latest, and stays until that of the next
+# frame: sampled 8 ns after algo_done rises or later, it is whole. Nothing of that kind holds for the other outputs: the
+# histogram changes with clk_sys, of which no copy leaves the FPGA (a host reads it from the registers), the SPAD array is
+# slow, and the laser's pulse leaves from a register in the pin.
+set_max_delay -datapath_only 8.000 -from [get_clocks -of_objects [get_pins tof_top/pll/bufg_sys/O]] \
+    -to [get_ports {depth[*] sigma[*] status[*] valid algo_done}]
+set_false_path -to [get_ports {locked armed uart_tx laser_on_lvds_p laser_on_lvds_n spad_rst spad_sel[*] hist_valid hist_bin[*] hist_count[*] frame_done}]
 
 # [board] pins, [choice] of connector, order and standard from here on. The banks are HR with
 # VADJ = 2.5 V, the board's default.

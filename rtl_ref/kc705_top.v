@@ -3,7 +3,13 @@
 
 // The device on a KC705: tof_top with the board's differential oscillator; for synthesis only.
 `ifdef SYNTHESIS
-module kc705_top (
+module kc705_top #(
+    parameter [0:0] Hosted = 1'b1,               // see tof_top
+    parameter [0:0] Calibrated = 1'b1,
+    parameter [15:0] CalibrationFrames = 16'd64,
+    // Of the scenario kc705 with tdc.recalibrate_frames=64
+    parameter [63:0] ParametersHash = 64'd0
+) (
     // Board
     input wire sysclk_p,              // 200 MHz oscillator
     input wire sysclk_n,
@@ -12,6 +18,12 @@ module kc705_top (
     // Laser
     output wire laser_on_lvds_p,      // positive pin
     output wire laser_on_lvds_n,      // negative pin
+    // Host, over the USB-UART
+    input wire uart_rx,               // from it
+    output wire uart_tx,              // to it
+    output wire armed,                // LED: the laser may fire
+    input wire interlock,             // low while the laser's interlock is closed
+    input wire select_pins,           // switch: the acquisition computer's pins are in force, and not the host
     // SPAD array
     input wire tdc_stop,              // its output, asynchronous
     output wire spad_rst,             // recharges the SPAD and keeps it off
@@ -32,7 +44,7 @@ module kc705_top (
     output wire [15:0] hist_count,    // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
-    wire clk_in;
+    wire clk_in, ring_on, ring;
 
     IBUFDS ibufds (
         .I(sysclk_p),
@@ -40,15 +52,24 @@ module kc705_top (
         .O(clk_in)
     );
 
-    tof_top tof_top (
+    ring_oscillator ring_oscillator (
+        .enable(ring_on),
+        .pulse(ring)
+    );
+
+    tof_top #(
+        .Hosted(Hosted),
+        .ParametersHash(ParametersHash),
+        .Calibrated(Calibrated),
+        .CalibrationFrames(CalibrationFrames)
+    ) tof_top (
         .clk_in(clk_in),
         .rst(cpu_reset),
         .locked(locked),
         .laser_on_lvds_p(laser_on_lvds_p),
         .laser_on_lvds_n(laser_on_lvds_n),
-        .tdc_stop(tdc_stop),
-        // The TDC has its ages from a ROM.
-        .ring_on(),
+        .tdc_stop(ring_on ? ring : tdc_stop),
+        .ring_on(ring_on),
         .spad_rst(spad_rst),
         .spad_sel(spad_sel),
         .mode(mode),
@@ -56,6 +77,11 @@ module kc705_top (
         .laser_en(laser_en),
         .dsp_en(dsp_en),
         .dsp_rst(dsp_rst),
+        .uart_rx(uart_rx),
+        .uart_tx(uart_tx),
+        .armed(armed),
+        .interlock(interlock),
+        .select_pins(select_pins),
         .depth(depth),
         .algo_done(algo_done),
         .sigma(sigma),

@@ -114,6 +114,7 @@ module tof_top #(
     // Host
     input wire uart_rx,               // from it, asynchronous
     output wire uart_tx,              // to it
+    output wire armed,                // the laser may fire
     input wire interlock,             // the laser's interlock is open, asynchronous
     input wire select_pins,           // the control pins are in force, and not the registers, asynchronous
     output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
@@ -177,7 +178,7 @@ module tof_top #(
     localparam [63:0] TimeoutCycles = SystemHz / 64'd10;
     wire [31:0] address, write_data, read_data;
     wire write_en, heard, arm, disarm;
-    wire armed, pins_selected, interlock_sync;
+    wire pins_selected, interlock_sync;
     wire host_silent, unlocked, interlocked, pulse_too_long, rate_too_high;
     wire host_mode, host_laser_en, host_dsp_en, host_dsp_rst, host_ring_on;
     wire [RateBits-1:0] host_laser_freq;

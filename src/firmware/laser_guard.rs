@@ -70,6 +70,7 @@ signals! {
         #[only_if(Hosted)]
         pub laser_off: bool,
         /// The laser may fire.
+        #[only_if(Hosted)]
         pub armed: bool,
         /// `select_pins` in `clk_sys`.
         pub pins_selected: bool,

@@ -120,6 +120,7 @@ connect! {
         output frame_done <- this.frame_ctrl.frame_done;
         output locked <- this.pll.locked;
         output uart_tx <- this.uart_bridge.uart_tx;
+        output armed <- this.laser_guard.registers.armed;
     }
     pll(clk_in): pll::In {} -> { clk_sys: this.clocks.clk_sys, clk_laser: this.clocks.clk_laser, }
     reset_sync_sys(clk <- clk_sys): reset_sync::In {
