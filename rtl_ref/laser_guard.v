@@ -91,8 +91,9 @@ module laser_guard #(
     end
 
     initial begin
-        {armed, pins_selected, interlock_sync, host_silent, interlocked, pulse_too_long, rate_too_high} = 7'd0;
-        {unlocked, laser_off} = 2'b11;
+        {armed, pins_selected, interlock_sync, host_silent, pulse_too_long, rate_too_high} = 6'd0;
+        // Registers of an ECP5 begin with what sets them.
+        {unlocked, interlocked, laser_off} = 3'b111;
         {select_pins_meta, laser_en_meta, laser_en_sync, laser_en_last, interlock_meta, cut_meta, cut_sync} = 7'd0;
         {arming, silence} = 35'd0;
         laser_block = {Halves{1'b1}};

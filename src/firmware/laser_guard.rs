@@ -124,10 +124,14 @@ connect! {
 }
 
 impl LaserGuard {
-    /// At power-up.
+    /// At power-up, with both faults that need no clock: arming clears them.
     pub fn new(p: &Params) -> Self {
-        let registers =
-            GuardRegisters { laser_off: true, unlocked: true, ..GuardRegisters::default() };
+        let registers = GuardRegisters {
+            laser_off: true,
+            unlocked: true,
+            interlocked: true,
+            ..GuardRegisters::default()
+        };
         LaserGuard { registers, registers_laser: LaserRegisters::new(p) }
     }
 
