@@ -7,7 +7,8 @@ module ddr_output #(
     parameter [0:0] Hosted = 1'b0  // looks at off and block
 ) (
     input wire clk_laser,
-    input wire [Halves-1:0] d,  // levels for the first half of the coming cycle and for its second
+    // Levels for the first half of the coming cycle and for its second, which has none of its own
+    input wire [Halves-1:0] d,
     // laser_guard
     // verilator lint_off UNUSEDSIGNAL
     input wire off,             // the output is low, asynchronous
@@ -16,7 +17,7 @@ module ddr_output #(
     output wire q               // the output
 );
     wire d_first = d[0] && !(Hosted && block[0]);
-    wire d_second = Halves > 1 && d[Halves-1] && !(Hosted && block[Halves-1]);
+    wire d_second = Halves > 1 && d_first && d[Halves-1] && !(Hosted && block[Halves-1]);
     wire is_off = Hosted && off;
 
 `ifdef SYNTHESIS

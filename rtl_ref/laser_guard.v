@@ -60,7 +60,8 @@ module laser_guard #(
     reg [2:0] arming;           // cycles until the laser is armed
     reg [31:0] silence;         // since the last command [cycles of clk_sys]
     // Of clk_laser
-    reg armed_last;
+    reg armed_last;             // armed at the edge before
+    reg checks;                 // pulses are checked: laser_block has had time to open
     reg [3:0] run;              // how long the output has been high without a break [half cycles]
     reg [15:0] gap;             // until a pulse may begin [cycles of clk_laser]
     reg too_long;               // a pulse would have been too long
@@ -75,18 +76,18 @@ module laser_guard #(
     // What passes, and what stands in the way of it in the next cycle.
     wire first = laser_pulse[0], second = Halves > 1 && laser_pulse[Halves-1];
     wire first_blocked = laser_block[0], second_blocked = laser_block[Halves-1];
-    wire first_passes = first && !first_blocked, second_passes = second && !second_blocked;
-    wire begins = first_passes ? run == 4'd0 : second_passes;
+    wire first_passes = first && !first_blocked, second_passes = second && !second_blocked && first_passes;
+    wire begins = first_passes && run == 4'd0;
     reg [3:0] run_next;
     reg [15:0] gap_next;
     reg blocks_first, blocks_second;
 
     always @* begin
         run_next = 4'd0;
-        if (second_passes) run_next = first_passes ? run + 4'd2 : 4'd1;
+        if (second_passes) run_next = run + 4'd2;
         gap_next = gap == 16'd0 ? 16'd0 : gap - 16'd1;
         if (begins) gap_next = ShortestPeriod - 16'd1;
-        blocks_first = !armed || run_next >= LongestPulse || (run_next == 4'd0 && gap_next != 16'd0);
+        blocks_first = !armed || !armed_last || run_next >= LongestPulse || (run_next == 4'd0 && gap_next != 16'd0);
         blocks_second = blocks_first || run_next + 4'd1 >= LongestPulse;
     end
 
@@ -94,10 +95,11 @@ module laser_guard #(
         {armed, pins_selected, interlock_sync, host_silent, pulse_too_long, rate_too_high} = 6'd0;
         // Registers of an ECP5 begin with what sets them.
         {unlocked, interlocked, laser_off} = 3'b111;
-        {select_pins_meta, laser_en_meta, laser_en_sync, laser_en_last, interlock_meta, cut_meta, cut_sync} = 7'd0;
+        {select_pins_meta, laser_en_meta, laser_en_sync, interlock_meta, cut_meta, cut_sync} = 6'd0;
+        laser_en_last = 1'b1;
         {arming, silence} = 35'd0;
         laser_block = {Halves{1'b1}};
-        {armed_last, too_long, too_soon} = 3'd0;
+        {armed_last, checks, too_long, too_soon} = 4'd0;
         {run, gap} = 20'd0;
     end
 
@@ -135,31 +137,31 @@ module laser_guard #(
         end
         arming <= arming == 3'd0 ? 3'd0 : arming - 3'd1;
         if (arming == 3'd1) armed <= !cut_sync;
-        if (arms) arming <= Arming;
+        if (arms) {armed, arming} <= {1'b0, Arming};
         if (armed && trips) armed <= 1'b0;
         if (disarms) {armed, arming} <= 4'd0;
-        if (rst) {armed, arming} <= 4'd0;
+        // A laser_en that is high already does not arm.
+        if (rst) {armed, arming, laser_en_last} <= 5'd1;
     end
 
     always @(posedge clk_laser) begin
         armed_last <= armed;
+        checks <= armed_last && armed;
         laser_block[0] <= blocks_first;
         laser_block[Halves-1] <= Halves > 1 ? blocks_second : blocks_first;
         run <= run_next;
         gap <= gap_next;
-        if (!armed_last) {too_long, too_soon} <= 2'b00;
-        else begin
-            if (first && first_blocked) begin
-                if (run != 4'd0) too_long <= 1'b1;
-                else too_soon <= 1'b1;
-            end
-            if (second && second_blocked && !(first && first_blocked)) begin
-                if (first || run != 4'd0) too_long <= 1'b1;
-                else too_soon <= 1'b1;
-            end
+        if (!checks) {too_long, too_soon} <= 2'b00;
+        else if (too_long || too_soon) ;  // the first of them is the reason
+        else if (first && first_blocked) begin
+            too_long <= run != 4'd0;
+            too_soon <= run == 4'd0;
+        end else if (second && !second_passes) begin
+            too_long <= first;
+            too_soon <= !first;
         end
         if (rst_laser) begin
-            {armed_last, too_long, too_soon} <= 3'd0;
+            {armed_last, checks, too_long, too_soon} <= 4'd0;
             laser_block <= {Halves{1'b1}};
         end
     end

@@ -1,7 +1,7 @@
 //! A double-data-rate output register (ODDR).
 //!
 //! Mirrors `rtl_ref/ddr_output.v`. `d`, taken at a rising edge of `clk_laser`, is at the output: bit 0 until
-//! the falling edge, bit 1 from there on. A pulse of half a cycle needs no bit 1, and the output is low there.
+//! the falling edge, bits 0 and 1 from there on. A pulse of half a cycle needs no bit 1, and the output is low there.
 //! So a pulse has no glitch, whatever the logic before it does.
 
 use crate::kernel::U;
@@ -39,7 +39,7 @@ impl DdrOutput {
     #[inline(always)]
     pub fn rise(&self, i: &In) -> Self {
         let d = i.d.get() & !i.block.get();
-        DdrOutput { q: d & 1 == 1, second: U::new(d >> 1) }.settled(i)
+        DdrOutput { q: d & 1 == 1, second: U::new(d & d >> 1) }.settled(i)
     }
 
     /// Low while it is off, without an edge.

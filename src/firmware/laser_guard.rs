@@ -93,7 +93,7 @@ signals! {
         /// `laser_en` in `clk_sys`.
         laser_en_sync: bool,
         /// The same at the edge before.
-        laser_en_last: bool,
+        laser_en_last: bool = true,
         /// First flip-flop of `interlock`.
         interlock_meta: bool,
         /// First flip-flop of `cut_sync`.
@@ -201,12 +201,14 @@ impl GuardRegisters {
             d.armed = !q.cut_sync;
         }
         if arms {
-            d.arming = U::new(ARMING);
+            (d.armed, d.arming) = (false, U::new(ARMING));
         }
         d.armed &= !(q.armed && trips);
         if disarms || i.rst {
             (d.armed, d.arming) = (false, U::new(0));
         }
+        // A `laser_en` that is high already does not arm.
+        d.laser_en_last |= i.rst;
         d
     }
 }

@@ -8,6 +8,7 @@ use std::process::Command;
 
 use crate::common;
 
+mod guard;
 mod pins;
 mod scripts;
 
@@ -62,10 +63,22 @@ const FAULTS: &[Fault] = &[
         "assign o = i;\n    assign ob = 1'b0",
         "assign o = !i;\n    assign ob = 1'b0",
     ),
-    (KC705, "ddr_output", ".D1(d[0])", ".D1(d_second)"),
-    (KC705, "ddr_output", ".D2(d_second)", ".D2(d[0])"),
-    (ECP5, "ddr_output", ".D0(d[0])", ".D0(d_second)"),
-    (ECP5, "ddr_output", ".D1(d_second)", ".D1(d[0])"),
+    (KC705, "ddr_output", ".D1(d_first)", ".D1(d_second)"),
+    (KC705, "ddr_output", ".D2(d_second)", ".D2(d_first)"),
+    (ECP5, "ddr_output", ".D0(d_first)", ".D0(d_second)"),
+    (ECP5, "ddr_output", ".D1(d_second)", ".D1(d_first)"),
+    (KC705, "kc705_top", ".uart_rx(uart_rx)", ".uart_rx(uart_tx)"),
+    (KC705, "kc705_top", ".interlock(interlock)", ".interlock(1'b0)"),
+    (KC705, "kc705_top", ".select_pins(select_pins)", ".select_pins(!select_pins)"),
+    (KC705, "kc705_top", "ring_on ? ring : tdc_stop", "ring_on ? tdc_stop : ring"),
+    (ECP5, "ecp5_top", ".uart_rx(uart_rx)", ".uart_rx(uart_tx)"),
+    (ECP5, "ecp5_top", ".interlock(interlock)", ".interlock(1'b0)"),
+    (ECP5, "ecp5_top", ".select_pins(!select_pins_n)", ".select_pins(select_pins_n)"),
+    (ECP5, "ecp5_top", "armed_n = !armed", "armed_n = armed"),
+    (ECP5, "ecp5_top", "ring_on ? ring : tdc_stop", "ring_on ? tdc_stop : ring"),
+    (&Board::ALL, "tof_top", "(armed || !Hosted)", "1'b1"),
+    (&Board::ALL, "tof_top", ".laser_off(laser_off)", ".laser_off(1'b0)"),
+    (&Board::ALL, "tof_top", "by_host = Hosted && !pins_selected", "by_host = Hosted"),
     (KC705, "pll", ".CLKOUT0_DIVIDE(OutputDivide)", ".CLKOUT0_DIVIDE(OutputDivide / 2)"),
     (KC705, "pll", ".CLKOUT1_DIVIDE(OutputDivide / 2)", ".CLKOUT1_DIVIDE(OutputDivide)"),
     (KC705, "pll", ".DIVCLK_DIVIDE(Divide)", ".DIVCLK_DIVIDE(2)"),
@@ -94,10 +107,10 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
-/// Runs a board's top, or the simulated one, in a folder with its ROMs; the design may have a fault.
-fn trace(board: Option<Board>, fault: Option<&Fault>) -> String {
+/// A folder with the firmware, its ROMs and the delays of the chain, and the Verilog in it; it may have a fault.
+fn sources(fault: Option<&Fault>) -> (tempfile::TempDir, Vec<PathBuf>) {
     let folder = tempfile::tempdir().unwrap();
-    let (here, rtl) = (root().join("crates/rtl/tests/board"), root().join("rtl_ref"));
+    let rtl = root().join("rtl_ref");
     let copy = folder.path().join("rtl_ref");
     fs::create_dir(&copy).unwrap();
     let mut sources = Vec::new();
@@ -116,7 +129,20 @@ fn trace(board: Option<Board>, fault: Option<&Fault>) -> String {
     let ages = fs::read_to_string(rtl.join("tdc_cal.mem")).unwrap();
     let ages: Vec<_> = ages.lines().step_by(12).take(TAPS as usize + 1).collect();
     fs::write(folder.path().join("cal.mem"), ages.join("\n")).unwrap();
+    (folder, sources)
+}
 
+/// Runs a program that must succeed, and returns its output.
+fn output(command: &mut Command) -> String {
+    let done = command.output().expect("iverilog: apt-get install iverilog");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    String::from_utf8(done.stdout).unwrap()
+}
+
+/// Runs a board's top, or the simulated one; the design may have a fault.
+fn trace(board: Option<Board>, fault: Option<&Fault>) -> String {
+    let (folder, sources) = sources(fault);
+    let here = root().join("crates/rtl/tests/board");
     let mut compiler = Command::new("iverilog");
     compiler.current_dir(folder.path()).args(["-g2005", "-s", "bench", "-o", "bench.vvp"]);
     compiler.arg(here.join("bench.v")).args(sources);
@@ -125,11 +151,6 @@ fn trace(board: Option<Board>, fault: Option<&Fault>) -> String {
         compiler.args([name, "-DSYNTHESIS"]).arg(format!("-DTAP_PS={}", TAP_FS as f64 / 1000.0));
         compiler.args([here.join("vendor_pll.v"), here.join(primitives)]);
     }
-    let output = |command: &mut Command| {
-        let done = command.output().expect("iverilog: apt-get install iverilog");
-        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-        String::from_utf8(done.stdout).unwrap()
-    };
     output(&mut compiler);
     output(Command::new("vvp").current_dir(folder.path()).args(["-n", "bench.vvp"]))
 }

@@ -14,6 +14,8 @@ signals! {
         pub laser_block: U<2>,
         /// `armed` at the edge before.
         armed_last: bool,
+        /// Pulses are checked: `laser_block` has had time to open.
+        checks: bool,
         /// How long the output has been high without a break [half cycles].
         run: U<4>,
         /// Time until a pulse may begin [cycles of clk_laser].
@@ -59,36 +61,34 @@ impl Clocked for LaserRegisters {
         let first = bit(i.laser_pulse, 0);
         let second = p.halves > 1 && bit(i.laser_pulse, last);
         let (first_blocked, second_blocked) = (bit(q.laser_block, 0), bit(q.laser_block, last));
-        let (first_passes, second_passes) = (first && !first_blocked, second && !second_blocked);
-        let begins = if first_passes { q.run == 0 } else { second_passes };
+        let first_passes = first && !first_blocked;
+        let second_passes = first_passes && second && !second_blocked;
+        let begins = first_passes && q.run == 0;
 
-        d.armed_last = i.armed;
-        d.run = match (first_passes, second_passes) {
-            (_, false) => U::new(0),
-            (true, true) => q.run + 2,
-            (false, true) => U::new(1),
-        };
+        (d.armed_last, d.checks) = (i.armed, q.armed_last && i.armed);
+        d.run = if second_passes { q.run + 2 } else { U::new(0) };
         d.gap = match q.gap.get() {
             _ if begins => U::new(p.shortest_period - 1),
             0 => U::new(0),
             _ => q.gap - 1,
         };
         let too_soon = d.run == 0 && d.gap != 0;
-        let blocks_first = !i.armed || d.run.get() >= p.longest_pulse || too_soon;
+        let blocks_first = !i.armed || !q.armed_last || d.run.get() >= p.longest_pulse || too_soon;
         let blocks_second = blocks_first || (d.run.get() + 1) % 16 >= p.longest_pulse;
         let blocks = u64::from(blocks_first) | u64::from(blocks_second) << 1;
         d.laser_block = U::new(blocks & ((1 << p.halves) - 1));
-        if !q.armed_last {
+        if !q.checks {
             (d.too_long, d.too_soon) = (false, false);
+        } else if q.too_long || q.too_soon {
+            // The first of them is the reason.
         } else if first && first_blocked {
-            d.too_long |= q.run != 0;
-            d.too_soon |= q.run == 0;
-        } else if second && second_blocked {
-            d.too_long |= first || q.run != 0;
-            d.too_soon |= !first && q.run == 0;
+            (d.too_long, d.too_soon) = (q.run != 0, q.run == 0);
+        } else if second && !second_passes {
+            (d.too_long, d.too_soon) = (first, !first);
         }
         if i.rst_laser {
-            (d.armed_last, d.too_long, d.too_soon) = (false, false, false);
+            (d.armed_last, d.checks) = (false, false);
+            (d.too_long, d.too_soon) = (false, false);
             d.laser_block = U::new((1 << p.halves) - 1);
         }
         d

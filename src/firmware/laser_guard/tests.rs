@@ -142,8 +142,15 @@ fn without_lock_or_interlock_the_laser_is_off_without_a_clock_and_stays_off() {
 #[test]
 fn with_the_switch_at_the_pins_a_rise_of_laser_en_arms_and_its_fall_disarms() {
     let mut laser = Laser::new();
-    (laser.i.select_pins, laser.i.laser_en) = (true, true);
+    (laser.i.select_pins, laser.i.laser_en, laser.i.rst) = (true, true, true);
     (0..10).for_each(|_| laser.cycle());
+    laser.i.rst = false;
+    (0..10).for_each(|_| laser.cycle());
+    assert!(!laser.guard.registers.armed, "it has been high since the reset");
+    for level in [false, true] {
+        laser.i.laser_en = level;
+        (0..10).for_each(|_| laser.cycle());
+    }
     assert!(laser.guard.registers.armed);
     (0..200).for_each(|_| laser.cycle());
     assert!(laser.guard.registers.armed, "no host has to be heard");

@@ -7,13 +7,13 @@ module bench;
     // From the first edge of the clocks on [ps], a quarter of a cycle apart.
     localparam integer Begin = 1008000, Quarter = 2000, Cycles = 5000;
 
-    reg clk_in, rst, tdc_stop, mode, laser_en, dsp_en, dsp_rst;
+    reg clk_in, rst, tdc_stop, mode, laser_en, dsp_en, dsp_rst, uart_rx, interlock;
     reg [1:0] laser_freq;
     wire locked, laser_on_lvds_p, laser_on_lvds_n, spad_rst, algo_done, hist_valid, frame_done;
     wire [39:0] spad_sel;
     wire [35:0] depth, sigma;
     wire [6:0] status;
-    wire valid;
+    wire valid, uart_tx, armed;
     wire [7:0] hist_bin;
     wire [15:0] hist_count;
 
@@ -23,37 +23,49 @@ module bench;
         .sysclk_n(!clk_in),
         .cpu_reset(rst),
         .locked(locked),
+        .armed(armed),
+        .select_pins(1'b1),
         .laser_on_lvds_n(laser_on_lvds_n),
         .sigma(sigma),
         .status(status),
         .valid(valid),
 `elsif ECP5
-    wire locked_n, clk_in_en;
+    wire locked_n, clk_in_en, armed_n;
 
     // It has no pins for them. They belong to an estimator that this design does not have.
     assign {sigma, status, valid} = 44'd0;
     assign locked = !locked_n;
+    assign armed = !armed_n;
     assign laser_on_lvds_n = !laser_on_lvds_p;
     ecp5_top top (
         .clk_in(clk_in && clk_in_en),
         .clk_in_en(clk_in_en),
         .reset_n(!rst),
         .locked_n(locked_n),
+        .armed_n(armed_n),
+        .select_pins_n(1'b0),
 `else
     tof_top #(
         .DelaysFile("delays.mem"),
         .CalFile("cal.mem"),
         .Taps(64),
+        .Hosted(1'b1),
+        .Baud(64'd15625000),
         .ShotsPerFrame(24'd8)
     ) top (
         .clk_in(clk_in),
         .rst(rst),
         .locked(locked),
+        .armed(armed),
+        .select_pins(1'b1),
         .laser_on_lvds_n(laser_on_lvds_n),
         .sigma(sigma),
         .status(status),
         .valid(valid),
 `endif
+        .uart_rx(uart_rx),
+        .uart_tx(uart_tx),
+        .interlock(interlock),
         .laser_on_lvds_p(laser_on_lvds_p),
         .tdc_stop(tdc_stop),
         .spad_rst(spad_rst),
@@ -71,6 +83,9 @@ module bench;
         .frame_done(frame_done)
     );
 `ifdef SYNTHESIS
+    // A calibration would wait for the ring.
+    defparam top.Calibrated = 1'b0;
+    defparam top.tof_top.Baud = 64'd15625000;
     // A short chain of long taps: Icarus copies all of it when one tap changes.
     defparam top.tof_top.CalFile = "cal.mem";
     defparam top.tof_top.Taps = 64;
@@ -92,9 +107,12 @@ module bench;
     integer seed, pause;
     initial begin
         seed = 1;
-        {rst, mode, dsp_rst} = 3'd0;
+        {mode, dsp_rst, interlock} = 3'd0;
         {laser_en, dsp_en, laser_freq} = 4'b1111;
-        #(Begin + 4 * 1400 * Quarter + 250);
+        // The clocks of a board run before they have locked: from here on both do the same.
+        rst = 1'b1;
+        #(Begin + 4 * 20 * Quarter + 250) rst = 1'b0;
+        #(4 * 1380 * Quarter);
         forever begin
             pause = 1 + $unsigned($random(seed)) % 1500;
             #(pause * Quarter);
@@ -104,11 +122,33 @@ module bench;
                 3: mode = !mode;
                 4: dsp_rst = 1'b1;
                 5: rst = 1'b1;
+                6: interlock = 1'b1;
+                7: laser_en = 1'b0;
                 default: laser_freq = $random(seed);
             endcase
             #(9 * Quarter);
-            {rst, dsp_rst} = 2'b00;
+            {rst, dsp_rst, interlock} = 3'b000;
             if ($unsigned($random(seed)) % 3 == 0) {laser_en, dsp_en} = 2'b11;
+            if (!armed) begin
+                laser_en = 1'b0;
+                #(12 * Quarter) laser_en = 1'b1;
+            end
+        end
+    end
+
+    // A host reads the identity and the scratch register, again and again, at eight cycles a bit.
+    localparam [95:0] Commands = 96'h020100000000_020100000006;
+    integer bit_place;
+    initial begin
+        uart_rx = 1'b1;
+        #(Begin + 4 * 40 * Quarter + 250);
+        forever begin
+            for (bit_place = 0; bit_place < 240; bit_place = bit_place + 1) begin
+                // Twelve bytes of ten bits, and a pause as long for the answers.
+                uart_rx = bit_place >= 120 || bit_place % 10 == 9 ||
+                    bit_place % 10 != 0 && Commands[95 - 8 * (bit_place / 10) - 8 + bit_place % 10];
+                #(8 * 4 * Quarter);
+            end
         end
     end
 
@@ -126,16 +166,16 @@ module bench;
     end
 
     integer quarter;
-    reg [151:0] now, before;
+    reg [153:0] now, before;
     initial begin
-        before = {152{1'bx}};
+        before = {154{1'bx}};
         #(Begin - 1);
         for (quarter = 0; quarter < 4 * Cycles; quarter = quarter + 1) begin
             now = {locked, laser_on_lvds_p, laser_on_lvds_n, spad_rst, spad_sel, depth, sigma, status, valid, algo_done,
-                   hist_valid, hist_bin, hist_count, frame_done};
-            if (now !== before) $display("quarter %0d: locked %b laser %b%b spad %b %h depth %h %h %h %b %b hist %b %h %h done %b",
+                   hist_valid, hist_bin, hist_count, frame_done, uart_tx, armed};
+            if (now !== before) $display("quarter %0d: locked %b laser %b%b spad %b %h depth %h %h %h %b %b hist %b %h %h done %b uart %b armed %b",
                 quarter, locked, laser_on_lvds_p, laser_on_lvds_n, spad_rst, spad_sel, depth, sigma, status, valid,
-                algo_done, hist_valid, hist_bin, hist_count, frame_done);
+                algo_done, hist_valid, hist_bin, hist_count, frame_done, uart_tx, armed);
             before = now;
             #(Quarter);
         end

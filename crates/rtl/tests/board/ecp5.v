@@ -117,6 +117,21 @@ module ODDRX1F (
     reg second;
 
     initial {Q, second} = 2'b00;
-    always @(posedge SCLK) {Q, second} <= RST ? 2'b00 : {D0, D1};
-    always @(negedge SCLK) Q <= second;
+    // The reset is asynchronous (FPGA-TN-02035).
+    always @(posedge SCLK or posedge RST)
+        if (RST) {Q, second} <= 2'b00;
+        else {Q, second} <= {D0, D1};
+    always @(negedge SCLK) if (!RST) Q <= second;
+endmodule
+
+module LUT4 #(
+    parameter [15:0] INIT = 16'h0000
+) (
+    input wire A,
+    input wire B,
+    input wire C,
+    input wire D,
+    output wire Z
+);
+    assign #500 Z = INIT[{D, C, B, A}];
 endmodule

@@ -114,15 +114,25 @@ module ODDR #(
 
     initial begin
         {Q, second} = {2{INIT}};
-        if (DDR_CLK_EDGE != "SAME_EDGE" || SRTYPE != "SYNC") begin
+        if (DDR_CLK_EDGE != "SAME_EDGE" || SRTYPE != "ASYNC") begin
             $display("ODDR: %s, %s are not modelled", DDR_CLK_EDGE, SRTYPE);
             $finish;
         end
     end
 
-    always @(posedge C)
+    always @(posedge C or posedge R or posedge S)
         if (R) {Q, second} <= 2'b00;
         else if (S) {Q, second} <= 2'b11;
         else if (CE) {Q, second} <= {D1, D2};
-    always @(negedge C) Q <= second;
+    always @(negedge C) if (!R && !S) Q <= second;
+endmodule
+
+module LUT2 #(
+    parameter [3:0] INIT = 4'h0
+) (
+    input wire I0,
+    input wire I1,
+    output wire O
+);
+    assign #500 O = INIT[{I1, I0}];
 endmodule

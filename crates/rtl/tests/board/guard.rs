@@ -1,0 +1,114 @@
+//! The rules of `laser_guard`: each is proven of its Verilog, and shown on the boards' tops.
+
+use std::process::Command;
+
+use super::{Board, TAP_FS, root, sources};
+
+/// The rules, in the order of their numbers in `proof.v`, each with a fault that breaks it.
+const RULES: [(&str, &str, &str); 5] = [
+    ("unlocked and interlocked", "cut = !locked || interlock;", "cut = !locked;"),
+    ("not armed", "blocks_first = !armed || !armed_last ||", "blocks_first ="),
+    ("host_silent", "silence >= HostTimeout;", "silence >= 2 * HostTimeout;"),
+    ("pulse_too_long", "blocks_first || run_next + 4'd1 >=", "blocks_first || run_next >="),
+    ("rate_too_high", "gap_next = ShortestPeriod - 16'd1;", "gap_next = ShortestPeriod - 16'd2;"),
+];
+
+/// Asks Yosys for a proof of a rule of some Verilog of the guard; its last line on it.
+fn prove(rule: usize, guard: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("laser_guard.v"), guard).unwrap();
+    let proof = root().join("crates/rtl/tests/board/proof.v");
+    let script = format!(
+        "read_verilog -sv -formal -DRULE={rule} {} laser_guard.v; hierarchy -top proof; proc; flatten; \
+         opt_expr; opt_clean; clk2fflogic; opt_clean; \
+         sat -tempinduct -prove-asserts -seq 1 -maxsteps 60 proof",
+        proof.display()
+    );
+    let mut yosys = Command::new("yosys");
+    yosys.current_dir(folder.path()).args(["-p", &script]);
+    let done = yosys.output().expect("yosys: apt-get install yosys");
+    let said = String::from_utf8_lossy(&done.stdout);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let ends = ["SUCCESS!", "FAIL!", "proof failed."];
+    let last = said.lines().rfind(|line| ends.iter().any(|end| line.ends_with(end)));
+    last.unwrap_or_else(|| panic!("{said}")).to_owned()
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn each_rule_is_proven_and_a_fault_breaks_its_proof() {
+    let guard = std::fs::read_to_string(root().join("rtl_ref/laser_guard.v")).unwrap();
+    for (rule, (name, old, new)) in RULES.into_iter().enumerate() {
+        assert_eq!(prove(rule, &guard), "Induction step proven: SUCCESS!", "{name}");
+        assert_eq!(guard.matches(old).count(), 1, "{name}: {old}");
+        let last = prove(rule, &guard.replace(old, new));
+        assert!(last.ends_with("model found for base case: FAIL!"), "{name}: {last}");
+    }
+}
+
+/// What the host and the laser of a board's top do while each rule is broken.
+fn broken_rules(board: Board) -> String {
+    let (folder, sources) = sources(None);
+    let here = root().join("crates/rtl/tests/board");
+    let mut compiler = Command::new("iverilog");
+    compiler.current_dir(folder.path()).args(["-g2005", "-s", "safety", "-o", "safety.vvp"]);
+    let [name, primitives] = board.options();
+    compiler.args([name, "-DSYNTHESIS"]).arg(format!("-DTAP_PS={}", TAP_FS as f64 / 1000.0));
+    compiler.arg(here.join("safety.v")).args(sources);
+    compiler.args([here.join("vendor_pll.v"), here.join(primitives)]);
+    super::output(&mut compiler);
+    super::output(Command::new("vvp").current_dir(folder.path()).args(["-n", "safety.vvp"]))
+}
+
+/// The section of `docs/board.md` with the waveforms.
+const SHOWN: (&str, &str) = ("```text safety\n", "```\n");
+
+#[test]
+fn each_rule_switches_the_laser_off_as_the_page_shows() {
+    let page = root().join("docs/board.md");
+    let text = std::fs::read_to_string(&page).unwrap();
+    let found = broken_rules(Board::Kc705);
+    let from = text.find(SHOWN.0).expect("docs/board.md has the waveforms") + SHOWN.0.len();
+    let to = from + text[from..].find(SHOWN.1).unwrap();
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        let updated = format!("{}{found}{}", &text[..from], &text[to..]);
+        std::fs::write(&page, updated).unwrap();
+    } else {
+        assert_eq!(&text[from..to], found, "UPDATE_DOCS=1 writes it");
+    }
+    assert_eq!(broken_rules(Board::Ecp5), found);
+    let faults = ["00001", "00010", "00100", "01000", "10000"];
+    let shown = found.lines().filter_map(|line| line.trim().strip_prefix("laser_faults "));
+    let expected = faults.map(|bits| format!("{bits}, armed 0, then 0 pulses"));
+    assert_eq!(shown.collect::<Vec<_>>(), expected);
+    assert!(found.starts_with("not armed\n  armed 0, 0 pulses\n"), "{found}");
+}
+
+/// Periods of the ring oscillator within a time [ps], with 500 ps a look-up table, and the rises after it is off.
+fn ring(board: Board) -> String {
+    let here = root().join("crates/rtl/tests/board");
+    let folder = tempfile::tempdir().unwrap();
+    let bench = "`timescale 1ps / 1fs\nmodule bench; reg enable; wire pulse; integer rises;\n\
+        ring_oscillator ring_oscillator (.enable(enable), .pulse(pulse));\n\
+        always @(posedge pulse) rises = rises + 1;\n\
+        initial begin enable = 0; rises = 0; #50000 $write(\"%0d \", rises); enable = 1;\n\
+        #1200100 $write(\"%0d \", rises); enable = 0; #50000 rises = 0; #1000000 $display(\"%0d\", rises);\n\
+        $finish; end endmodule\n";
+    std::fs::write(folder.path().join("bench.v"), bench).unwrap();
+    let mut compiler = Command::new("iverilog");
+    compiler.current_dir(folder.path()).args(["-g2005", "-s", "bench", "-o", "ring.vvp", "bench.v"]);
+    let [name, primitives] = board.options();
+    compiler.args([name, "-DSYNTHESIS", "-DTAP_PS=100"]);
+    compiler.arg(root().join("rtl_ref/ring_oscillator.v"));
+    compiler.args([here.join("vendor_pll.v"), here.join(primitives)]);
+    super::output(&mut compiler);
+    super::output(Command::new("vvp").current_dir(folder.path()).args(["-n", "ring.vvp"]))
+}
+
+#[test]
+fn the_ring_oscillates_while_it_is_enabled() {
+    // 15 look-up tables, twice around for a period, eight of which are one of the output: 120 ns.
+    for board in Board::ALL {
+        assert_eq!(ring(board), "0 10 0\n");
+    }
+}
