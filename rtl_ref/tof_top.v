@@ -222,7 +222,8 @@ module tof_top #(
     );
 
     control_sync #(
-        .RateBits(RateBits)
+        .RateBits(RateBits),
+        .Hosted(Hosted)
     ) control_sync (
         .clk_sys(clk_sys),
         .mode(by_host ? host_mode : mode),

@@ -2,7 +2,8 @@
 //!
 //! Mirrors `rtl_ref/control_sync.v`. Two flip-flops each, without reset. The bits of
 //! `laser_freq` cross side by side; a mixed value that an unlucky edge might catch lasts one
-//! cycle and matters only if the laser's counter wraps in it.
+//! cycle and matters only if the laser's counter wraps in it. With a host, they are taken once two
+//! samples of all of them agree, two cycles later.
 
 use crate::kernel::{Clocked, asleep_if};
 use crate::signals;
@@ -45,6 +46,14 @@ signals! {
         /// First flip-flops of `laser_freq`.
         #[size(RateBits)]
         laser_freq_meta: Rate,
+        /// Second flip-flops of `laser_freq`.
+        #[only_if(Hosted)]
+        #[size(RateBits)]
+        laser_freq_second: Rate,
+        /// The same a cycle later.
+        #[only_if(Hosted)]
+        #[size(RateBits)]
+        laser_freq_third: Rate,
         /// First flip-flop of `laser_en`.
         laser_en_meta: bool,
         /// First flip-flop of `dsp_en`.
@@ -54,14 +63,21 @@ signals! {
     }
 }
 
+/// Parameters that elaboration fixes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Params {
+    /// Whether a host controls the firmware, so that `laser_freq` is taken once two samples agree.
+    pub is_hosted: bool,
+}
+
 impl Clocked for ControlSync {
     type In = In;
-    type Params = ();
+    type Params = Params;
 
     #[inline(always)]
-    fn next(&self, i: &In, (): &()) -> Self {
+    fn next(&self, i: &In, p: &Params) -> Self {
         let q = self;
-        ControlSync {
+        let mut d = ControlSync {
             mode_sync: q.mode_meta,
             laser_freq_sync: q.laser_freq_meta,
             laser_en_sync: q.laser_en_meta,
@@ -72,12 +88,22 @@ impl Clocked for ControlSync {
             laser_en_meta: i.laser_en,
             dsp_en_meta: i.dsp_en,
             dsp_rst_meta: i.dsp_rst,
+            ..*q
+        };
+        if p.is_hosted {
+            (d.laser_freq_second, d.laser_freq_third) = (q.laser_freq_meta, q.laser_freq_second);
+            d.laser_freq_sync = if q.laser_freq_second == q.laser_freq_third {
+                q.laser_freq_third
+            } else {
+                q.laser_freq_sync
+            };
         }
+        d
     }
 
     #[inline(always)]
-    fn quiet(&self, i: &In, (): &()) -> u64 {
-        asleep_if(self.next(i, &()) == *self)
+    fn quiet(&self, i: &In, p: &Params) -> u64 {
+        asleep_if(self.next(i, p) == *self)
     }
 }
 
@@ -88,10 +114,23 @@ mod tests {
     #[test]
     fn a_change_arrives_with_the_second_edge() {
         let i = In { laser_freq: Rate::new(2), dsp_en: true, ..In::default() };
-        let first = ControlSync::default().next(&i, &());
+        let p = Params { is_hosted: false };
+        let first = ControlSync::default().next(&i, &p);
         assert_eq!(first.laser_freq_sync, 0);
-        let second = first.next(&i, &());
+        let second = first.next(&i, &p);
         assert_eq!(second.laser_freq_sync, 2);
         assert!(second.dsp_en_sync && !second.mode_sync);
+    }
+
+    #[test]
+    fn with_a_host_a_rate_that_one_sample_has_is_not_taken() {
+        let p = Params { is_hosted: true };
+        let rates = [3, 3, 3, 3, 1, 2, 2, 2, 2, 2, 2];
+        let mut sync = ControlSync::default();
+        let taken = rates.map(|rate| {
+            sync = sync.next(&In { laser_freq: Rate::new(rate), ..In::default() }, &p);
+            sync.laser_freq_sync.get()
+        });
+        assert_eq!(taken, [0, 0, 0, 3, 3, 3, 3, 3, 2, 2, 2]);
     }
 }

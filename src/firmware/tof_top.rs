@@ -260,7 +260,7 @@ impl TofTop {
 
         self.reset_sync_sys.tick(&reset_sync_sys, &());
         self.reset_sync_laser.tick(&reset_sync_laser, &());
-        self.control_sync.tick(&control_sync, &());
+        self.control_sync.tick(&control_sync, &p.control_sync());
         self.frame_ctrl.tick(&frame_ctrl, &p.frame_ctrl);
         self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
         self.spad_control.tick(&spad_control, &());

@@ -2,7 +2,7 @@
 
 use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::firmware::vcsel_driver::{self, Rate};
-use crate::firmware::{frame_ctrl, histogram_preload, tdc, tdc_calibration};
+use crate::firmware::{control_sync, frame_ctrl, histogram_preload, tdc, tdc_calibration};
 use crate::signals;
 
 use super::estimator_params::EstimatorParams;
@@ -115,6 +115,12 @@ pub struct Params {
 const OF_HOST: [&str; 3] = ["uart_bridge", "registers", "laser_guard"];
 
 impl Params {
+    /// Parameters of `control_sync`.
+    #[inline(always)]
+    pub fn control_sync(&self) -> control_sync::Params {
+        control_sync::Params { is_hosted: self.is_hosted }
+    }
+
     /// Modules of the top that are left out: stand-ins, or what they stand in for.
     pub fn left_out(&self) -> Vec<&'static str> {
         let others = FirmwareEstimator::ALL.iter().copied();

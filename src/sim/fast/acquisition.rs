@@ -28,7 +28,7 @@ pub fn acquire(
 ) {
     let Some(period) = even_period(device) else { return };
     if !device.top.frame_ctrl.acquire
-        || !control_is_steady(&device.top)
+        || !control_is_steady(&device.top, p)
         || !estimator_rests(&device.top, p)
     {
         return;

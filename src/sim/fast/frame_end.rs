@@ -29,7 +29,7 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
     };
     let end = device.pll.clk_sys.rise(device.cycle + cycles);
     let alone = device.jitter.is_none()
-        && control_is_steady(&device.top)
+        && control_is_steady(&device.top, p)
         && !device.top.tdc.coarse_counter.window
         && !device.top.histogram_builder.has_hit()
         && (!clearing || estimator_rests(&device.top, p));

@@ -51,7 +51,7 @@ fn quiet(device: &Device, p: &Params) -> u64 {
     let quiet = frame_ctrl
         .min(top.reset_sync_sys.quiet(&Wires::reset_sync_sys(top), &()))
         .min(top.reset_sync_laser.quiet(&Wires::reset_sync_laser(top), &()))
-        .min(top.control_sync.quiet(&Wires::control_sync(top), &()))
+        .min(top.control_sync.quiet(&Wires::control_sync(top), &p.control_sync()))
         .min(emitter_quiet(top, p))
         .min(converter_quiet(device, p));
     if quiet != AWAKE && estimator_rests(top, p) { quiet } else { AWAKE }

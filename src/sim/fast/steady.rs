@@ -9,13 +9,13 @@ use crate::kernel::{ASLEEP, Clocked, Time};
 use crate::sim::device::Device;
 
 /// Returns whether resets and control signals hold as long as their pins do.
-pub(super) fn control_is_steady(top: &TofTop) -> bool {
+pub(super) fn control_is_steady(top: &TofTop, p: &Params) -> bool {
     let released =
         |reset: &ResetSync, i: &reset_sync::In| !reset.rst_sync && reset.quiet(i, &()) == ASLEEP;
     !top.nets.rst_dsp
         && released(&top.reset_sync_sys, &Wires::reset_sync_sys(top))
         && released(&top.reset_sync_laser, &Wires::reset_sync_laser(top))
-        && top.control_sync.quiet(&Wires::control_sync(top), &()) == ASLEEP
+        && top.control_sync.quiet(&Wires::control_sync(top), &p.control_sync()) == ASLEEP
 }
 
 /// Returns whether no edge changes the estimator until it is started or reset.

@@ -96,7 +96,9 @@ fn ring(board: Board) -> String {
         $finish; end endmodule\n";
     std::fs::write(folder.path().join("bench.v"), bench).unwrap();
     let mut compiler = Command::new("iverilog");
-    compiler.current_dir(folder.path()).args(["-g2005", "-s", "bench", "-o", "ring.vvp", "bench.v"]);
+    compiler
+        .current_dir(folder.path())
+        .args(["-g2005", "-s", "bench", "-o", "ring.vvp", "bench.v"]);
     let [name, primitives] = board.options();
     compiler.args([name, "-DSYNTHESIS", "-DTAP_PS=100"]);
     compiler.arg(root().join("rtl_ref/ring_oscillator.v"));

@@ -8,12 +8,19 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     latency: &[
         Latency { from: "mode", to: "mode_sync", cycles: |_| 1 },
-        Latency { from: "laser_freq", to: "laser_freq_sync", cycles: |_| 1 },
+        Latency {
+            from: "laser_freq",
+            to: "laser_freq_sync",
+            cycles: |vectors| if vectors.sizes.hosted { 3 } else { 1 },
+        },
         Latency { from: "laser_en", to: "laser_en_sync", cycles: |_| 1 },
         Latency { from: "dsp_en", to: "dsp_en_sync", cycles: |_| 1 },
         Latency { from: "dsp_rst", to: "dsp_rst_sync", cycles: |_| 1 },
     ],
-    model: Some(Model::new::<In>(|at| at.top.control_sync.tick(&at.input(), &()))),
+    model: Some(Model::new::<In>(|at| {
+        at.top.control_sync.tick(&at.input(), &at.params.control_sync());
+    })),
+    configurations: &[HOSTED],
     ..Spec::new("control_sync", "control_sync", record)
 };
 
@@ -24,6 +31,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut rates = Cover::new("laser_freq from x codes + to", 0..codes * codes);
     let mut alone = Cover::new("one signal, 0 to 4, changes alone", 0..5);
     let levels = |i: &In| bits([i.mode, i.laser_en, i.dsp_en, i.dsp_rst]);
+    let p = setting.setup.params.control_sync();
     let mut run = Recorder::new(spec, setting, In::list());
     let mut i = In::default();
     for _ in 0..setting.cycles() {
@@ -44,7 +52,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         rates.see(before.laser_freq.get() * codes + i.laser_freq.get());
         alone.see_if(before != i, which);
         run.line(&i);
-        run.top.control_sync = run.top.control_sync.next(&i, &());
+        run.top.control_sync = run.top.control_sync.next(&i, &p);
     }
-    Ok(Vectors { settles: 2, ..run.vectors([pairs, rates, alone]) })
+    Ok(Vectors { settles: if p.is_hosted { 4 } else { 2 }, ..run.vectors([pairs, rates, alone]) })
 }
