@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use tokio::sync::{oneshot, watch};
@@ -11,7 +11,7 @@ use tofsim::error::{Error, Input, Result};
 
 use crate::options::Options;
 use crate::session::request::{Request, RunRequest};
-use crate::session::{Reply, Session};
+use crate::session::{BoardSession, Reply, Session, Source};
 
 /// Capacity of the request queue.
 const WAITING: usize = 64;
@@ -45,19 +45,23 @@ pub enum RequestError {
 }
 
 impl Engine {
-    /// Starts a run at power-up.
+    /// Starts a run at power-up, or a board's frames. The thread ends once all handles have been dropped; a board is
+    /// then left with the laser off.
     ///
     /// # Errors
-    /// If the scenario cannot be run.
-    pub fn start(options: Options) -> Result<Self> {
+    /// If the scenario cannot be run, or the board does not answer.
+    pub fn start(options: Options) -> Result<(Self, JoinHandle<()>)> {
         let pause = Duration::from_secs(1) / options.rate;
-        let mut session = Session::new(options)?;
-        let (show, states) = watch::channel(session.state());
+        let mut source: Box<dyn Source> = match &options.board.board {
+            None => Box::new(Session::new(options)?),
+            Some(_) => Box::new(BoardSession::new(options)?),
+        };
+        let (show, states) = watch::channel(source.state());
         let (asked, requests) = sync_channel(WAITING);
-        let run = move || Thread { session, requests, show, pause, waiting: None }.run();
+        let run = move || Thread { source, requests, show, pause, waiting: None }.run();
         let thread = thread::Builder::new().name("simulation".to_owned()).spawn(run);
-        thread.map_err(|error| Input::new("simulation", error))?;
-        Ok(Engine { asked, states })
+        let thread = thread.map_err(|error| Input::new("simulation", error))?;
+        Ok((Engine { asked, states }, thread))
     }
 
     /// Sends a request, and waits for the answer.
@@ -79,9 +83,9 @@ impl Engine {
     }
 }
 
-/// State of the simulating thread.
+/// State of the thread that takes frames.
 struct Thread {
-    session: Session,
+    source: Box<dyn Source>,
     requests: Receiver<Queued>,
     show: watch::Sender<Arc<str>>,
     /// Shortest time between the starts of two frames.
@@ -95,29 +99,29 @@ impl Thread {
     fn run(mut self) {
         let (mut begun, mut shown) = (Instant::now(), Instant::now());
         loop {
-            if !self.session.is_running() {
+            if !self.source.is_running() {
                 let Ok(asked) = self.requests.recv() else { return };
                 self.answer(asked);
                 begun = Instant::now();
                 continue;
             }
-            let ended = self.session.advance(CYCLES);
+            let ended = self.source.advance(CYCLES);
             self.answer_waiting();
-            let is_counting = self.session.has_batch();
+            let is_counting = self.source.has_batch();
             if ended && !is_counting || shown.elapsed() >= SHOWN_EVERY {
-                self.show.send_replace(self.session.state());
+                self.show.send_replace(self.source.state());
                 shown = Instant::now();
             }
             let until = if is_counting {
                 Instant::now()
             } else if ended {
                 begun + self.pause
-            } else if self.session.is_held() {
+            } else if self.source.is_held() {
                 // There is nothing to see but time.
                 Instant::now() + SHOWN_EVERY
             } else {
                 // The pause is spread over the frame, so that requests meet any part of it.
-                begun + self.pause.mul_f64(self.session.part_of_frame())
+                begun + self.pause.mul_f64(self.source.part_of_frame())
             };
             if self.answer_until(until).is_err() {
                 return;
@@ -137,7 +141,7 @@ impl Thread {
                 Err(RecvTimeoutError::Timeout) => return Ok(()),
                 Err(RecvTimeoutError::Disconnected) => return Err(Disconnected),
             }
-            if !self.session.is_running() {
+            if !self.source.is_running() {
                 return Ok(());
             }
         }
@@ -145,7 +149,7 @@ impl Thread {
 
     fn answer(&mut self, Queued { request, answer }: Queued) {
         let waits = matches!(request, Request::Run(RunRequest { frames: Some(_), .. }));
-        let reply = self.session.answer(request);
+        let reply = self.source.answer(request);
         self.answer_waiting();
         if let Ok(Reply::State(state)) = &reply {
             self.show.send_replace(Arc::clone(state));
@@ -160,8 +164,8 @@ impl Thread {
 
     /// Answers the request that waits for frames, if they have ended.
     fn answer_waiting(&mut self) {
-        let Some(outcome) = self.session.take_batch_end() else { return };
-        let state = self.session.state();
+        let Some(outcome) = self.source.take_batch_end() else { return };
+        let state = self.source.state();
         self.show.send_replace(Arc::clone(&state));
         if let Some(answer) = self.waiting.take() {
             drop(answer.send(outcome.map(|()| Reply::State(state))));

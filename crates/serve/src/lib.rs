@@ -1,6 +1,6 @@
 //! The acquisition computer of the thesis (section 2.4) as a page in a browser on this computer.
 //!
-//! One thread simulates ([`session`], driven by [`engine`]); others answer browsers ([`http`]). All browsers see the
+//! One thread simulates, or talks to a board ([`session`], driven by [`engine`]); others answer browsers ([`http`]). All browsers see the
 //! same run.
 
 pub mod engine;

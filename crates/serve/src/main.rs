@@ -38,10 +38,10 @@ fn serve(options: &Options) -> Result<()> {
     if !options.quiet && !options.without_notes {
         setup.notes()?.iter().for_each(tell);
     }
-    let engine = Engine::start(options.clone())?;
+    let (engine, thread) = Engine::start(options.clone())?;
     let threads = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let threads = threads.map_err(|error| Input::new("server", error))?;
-    threads.block_on(async {
+    let ended = threads.block_on(async {
         let stop = |kind| signal(kind).map_err(|error| Input::new("signals", error));
         let mut interrupt = stop(SignalKind::interrupt())?;
         let mut terminate = stop(SignalKind::terminate())?;
@@ -52,7 +52,11 @@ fn serve(options: &Options) -> Result<()> {
             _ = interrupt.recv() => Err(Error::Interrupted),
             _ = terminate.recv() => Err(Error::Interrupted),
         }
-    })
+    });
+    // What holds the engine goes first; then a board is left with the laser off.
+    drop(threads);
+    thread.join().map_err(|_| Input::new("simulation", "the thread has panicked"))?;
+    ended
 }
 
 /// Prints the page's URL.

@@ -1,8 +1,12 @@
 //! Command-line options.
 
+use std::time::Duration;
+
 use tofsim::error::Result;
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::Stepping;
+use tofsim_board::PortOptions;
+use tofsim_board::port::BAUD;
 
 /// Run the acquisition computer as a page in a browser on this computer
 ///
@@ -26,6 +30,8 @@ pub struct Options {
     /// Port on 127.0.0.1; 0 selects any free one
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port: u16,
+    #[command(flatten)]
+    pub board: BoardOptions,
     /// Largest number of frames per second
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rate: u32,
@@ -41,6 +47,33 @@ pub struct Options {
     /// Print only errors and the URL
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// A board in place of the simulated run.
+#[derive(Clone, Debug, clap::Args)]
+pub struct BoardOptions {
+    /// Serial port of a board, whose frames are shown instead of simulated ones
+    #[arg(long, value_name = "PORT")]
+    pub board: Option<String>,
+    /// Baud rate of the board
+    #[arg(long, value_name = "N", default_value_t = BAUD, requires = "board")]
+    #[arg(value_parser = clap::value_parser!(u32).range(300..=20_000_000))]
+    pub baud: u32,
+    /// Longest wait for the board's answer [s]
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "board")]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    pub timeout: u64,
+    /// Accept a board that was built with other parameters than those of the scenario
+    #[arg(long, requires = "board")]
+    pub any_parameters: bool,
+}
+
+impl BoardOptions {
+    /// Returns the options of a serial port.
+    pub fn port(&self, port: &str) -> PortOptions {
+        let patience = Duration::from_secs(self.timeout);
+        PortOptions { baud: self.baud, patience, ..PortOptions::new(port) }
+    }
 }
 
 /// Simulation fidelity of a run. It does not affect the frames.

@@ -3,12 +3,14 @@
 mod actions;
 mod analyser;
 mod batch;
+mod board;
 mod causes;
 mod clock;
 mod instrument;
 pub mod request;
 mod scene;
 mod shot;
+mod source;
 mod strip;
 pub mod view;
 mod waiting;
@@ -41,7 +43,9 @@ use view::{FrameView, RateView};
 mod file;
 mod state;
 
+pub use board::BoardSession;
 pub use file::File;
+pub use source::Source;
 
 /// Largest simulated time of a run, within the range of [`Time`].
 const LONGEST: Time = Time::from_ns(8 << 40);
@@ -93,6 +97,71 @@ pub struct Session {
     version: u64,
 }
 
+impl Source for Session {
+    fn state(&mut self) -> Arc<str> {
+        self.show()
+    }
+
+    fn answer(&mut self, request: Request) -> Result<Reply> {
+        match request {
+            Request::Run(request) => self.run(&request)?,
+            Request::Control(request) => self.control(&request)?,
+            Request::Scene(asked) => self.change_scene(asked)?,
+            Request::Ila(request) => self.arm(&request)?,
+            Request::State => {}
+            Request::IlaFile(format) => {
+                let (name, bytes) = self.ila.file(format)?;
+                return Ok(Reply::File(File::of_capture(name, format, bytes)));
+            }
+            Request::Shot { shot, format, signals } => {
+                return Ok(Reply::File(self.waves(shot, format, &signals)?));
+            }
+            Request::Scenario => return Ok(Reply::File(self.scenario())),
+        }
+        Ok(Reply::State(self.show()))
+    }
+
+    fn is_running(&self) -> bool {
+        self.running
+    }
+
+    fn is_held(&self) -> bool {
+        self.held().is_some()
+    }
+
+    fn part_of_frame(&self) -> f64 {
+        let shots = self.live.setup().shots(1).max(1);
+        (self.live.shots_of_frame() as f64 / shots as f64).min(1.0)
+    }
+
+    fn advance(&mut self, cycles: u64) -> bool {
+        let began = Instant::now();
+        let ended = self.step(cycles);
+        self.clock.busy += began.elapsed();
+        match ended {
+            Ok(ended) => {
+                self.count(ended);
+                ended
+            }
+            Err(error) => {
+                let fault = error.to_string();
+                self.end_batch(Err(Input::new("run", &fault).into()));
+                self.fault = Some(fault);
+                self.stop();
+                true
+            }
+        }
+    }
+
+    fn has_batch(&self) -> bool {
+        self.batch.is_some()
+    }
+
+    fn take_batch_end(&mut self) -> Option<Result<()>> {
+        self.batch_end.take()
+    }
+}
+
 impl Session {
     /// Creates a run at power-up.
     ///
@@ -135,65 +204,6 @@ impl Session {
             base,
             options,
         })
-    }
-
-    /// Carries out a request.
-    ///
-    /// # Errors
-    /// If the request is invalid; it then has no effect.
-    pub fn answer(&mut self, request: Request) -> Result<Reply> {
-        match request {
-            Request::Run(request) => self.run(&request)?,
-            Request::Control(request) => self.control(&request)?,
-            Request::Scene(asked) => self.change_scene(asked)?,
-            Request::Ila(request) => self.arm(&request)?,
-            Request::State => {}
-            Request::IlaFile(format) => {
-                let (name, bytes) = self.ila.file(format)?;
-                return Ok(Reply::File(File::of_capture(name, format, bytes)));
-            }
-            Request::Shot { shot, format, signals } => {
-                return Ok(Reply::File(self.waves(shot, format, &signals)?));
-            }
-            Request::Scenario => return Ok(Reply::File(self.scenario())),
-        }
-        Ok(Reply::State(self.state()))
-    }
-
-    /// Returns whether the run is running rather than stopped.
-    pub fn is_running(&self) -> bool {
-        self.running
-    }
-
-    /// Returns whether the control signals prevent the frame from ending.
-    pub fn is_held(&self) -> bool {
-        self.held().is_some()
-    }
-
-    /// Returns the completed fraction of the present frame [1].
-    pub fn part_of_frame(&self) -> f64 {
-        let shots = self.live.setup().shots(1).max(1);
-        (self.live.shots_of_frame() as f64 / shots as f64).min(1.0)
-    }
-
-    /// Simulates up to `cycles` cycles, or to the end of a frame; returns whether a frame ended.
-    pub fn advance(&mut self, cycles: u64) -> bool {
-        let began = Instant::now();
-        let ended = self.step(cycles);
-        self.clock.busy += began.elapsed();
-        match ended {
-            Ok(ended) => {
-                self.count(ended);
-                ended
-            }
-            Err(error) => {
-                let fault = error.to_string();
-                self.end_batch(Err(Input::new("run", &fault).into()));
-                self.fault = Some(fault);
-                self.stop();
-                true
-            }
-        }
     }
 
     fn step(&mut self, cycles: u64) -> Result<bool> {

@@ -18,7 +18,7 @@ use super::terminal::Console;
 /// Program that serves the page; it lies beside this one.
 const PROGRAM: &str = "tofsim-serve";
 
-/// Serve the acquisition computer as a web page on this computer
+/// Serve the acquisition computer as a web page on this computer, for a simulated run or a board
 ///
 /// The page shows control signals, which act on the running model; the histogram by cause; the depths and their
 /// bound; the scene; a logic analyser; and the waveform of a shot. The command prints its URL, which contains a
@@ -26,7 +26,8 @@ const PROGRAM: &str = "tofsim-serve";
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim serve\n  \
-    tofsim serve far -s target.reflectance=0.6 --fidelity shot --port 8080")]
+    tofsim serve far -s target.reflectance=0.6 --fidelity shot --port 8080\n  \
+    tofsim serve -s tdc.recalibrate_frames=64 --board /dev/ttyUSB0")]
 pub struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
@@ -39,6 +40,18 @@ pub struct Args {
     /// Port on 127.0.0.1; 0 selects a free one
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
+    /// Serial port of a board, e.g. /dev/ttyUSB0: show its frames instead of simulated ones
+    #[arg(long, value_name = "PORT")]
+    board: Option<String>,
+    /// Baud rate of the board, the firmware's parameter Baud
+    #[arg(long, value_name = "N", requires = "board", value_parser = clap::value_parser!(u32).range(300..=20_000_000))]
+    baud: Option<u32>,
+    /// Longest wait for the board's answer [s]; a simulated board needs more
+    #[arg(long, value_name = "S", requires = "board", value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    timeout: Option<u64>,
+    /// Accept a board that was built with other parameters than those of the scenario
+    #[arg(long, requires = "board")]
+    any_parameters: bool,
     /// Largest number of frames per second
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rate: u32,
@@ -91,10 +104,13 @@ impl Args {
         ];
         words.extend(self.scenario.set.iter().map(|set| format!("--set={set}")));
         words.extend(self.seed.map(|seed| format!("--seed={seed}")));
+        words.extend(self.board.iter().map(|port| format!("--board={port}")));
+        words.extend(self.baud.map(|baud| format!("--baud={baud}")));
+        words.extend(self.timeout.map(|seconds| format!("--timeout={seconds}")));
         // Notes have been said.
         words.push("--without-notes".to_owned());
         let flags =
-            [("--stopped", self.stopped), ("--json", self.json), ("--quiet", console.is_quiet())];
+            [("--any-parameters", self.any_parameters), ("--stopped", self.stopped), ("--json", self.json), ("--quiet", console.is_quiet())];
         words
             .extend(flags.iter().filter(|(_, is_set)| *is_set).map(|(flag, _)| (*flag).to_owned()));
         words.extend(["--".to_owned(), self.scenario.scenario.clone()]);

@@ -77,6 +77,12 @@ impl Layer {
     }
 }
 
+/// Returns a frame's histogram of hits whose causes nobody knows.
+pub fn unknown(frame: &Frame) -> Vec<Layer> {
+    let counts = frame.histogram.iter().map(|&count| count.into()).collect();
+    vec![Layer { cause: "unknown", counts }]
+}
+
 /// Returns a frame's histogram by expected cause.
 pub fn expected(instrument: &Instrument, frame: &Frame) -> Vec<Layer> {
     let [signal, ambient, dark] = instrument.expected_causes(frame);

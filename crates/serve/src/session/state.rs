@@ -18,7 +18,7 @@ use super::view::{
 
 impl Session {
     /// Returns the state as JSON, with an increased version.
-    pub fn state(&mut self) -> Arc<str> {
+    pub(super) fn show(&mut self) -> Arc<str> {
         self.version += 1;
         self.pins = self.pins();
         let now = self.live.now();
@@ -137,7 +137,7 @@ impl Session {
 }
 
 impl ControlView {
-    fn of(pins: &Pins) -> Self {
+    pub(super) fn of(pins: &Pins) -> Self {
         ControlView {
             laser_freq: pins.laser_freq.get(),
             mode: pins.mode.into(),

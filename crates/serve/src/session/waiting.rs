@@ -6,16 +6,6 @@ use super::Session;
 use super::batch::Batch;
 
 impl Session {
-    /// Returns whether a request waits for frames.
-    pub fn has_batch(&self) -> bool {
-        self.batch.is_some()
-    }
-
-    /// Returns the outcome of a batch that has ended, once.
-    pub fn take_batch_end(&mut self) -> Option<Result<()>> {
-        self.batch_end.take()
-    }
-
     /// Begins a number of frames.
     pub(super) fn begin_batch(&mut self, frames: u32) -> Result<()> {
         if let Some(fault) = &self.fault {
