@@ -33,7 +33,7 @@ public:
     Board(const Arguments &arguments, Terminal &terminal)
         : arguments(arguments), terminal(terminal), line(terminal, arguments.bit_cycles) {
         now = arguments.first_edge - arguments.period;
-        top.uart_rx = top.dsp_rst = 1;
+        top.uart_rx = 1;
         eval(0);
         top.rootp->tof_top__DOT__pll__DOT__lock = 1;
         eval(now);
