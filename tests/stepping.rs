@@ -8,7 +8,6 @@ use std::sync::LazyLock;
 use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use tofsim::Note;
 use tofsim::firmware::pll::Pll;
 use tofsim::scenario::{self, Control, QuenchMode};
 use tofsim::sim::frames::Frame;
@@ -16,6 +15,7 @@ use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
+use tofsim::{Note, WaveFormat};
 
 use crate::common;
 
@@ -296,6 +296,23 @@ fn every_way_gives_the_same_for_whole_frames() {
             assert_all_alike(&setup, 1).unwrap();
         }
     }
+}
+
+/// An avalanche may come in the cycle in which a frame ends.
+#[test]
+fn frames_with_a_waveform_are_those_without_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let setup = common::setup("kc705", &["firmware.shots_per_frame=300", "firmware.mode=1"]);
+    let mut frames = Vec::new();
+    let mut take = |frame: &Frame| {
+        frames.push(frame.clone());
+        Ok(())
+    };
+    let waves = setup.waves(&folder.path().join("a.vcd"), WaveFormat::Vcd, &["start"]).unwrap();
+    let waves = Some((waves, setup.windows(&[], 40).unwrap()));
+    let observers = Observers { waves, frames: Some(&mut take), ..Observers::default() };
+    Run::new(&setup).observe(40, observers).unwrap();
+    assert_eq!(frames, Run::new(&setup).frames(40).unwrap());
 }
 
 /// A shot may begin with what a SPAD that resets itself has left in the chain.

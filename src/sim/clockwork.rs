@@ -94,13 +94,14 @@ impl Clockwork {
             self.ready = Some(frame);
         }
         let begins = top.frame_ctrl.clear && top.frame_ctrl.clear_addr == 0;
-        begins.then(|| self.begin_frame())
+        begins.then(|| self.begin_frame(listener))
     }
 
     /// Takes up the random numbers of the next frame, if one has ended.
     #[cold]
-    fn begin_frame(&mut self) -> Event {
+    fn begin_frame<L: AvalancheListener>(&mut self, listener: &mut L) -> Event {
         let Some(frame) = self.ready.take() else { return Event::Restart };
+        self.device.finish_step(listener);
         self.device.begin_frame(self.frames.done());
         Event::FrameEnd(frame)
     }

@@ -168,6 +168,12 @@ impl Device {
         self.cycle += 1;
     }
 
+    /// Handles what comes before the last fall of `clk_laser` of the step before, as a step with a probe does.
+    pub(super) fn finish_step<R: AvalancheListener>(&mut self, listener: &mut R) {
+        let middle = self.rise_laser_at(2 * self.cycle - 1);
+        self.settle(middle + self.quarter, &mut Off, listener);
+    }
+
     /// Samples the taps of the delay line at the edge at `now`.
     #[inline(always)]
     fn sample_taps(&mut self, p: &Params, now: Time) -> Taps {

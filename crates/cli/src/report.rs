@@ -1,5 +1,7 @@
 //! Results for people, programs and folders.
 
+pub mod board_frames;
+pub mod board_info;
 pub mod box_plot;
 pub mod calibration;
 pub mod causes;

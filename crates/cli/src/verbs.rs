@@ -1,5 +1,6 @@
 //! The command line: one file per subcommand, each with its `Args` and `run`.
 
+pub mod board;
 pub mod budget;
 pub mod build;
 pub mod calibrate;
@@ -92,6 +93,7 @@ enum Verb {
     Build(build::Args),
     Reproduce(reproduce::Args),
     Report(report::Args),
+    Board(board::Args),
     Serve(serve::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
@@ -182,6 +184,7 @@ impl Cli {
             Verb::Build(args) => return build::run(args, console, Cli::run_within),
             Verb::Reproduce(args) => reproduce::run(args, console),
             Verb::Report(args) => return report::run(args, console, Cli::run_within),
+            Verb::Board(args) => return board::run(args, console),
             Verb::Serve(args) => return serve::run(args, console),
             Verb::Ila(args) => ila::run(args, console),
             Verb::Compare(args) => return compare::run(args, console),

@@ -3,6 +3,7 @@
 
 mod adding_a_block;
 mod bad_input;
+mod board;
 mod budget;
 mod build;
 mod calibrate;

@@ -15,7 +15,7 @@ pub mod grid;
 pub mod grid_option;
 mod label;
 pub mod labelled;
-mod npy;
+pub mod npy;
 pub mod pairs;
 mod parquet_checksum;
 mod parquet_columns;

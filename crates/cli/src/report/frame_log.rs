@@ -63,6 +63,8 @@ pub struct FrameLog {
     waiting: Vec<Waiting>,
     /// Sums of the depth words and of their squares, which no order of summing changes.
     sums: (i128, i128),
+    /// Whether the frames are those of a board.
+    is_measured: bool,
     /// The frames as elements of a JSON array, if they are wanted.
     json: Option<SpooledTempFile>,
 }
@@ -94,34 +96,40 @@ impl FrameLog {
         }
     }
 
+    /// Takes the frames for those of a board: nobody knows the true distance, nor what is not in its registers.
+    pub fn measured(mut self) -> Self {
+        self.judge.truth_m = None;
+        FrameLog { is_measured: true, ..self }
+    }
+
     /// Takes the next frame; [`FrameLog::settle`] has to be called after the last one.
     ///
     /// # Errors
     /// When the temporary file cannot be written.
-    pub fn push(&mut self, setup: &Setup, frame: &Frame) -> Result<()> {
+    pub fn push(&mut self, frame: &Frame) -> Result<()> {
         let (paired, estimates) = match &mut self.pairs {
             Some(pairs) => pairs.take(frame, &self.panel),
             None => (None, self.panel.read(&frame.histogram)),
         };
         self.waiting.push(Waiting { frame: frame.clone(), paired, estimates });
-        if self.waiting.len() < WAITING { Ok(()) } else { self.settle(setup) }
+        if self.waiting.len() < WAITING { Ok(()) } else { self.settle() }
     }
 
     /// Takes the frames that still wait for others.
     ///
     /// # Errors
     /// When the temporary file cannot be written.
-    pub fn settle(&mut self, setup: &Setup) -> Result<()> {
+    pub fn settle(&mut self) -> Result<()> {
         let waiting = std::mem::take(&mut self.waiting);
         let opinion = |waiting: &Waiting| self.second.of(&waiting.frame);
         let opinions: Vec<_> = waiting.par_iter().map(opinion).collect();
         waiting.into_iter().zip(opinions).try_for_each(|(next, opinion)| {
             self.second.add(&next.frame, opinion.as_ref());
-            self.take(setup, next, opinion)
+            self.take(next, opinion)
         })
     }
 
-    fn take(&mut self, setup: &Setup, next: Waiting, opinion: Option<Estimate>) -> Result<()> {
+    fn take(&mut self, next: Waiting, opinion: Option<Estimate>) -> Result<()> {
         let Waiting { frame, paired, estimates } = next;
         self.outliers += u64::from(self.judge.is_outlier(frame.depth_m()));
         self.tally.add(&estimates, &self.judge);
@@ -132,17 +140,18 @@ impl FrameLog {
         }
         let depth = i128::from(frame.depth().to_bits());
         self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
+        let simulated = |count: u64| (!self.is_measured).then_some(count);
         if let Some(json) = &mut self.json {
             let summary = FrameSummary {
                 index: frame.index,
-                true_depth_m: setup.true_depth_m(),
+                true_depth_m: self.judge.truth_m,
                 estimate: frame.estimate(),
                 shots: frame.shots,
                 hits: frame.hits(),
-                tdc_hits: frame.tdc_hits,
+                tdc_hits: simulated(frame.tdc_hits),
                 histogram: &frame.histogram,
-                estimator_cycles: frame.estimator_cycles,
-                frame_cycles: frame.frame_cycles,
+                estimator_cycles: simulated(frame.estimator_cycles),
+                frame_cycles: simulated(frame.frame_cycles),
                 second_opinion: opinion,
                 paired,
                 estimates,
@@ -214,20 +223,20 @@ fn moments_m(count: u64, (sum, squares): (i128, i128)) -> Option<(f64, f64)> {
 #[derive(Serialize)]
 struct FrameSummary<'a> {
     index: u64,
-    /// Null where no light was simulated.
+    /// Null where no light was simulated, and of a board.
     true_depth_m: Option<f64>,
     /// The estimate of the firmware.
     #[serde(flatten)]
     estimate: Estimate,
     shots: u64,
     hits: u64,
-    /// Hits that the TDC kept, with a code or without.
-    tdc_hits: u64,
+    /// Hits that the TDC kept, with a code or without; null of a board, as the cycles are.
+    tdc_hits: Option<u64>,
     histogram: &'a [u32],
     /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles].
-    estimator_cycles: u64,
+    estimator_cycles: Option<u64>,
     /// From the edge that begins Clear to the one that raises `algo_done` [cycles].
-    frame_cycles: u64,
+    frame_cycles: Option<u64>,
     /// Null where nobody gives one.
     second_opinion: Option<Estimate>,
     /// The frame's place in a pair, where frames come in pairs.

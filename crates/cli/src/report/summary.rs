@@ -27,8 +27,14 @@ struct Object<'a> {
 /// What a run came to.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// Simulation fidelity.
-    fidelity: &'static str,
+    /// `board`, if the frames are those of a board.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    source: Option<&'static str>,
+    /// The board.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    board: Option<BoardSummary>,
+    /// Simulation fidelity; null of a board.
+    fidelity: Option<&'static str>,
     /// File of the waveform.
     waves: Option<String>,
     /// Notes on the validity of the results.
@@ -47,6 +53,17 @@ pub struct Summary {
     /// Results of the TDC, where the scenario asks for them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tdc: Option<Vec<TdcSummary>>,
+}
+
+/// The board that frames come from.
+#[derive(Clone, Debug, Serialize)]
+pub struct BoardSummary {
+    /// Name of its port.
+    pub port: String,
+    /// Hash of the parameters that its firmware was built with.
+    pub parameters_hash: String,
+    /// Whether the laser was armed.
+    pub laser: bool,
 }
 
 /// One result of the TDC, in the words of thesis Table 6.3.
@@ -73,7 +90,9 @@ impl Summary {
         notes: &[Note],
     ) -> Self {
         Summary {
-            fidelity,
+            source: None,
+            board: None,
+            fidelity: Some(fidelity),
             waves,
             notes: notes.to_vec(),
             depth: log.spread(),
@@ -82,6 +101,23 @@ impl Summary {
             pairs: log.pairs.as_ref().map(PairLog::statistics),
             files: None,
             tdc: setup.scenario.report.tdc.then(|| shots.iter().map(TdcSummary::new).collect()),
+        }
+    }
+
+    /// Summarises frames of a board.
+    pub fn of_board(board: BoardSummary, log: &FrameLog, notes: &[Note]) -> Self {
+        Summary {
+            source: Some("board"),
+            board: Some(board),
+            fidelity: None,
+            waves: None,
+            notes: notes.to_vec(),
+            depth: log.spread(),
+            second_opinion: log.second_opinion(),
+            estimators: log.estimators(),
+            pairs: None,
+            files: None,
+            tdc: None,
         }
     }
 

@@ -121,13 +121,13 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let began = Instant::now();
     let mut take_frame = |frame: &Frame| {
         progress.inc(1);
-        log.push(&setup, frame)
+        log.push(frame)
     };
     let outcome =
         args.simulate(&setup, histograms, (frames, &mut take_frame), waves, &mut files)?;
     let wall = began.elapsed();
     progress.finish_and_clear();
-    log.settle(&setup)?;
+    log.settle()?;
     let mut late = outcome.notes;
     // What makes any depth impossible has been said.
     if setup.no_depth().is_none() {

@@ -10,6 +10,7 @@ use tofsim::firmware::{
 use tofsim::kernel::sizes::{Size, Sizes};
 use tofsim::network::mem::{self, Mem, digits, lines};
 
+pub mod hash;
 pub mod whole;
 
 /// A parameter's value.
