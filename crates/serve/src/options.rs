@@ -31,7 +31,7 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port: u16,
     #[command(flatten)]
-    pub board: BoardOptions,
+    pub(crate) board: BoardOptions,
     /// Largest number of frames per second
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rate: u32,
@@ -51,7 +51,7 @@ pub struct Options {
 
 /// A board in place of the simulated run.
 #[derive(Clone, Debug, clap::Args)]
-pub struct BoardOptions {
+pub(crate) struct BoardOptions {
     /// Serial port of a board, whose frames are shown instead of simulated ones
     #[arg(long, value_name = "PORT")]
     pub board: Option<String>,

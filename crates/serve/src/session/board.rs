@@ -5,9 +5,9 @@ use std::sync::Arc;
 use tofsim::error::{Input, Result};
 use tofsim::firmware::registers::map;
 use tofsim::firmware::tof_top::Pins;
+use tofsim::kernel::U;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::timeline::pins_at_power_up;
 use tofsim_board::Board;
 
 use crate::options::Options;
@@ -59,14 +59,15 @@ impl BoardSession {
         let cycle_s = setup.cycle().seconds();
         let rate =
             |&cycles: &u64| RateView { cycles, mhz: 1e-6 / (cycles as f64 * cycle_s) };
-        let pins = Pins { laser_en: false, ..pins_at_power_up(&setup.scenario.firmware) };
+        let firmware = &setup.scenario.firmware;
+        let (mode, laser_freq) = (u64::from(firmware.mode) == 1, U::new(firmware.laser_freq));
         Ok(BoardSession {
             rates: setup.params.vcsel_driver.periods.iter().map(rate).collect(),
             instrument: Instrument::new(setup)?,
             board,
             before,
             done: 0,
-            pins: Pins { dsp_en: true, dsp_rst: false, ..pins },
+            pins: Pins { mode, laser_freq, dsp_en: true, ..Pins::default() },
             frame: None,
             frame_notes: Vec::new(),
             strip: Strip::default(),
