@@ -42,7 +42,7 @@ module ecp5_top #(
     output wire [15:0] hist_count,    // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
-    wire locked, armed, ring_on, ring;
+    wire locked, armed, ring_on, hit;
 
     assign clk_in_en = 1'b1;
     assign locked_n = !locked;
@@ -50,7 +50,8 @@ module ecp5_top #(
 
     ring_oscillator ring_oscillator (
         .enable(ring_on),
-        .pulse(ring)
+        .tdc_stop(tdc_stop),
+        .hit(hit)
     );
 
     // The VCO at 500 MHz.
@@ -69,7 +70,7 @@ module ecp5_top #(
         .locked(locked),
         .laser_on_lvds_p(laser_on_lvds_p),
         .laser_on_lvds_n(),
-        .tdc_stop(ring_on ? ring : tdc_stop),
+        .tdc_stop(hit),
         .ring_on(ring_on),
         .spad_rst(spad_rst),
         .spad_sel(spad_sel),

@@ -44,7 +44,7 @@ module kc705_top #(
     output wire [15:0] hist_count,    // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
-    wire clk_in, ring_on, ring;
+    wire clk_in, ring_on, hit;
 
     IBUFDS ibufds (
         .I(sysclk_p),
@@ -54,7 +54,8 @@ module kc705_top #(
 
     ring_oscillator ring_oscillator (
         .enable(ring_on),
-        .pulse(ring)
+        .tdc_stop(tdc_stop),
+        .hit(hit)
     );
 
     tof_top #(
@@ -68,7 +69,7 @@ module kc705_top #(
         .locked(locked),
         .laser_on_lvds_p(laser_on_lvds_p),
         .laser_on_lvds_n(laser_on_lvds_n),
-        .tdc_stop(ring_on ? ring : tdc_stop),
+        .tdc_stop(hit),
         .ring_on(ring_on),
         .spad_rst(spad_rst),
         .spad_sel(spad_sel),

@@ -64,6 +64,7 @@ module laser_guard #(
     reg checks;                 // pulses are checked: laser_block has had time to open
     reg [3:0] run;              // how long the output has been high without a break [half cycles]
     reg [15:0] gap;             // until a pulse may begin [cycles of clk_laser]
+    reg gap_lasts;              // it is above 1
     reg too_long;               // a pulse would have been too long
     reg too_soon;               // it would have come too soon
 
@@ -80,14 +81,20 @@ module laser_guard #(
     wire begins = first_passes && run == 4'd0;
     reg [3:0] run_next;
     reg [15:0] gap_next;
+    reg gap_lasts_next;
     reg blocks_first, blocks_second;
 
     always @* begin
         run_next = 4'd0;
         if (second_passes) run_next = run + 4'd2;
         gap_next = gap == 16'd0 ? 16'd0 : gap - 16'd1;
-        if (begins) gap_next = ShortestPeriod - 16'd1;
-        blocks_first = !armed || !armed_last || run_next >= LongestPulse || (run_next == 4'd0 && gap_next != 16'd0);
+        gap_lasts_next = gap > 16'd2;
+        if (begins) begin
+            gap_next = ShortestPeriod - 16'd1;
+            gap_lasts_next = ShortestPeriod > 16'd2;
+        end
+        blocks_first = !armed || !armed_last || run_next >= LongestPulse;
+        if (run_next == 4'd0 && (begins ? ShortestPeriod > 16'd1 : gap_lasts)) blocks_first = 1'b1;
         blocks_second = blocks_first || run_next + 4'd1 >= LongestPulse;
     end
 
@@ -100,7 +107,7 @@ module laser_guard #(
         {arming, silence} = 35'd0;
         laser_block = {Halves{1'b1}};
         {armed_last, checks, too_long, too_soon} = 4'd0;
-        {run, gap} = 20'd0;
+        {run, gap, gap_lasts} = 21'd0;
     end
 
     always @(posedge clk_sys or posedge cut) begin
@@ -151,6 +158,7 @@ module laser_guard #(
         laser_block[Halves-1] <= Halves > 1 ? blocks_second : blocks_first;
         run <= run_next;
         gap <= gap_next;
+        gap_lasts <= gap_lasts_next;
         if (!checks) {too_long, too_soon} <= 2'b00;
         else if (too_long || too_soon) ;  // the first of them is the reason
         else if (first && first_blocked) begin

@@ -6,18 +6,29 @@
 // with 0.3 to 1 ns each, and a division by 8, gives periods of 72 to 240 ns; what it is on a board, the host finds out.
 // For synthesis only: in a simulation the source of photons does what it does.
 `ifdef SYNTHESIS
+//
+// While it runs, its pulses take the place of tdc_stop. The choice is a register of its own clock, so that no path through
+// the carry chain begins at a register of clk_sys.
 module ring_oscillator #(
     parameter integer Stages = 15,      // of the loop
     parameter integer DivideLog2 = 3    // each bit halves the frequency
 ) (
     input wire enable,                  // it oscillates
-    output wire pulse
+    input wire tdc_stop,                // of the SPAD array
+    output wire hit                     // for the carry chain
 );
     (* keep = "true", DONT_TOUCH = "TRUE", ALLOW_COMBINATORIAL_LOOPS = "TRUE" *) wire [Stages-1:0] link;
     reg [DivideLog2-1:0] divided;
     wire [DivideLog2:0] clocks = {divided, link[Stages-1]};
 
+    reg runs;
+
     initial divided = {DivideLog2{1'b0}};
+    initial runs = 1'b0;
+
+    always @(posedge clocks[DivideLog2] or negedge enable)
+        if (!enable) runs <= 1'b0;
+        else runs <= 1'b1;
 
     genvar k;
     generate
@@ -49,6 +60,6 @@ module ring_oscillator #(
         end
     endgenerate
 
-    assign pulse = clocks[DivideLog2];
+    assign hit = runs ? clocks[DivideLog2] : tdc_stop;
 endmodule
 `endif

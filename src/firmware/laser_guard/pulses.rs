@@ -20,6 +20,8 @@ signals! {
         run: U<4>,
         /// Time until a pulse may begin [cycles of clk_laser].
         gap: U<16>,
+        /// It is above 1.
+        gap_lasts: bool,
         /// A pulse would have been too long.
         too_long: bool,
         /// It would have come too soon.
@@ -72,6 +74,7 @@ impl Clocked for LaserRegisters {
             0 => U::new(0),
             _ => q.gap - 1,
         };
+        d.gap_lasts = d.gap.get() > 1;
         let too_soon = d.run == 0 && d.gap != 0;
         let blocks_first = !i.armed || !q.armed_last || d.run.get() >= p.longest_pulse || too_soon;
         let blocks_second = blocks_first || (d.run.get() + 1) % 16 >= p.longest_pulse;

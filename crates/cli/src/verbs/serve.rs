@@ -109,8 +109,12 @@ impl Args {
         words.extend(self.timeout.map(|seconds| format!("--timeout={seconds}")));
         // Notes have been said.
         words.push("--without-notes".to_owned());
-        let flags =
-            [("--any-parameters", self.any_parameters), ("--stopped", self.stopped), ("--json", self.json), ("--quiet", console.is_quiet())];
+        let flags = [
+            ("--any-parameters", self.any_parameters),
+            ("--stopped", self.stopped),
+            ("--json", self.json),
+            ("--quiet", console.is_quiet()),
+        ];
         words
             .extend(flags.iter().filter(|(_, is_set)| *is_set).map(|(flag, _)| (*flag).to_owned()));
         words.extend(["--".to_owned(), self.scenario.scenario.clone()]);

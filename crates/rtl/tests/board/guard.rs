@@ -7,7 +7,7 @@ use super::{Board, TAP_FS, root, sources};
 /// The rules, in the order of their numbers in `proof.v`, each with a fault that breaks it.
 const RULES: [(&str, &str, &str); 5] = [
     ("unlocked and interlocked", "cut = !locked || interlock;", "cut = !locked;"),
-    ("not armed", "blocks_first = !armed || !armed_last ||", "blocks_first ="),
+    ("not armed", "blocks_first = !armed || !armed_last || run_next", "blocks_first = run_next"),
     ("host_silent", "silence >= HostTimeout;", "silence >= 2 * HostTimeout;"),
     ("pulse_too_long", "blocks_first || run_next + 4'd1 >=", "blocks_first || run_next >="),
     ("rate_too_high", "gap_next = ShortestPeriod - 16'd1;", "gap_next = ShortestPeriod - 16'd2;"),
@@ -88,9 +88,9 @@ fn each_rule_switches_the_laser_off_as_the_page_shows() {
 fn ring(board: Board) -> String {
     let here = root().join("crates/rtl/tests/board");
     let folder = tempfile::tempdir().unwrap();
-    let bench = "`timescale 1ps / 1fs\nmodule bench; reg enable; wire pulse; integer rises;\n\
-        ring_oscillator ring_oscillator (.enable(enable), .pulse(pulse));\n\
-        always @(posedge pulse) rises = rises + 1;\n\
+    let bench = "`timescale 1ps / 1fs\nmodule bench; reg enable; wire hit; integer rises;\n\
+        ring_oscillator ring_oscillator (.enable(enable), .tdc_stop(1'b0), .hit(hit));\n\
+        always @(posedge hit) rises = rises + 1;\n\
         initial begin enable = 0; rises = 0; #50000 $write(\"%0d \", rises); enable = 1;\n\
         #1200100 $write(\"%0d \", rises); enable = 0; #50000 rises = 0; #1000000 $display(\"%0d\", rises);\n\
         $finish; end endmodule\n";

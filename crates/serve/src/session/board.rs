@@ -57,8 +57,7 @@ impl BoardSession {
         let before = board.begin_frames()?;
         board.release()?;
         let cycle_s = setup.cycle().seconds();
-        let rate =
-            |&cycles: &u64| RateView { cycles, mhz: 1e-6 / (cycles as f64 * cycle_s) };
+        let rate = |&cycles: &u64| RateView { cycles, mhz: 1e-6 / (cycles as f64 * cycle_s) };
         let firmware = &setup.scenario.firmware;
         let (mode, laser_freq) = (u64::from(firmware.mode) == 1, U::new(firmware.laser_freq));
         Ok(BoardSession {
@@ -87,7 +86,9 @@ impl BoardSession {
     fn held(&self) -> Option<&'static str> {
         match self.pins {
             Pins { dsp_rst: true, .. } => Some("dsp_rst is high: Clear begins again and again"),
-            Pins { dsp_en: false, .. } => Some("dsp_en is low: the histogram waits for the estimator"),
+            Pins { dsp_en: false, .. } => {
+                Some("dsp_en is low: the histogram waits for the estimator")
+            }
             _ => None,
         }
     }

@@ -13,7 +13,7 @@ const SHORTEST_PERIOD: u64 = 12;
 pub(super) const SPEC: Spec = Spec {
     timing: timing::BOTH_WITH_PULSE,
     fast: &[
-        "laser_off", "laser_block", "unlocked", "interlocked", "armed_last", "checks", "run", "gap", "too_long", "too_soon",
+        "laser_off", "laser_block", "unlocked", "interlocked", "armed_last", "checks", "run", "gap", "gap_lasts", "too_long", "too_soon",
     ],
     configurations: &[Configuration { parameters: &["Halves"], ..LONG_PULSE }],
     model: Some(Model {

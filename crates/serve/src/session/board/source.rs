@@ -39,7 +39,13 @@ impl Source for BoardSession {
             scene_coming: false,
             scene_fixed: Some("the scene is the one in front of the board"),
             frame: self.frame.as_ref(),
-            progress: ProgressView { frame: done, phase: "Acquire", shots: 0, of: shots, abandoned: 0 },
+            progress: ProgressView {
+                frame: done,
+                phase: "Acquire",
+                shots: 0,
+                of: shots,
+                abandoned: 0,
+            },
             strip: self.strip.points(),
             notes: notes.chain(self.frame_notes.iter().cloned()).collect(),
             time: TimeView {
@@ -68,12 +74,19 @@ impl Source for BoardSession {
             Request::Run(request) => self.run(&request)?,
             Request::Control(request) => self.control(&request)?,
             Request::State => {}
-            Request::Scene(_) => return refused("scene", "the scene is the one in front of the board"),
+            Request::Scene(_) => {
+                return refused("scene", "the scene is the one in front of the board");
+            }
             Request::Ila(_) | Request::IlaFile(_) => {
-                return refused("ila", "a board has no logic analyser but Vivado's: compare its captures");
+                return refused(
+                    "ila",
+                    "a board has no logic analyser but Vivado's: compare its captures",
+                );
             }
             Request::Shot { .. } => return refused("shot", "a board's registers have no waveform"),
-            Request::Scenario => return refused("scenario", "a board's frames are no run to repeat"),
+            Request::Scenario => {
+                return refused("scenario", "a board's frames are no run to repeat");
+            }
         }
         Ok(Reply::State(self.state()))
     }
