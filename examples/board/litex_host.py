@@ -19,8 +19,9 @@ from litex.tools.litex_client import RemoteClient
 
 # Bits of the register control; those of laser_freq begin at 4.
 LASER_EN, DSP_EN, DSP_RST, MODE, LASER_FREQ = 1, 2, 4, 8, 4
-# Words of a read: fewer than RemoteClient waits for, even where a simulation answers.
-BURST = 32
+# Words of a read: UARTBone has 255 at most.
+BURST = 64
+# For an answer, which RemoteClient waits 2 s for: a simulation may take longer.
 PATIENCE_S = 120.0
 
 
@@ -38,6 +39,7 @@ def main() -> int:
     with server(given.port, given.baud) as tcp_port:
         board = RemoteClient(port=tcp_port, csr_csv=str(given.csr))
         board.open()
+        board.socket.settimeout(PATIENCE_S)
         try:
             print(json.dumps(acquire(board, control, given.frames)))
         finally:
@@ -91,7 +93,7 @@ def server(port: str, baud: int) -> Iterator[int]:
         free.bind(("localhost", 0))
         tcp_port = free.getsockname()[1]
     program = Path(sys.executable).with_name("litex_server")
-    command = [program, "--uart", "--uart-port", port, "--uart-baudrate", str(baud), "--bind-port", str(tcp_port)]
+    command = [str(program), "--uart", "--uart-port", port, "--uart-baudrate", str(baud), "--bind-port", str(tcp_port)]
     running = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     try:
         wait_for("litex_server", lambda: listens(tcp_port) or running.poll() is not None)

@@ -146,8 +146,8 @@ int main(int count, char **words) {
         std::fprintf(stderr, "usage: board SCENARIO PERIOD_FS FIRST_EDGE_FS BIT_CYCLES [LINK]\n");
         return 2;
     }
-    Arguments arguments{words[1], std::atoll(words[2]), std::atoll(words[3]), static_cast<unsigned>(std::atoi(words[4])),
-                        count > 5 ? words[5] : ""};
+    Arguments arguments{words[1], std::atoll(words[2]), std::atoll(words[3]),
+                        static_cast<unsigned>(std::atoi(words[4])), count > 5 ? words[5] : ""};
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { is_stopped = 1; });
     Terminal terminal(arguments.link);
     auto board = std::make_unique<Board>(arguments, terminal);

@@ -4,6 +4,7 @@
 mod adding_a_block;
 mod bad_input;
 mod board;
+mod board_loop;
 mod budget;
 mod build;
 mod calibrate;
