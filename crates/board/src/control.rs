@@ -3,7 +3,7 @@
 use tofsim::error::{Input, Result};
 use tofsim::firmware::registers::map::{
     ARM, ARM_KEY, ARMED, CONTROL, DSP_EN, DSP_RST, FAULT_BITS, LASER_EN, LASER_FAULTS, LASER_FREQ,
-    MODE, RegisterBit, STATUS, STATUS_BITS,
+    MODE, PINS_SELECTED, RegisterBit, STATUS, STATUS_BITS,
 };
 use tofsim::sim::setup::Setup;
 
@@ -61,8 +61,9 @@ impl Board {
     /// lets frames begin.
     ///
     /// # Errors
-    /// When the board does not answer, or another value is read back.
+    /// When the board does not answer, another value is read back, or the board's switch selects the control pins.
     pub fn prepare(&mut self, setup: &Setup, laser: bool) -> Result<()> {
+        self.check_switch()?;
         let firmware = &setup.scenario.firmware;
         let fields = [
             (LASER_EN, u32::from(laser && firmware.laser_en)),
@@ -74,6 +75,18 @@ impl Board {
         (self.has_laser, self.is_in_use) = (laser, true);
         let word = fields.iter().fold(0, |word, (field, value)| field.with(word, *value));
         self.write_checked(&CONTROL, word)
+    }
+
+    /// Checks that the control signals come from the registers.
+    pub(crate) fn check_switch(&mut self) -> Result<()> {
+        let status = self.read_word(&STATUS)?;
+        if PINS_SELECTED.of(status) == 0 {
+            return Ok(());
+        }
+        let expected =
+            "expected 0: the board's switch selects the control pins, set it to the registers";
+        let field = format!("{}.{}", STATUS.name, PINS_SELECTED.name);
+        Err(Input::new(self.port(), expected).field(field).value(1).into())
     }
 
     /// Lets frames begin.

@@ -24,6 +24,7 @@ impl Board {
         stop: Option<&AtomicBool>,
         counted: &mut dyn FnMut(u32),
     ) -> Result<Vec<u64>> {
+        self.check_switch()?;
         self.laser_off()?;
         self.write_checked(&FRAMES_PERMITTED, 0)?;
         self.clear_density()?;

@@ -50,9 +50,10 @@ pub struct Device {
 impl Device {
     /// A device on a pseudo-terminal.
     pub fn on_terminal(registers: Registers, faults: Faults) -> Device {
-        let (mut master, mut slave) = TTYPort::pair().unwrap();
+        let (master, slave) = TTYPort::pair().unwrap();
+        // Programs that a test begins do not inherit the clones, so that the cable can be pulled out.
+        let [mut master, slave] = [master, slave].map(|end| end.try_clone_native().unwrap());
         master.set_timeout(Duration::from_millis(5)).unwrap();
-        slave.set_exclusive(false).unwrap();
         let port = slave.name().unwrap();
         // The other end stays open between two clients, and closes with the device.
         Device::run(port, registers, faults, Ends { ours: master, _other: slave })

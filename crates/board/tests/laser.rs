@@ -75,6 +75,21 @@ fn a_laser_that_cannot_be_armed_says_why() {
 }
 
 #[test]
+fn a_board_whose_switch_selects_the_pins_is_not_controlled() {
+    let setup = setup();
+    let pins = Registers { pins_selected: true, ..registers(&setup) };
+    let device = Device::on_terminal(pins, Faults::default());
+    let mut board = open(&device, &setup, false).unwrap();
+    let expected =
+        format!("{}: status.pins_selected = 1: expected 0: the board's switch", device.port);
+    let error = board.prepare(&setup, true).unwrap_err().to_string();
+    assert!(error.starts_with(&expected), "{error}");
+    let error = board.code_density(&setup, 10, None, &mut |_| {}).unwrap_err().to_string();
+    assert!(error.starts_with(&expected), "{error}");
+    assert_eq!(device.state().registers.control, DSP_RST.with(0, 1));
+}
+
+#[test]
 fn a_host_that_is_silent_for_too_long_is_told_so_and_one_that_speaks_is_not() {
     let slow = Registers { host_timeout: Duration::from_millis(300), ..registers(&setup()) };
     let device = Device::on_terminal(slow, Faults::default());
@@ -99,7 +114,7 @@ fn an_unplugged_port_is_named_and_the_firmware_switches_the_laser_off() {
     let setup = setup();
     let quick = Registers { host_timeout: Duration::from_millis(100), ..registers(&setup) };
     let device =
-        Device::on_terminal(quick, Faults { unplugged_after: Some(9), ..Faults::default() });
+        Device::on_terminal(quick, Faults { unplugged_after: Some(14), ..Faults::default() });
     let mut board = open(&device, &setup, false).unwrap();
     board.prepare(&setup, true).unwrap();
     board.arm().unwrap();

@@ -214,7 +214,8 @@ fn control_signals_and_registers_are_set_by_name() {
 fn a_calibration_is_that_of_the_counts_and_fits_scenario_and_firmware() {
     let folder = empty();
     let path = folder.path();
-    let ring: Vec<u32> = (0..801).map(|n| if n < 720 { 3 + n % 5 } else { 0 }).collect();
+    let ring: Vec<u32> =
+        (0..801).map(|n| if (1..720).contains(&n) { 3 + n % 5 } else { 0 }).collect();
     let device = Device::on_terminal(
         Registers { ring, ..registers(vec![HeldFrame::default()]) },
         Faults::default(),

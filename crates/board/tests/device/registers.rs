@@ -6,8 +6,8 @@ use tofsim::firmware::registers::map::{
     ARM, ARM_KEY, ARMED, CODE_DENSITY, CONTROL, DENSITY_CLEAR, DENSITY_HITS, DEPTH, DSP_EN,
     DSP_RST, ESTIMATE_STATUS, ESTIMATE_VALID, FRAME, FRAMES, FRAMES_PERMITTED, FREE_RUNNING,
     HISTOGRAM, HITS, HOLD, HOST_SILENT, HOST_TIMEOUT, IDENTITY, IDENTITY_VALUE, INTERLOCK_OPEN,
-    INTERLOCKED, LASER_EN, LASER_FAULTS, LOCKED, MAP_VERSION, PARAMETERS_HASH, RING_ON, SCRATCH,
-    SHOTS, SIGMA, STATUS, SYSTEM_HZ,
+    INTERLOCKED, LASER_EN, LASER_FAULTS, LOCKED, MAP_VERSION, PARAMETERS_HASH, PINS_SELECTED,
+    RING_ON, SCRATCH, SHOTS, SIGMA, STATUS, SYSTEM_HZ,
 };
 
 /// Commands in which a frame is taken.
@@ -36,6 +36,8 @@ pub struct Registers {
     /// Hits that each `n` gets in a command while the ring runs.
     pub ring: Vec<u32>,
     pub interlock_open: bool,
+    /// The switch selects the control pins.
+    pub pins_selected: bool,
     /// No frame goes on.
     pub stalls: bool,
     /// Frames that end where one is permitted.
@@ -45,16 +47,16 @@ pub struct Registers {
     pub laser_faults: u32,
     /// Commands in which the laser was armed and enabled.
     pub lit: u32,
-    scratch: u32,
-    permitted: u32,
-    hold: u32,
-    frames: u32,
-    frame: u32,
-    held: HeldFrame,
-    elapsed: u32,
-    shots: u32,
-    density: Vec<u32>,
-    last_command: Instant,
+    pub scratch: u32,
+    pub permitted: u32,
+    pub hold: u32,
+    pub frames: u32,
+    pub frame: u32,
+    pub held: HeldFrame,
+    pub elapsed: u32,
+    pub shots: u32,
+    pub density: Vec<u32>,
+    pub last_command: Instant,
 }
 
 impl Registers {
@@ -68,6 +70,7 @@ impl Registers {
             results,
             ring: vec![0; 801],
             interlock_open: false,
+            pins_selected: false,
             stalls: false,
             frames_at_once: 1,
             control: DSP_RST.with(0, 1),
@@ -152,8 +155,7 @@ impl Registers {
             _ if is(CONTROL, 0) => self.control,
             _ if is(FRAMES_PERMITTED, 0) => self.permitted,
             _ if is(ARM, 0) => self.armed.into(),
-            _ if is(STATUS, 0) => INTERLOCK_OPEN
-                .with(ARMED.with(LOCKED.with(0, 1), self.armed.into()), self.interlock_open.into()),
+            _ if is(STATUS, 0) => self.status(),
             _ if is(LASER_FAULTS, 0) => self.laser_faults,
             _ if is(FRAMES, 0) => self.frames,
             _ if is(SHOTS, 0) => self.shots,
@@ -169,6 +171,16 @@ impl Registers {
             _ if is(DENSITY_HITS, 0) => self.density.iter().sum(),
             _ => 0,
         }
+    }
+
+    fn status(&self) -> u32 {
+        let bits = [
+            (LOCKED, true),
+            (PINS_SELECTED, self.pins_selected),
+            (ARMED, self.armed),
+            (INTERLOCK_OPEN, self.interlock_open),
+        ];
+        bits.iter().fold(0, |word, (bit, is_set)| bit.with(word, (*is_set).into()))
     }
 
     pub fn write(&mut self, address: u32, word: u32) {
