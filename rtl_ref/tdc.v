@@ -18,6 +18,7 @@ module tdc #(
     parameter [1:0] CountStages = 2'd3,
     parameter [1:0] Decoder = 2'd0,
     parameter [0:0] Calibrated = 1'b0,
+    parameter [0:0] Hosted = 1'b0,              // see tdc_latch
     parameter [16*Taps-1:0] Order = 0
 ) (
     input wire clk_sys,
@@ -60,7 +61,8 @@ module tdc #(
     tdc_latch #(
         .Taps(Taps),
         .CoarseBits(CoarseBits),
-        .Calibrated(Calibrated)
+        .Calibrated(Calibrated),
+        .Hosted(Hosted)
     ) tdc_latch (
         .clk_sys(clk_sys),
         .rst(rst),

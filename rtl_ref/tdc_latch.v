@@ -6,7 +6,8 @@
 module tdc_latch #(
     parameter integer Taps = 800,
     parameter integer CoarseBits = 3,
-    parameter [0:0] Calibrated = 1'b0  // looks at free
+    parameter [0:0] Calibrated = 1'b0,  // looks at free
+    parameter [0:0] Hosted = 1'b0       // likewise
 ) (
     input wire clk_sys,
     input wire rst,
@@ -37,7 +38,7 @@ module tdc_latch #(
     end
 
     always @* begin
-        hit_next = taps[0] && !tap_0_last && (Calibrated && free || window && !used);
+        hit_next = taps[0] && !tap_0_last && ((Calibrated || Hosted) && free || window && !used);
         hit_coarse_next = hit_coarse;
         used_next = used;
         tap_0_last_next = taps[0];

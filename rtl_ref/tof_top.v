@@ -308,6 +308,7 @@ module tof_top #(
         .CountStages(CountStages),
         .Decoder(Decoder),
         .Calibrated(Calibrated),
+        .Hosted(Hosted),
         .Order(Order),
         .CalFile(CalFile)
     ) tdc (

@@ -16,25 +16,14 @@
 use crate::kernel::{Clocked, U};
 use crate::{connect, signals};
 
+mod params;
 mod pulses;
 
+pub use params::Params;
 pub use pulses::{LaserIn, LaserRegisters};
 
 /// Cycles that arming takes: by then it is known whether the PLL or the interlock still prevents it.
 const ARMING: u64 = 4;
-
-/// Parameters that elaboration fixes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Params {
-    /// Halves of a cycle of clk_laser that pulses are given for at once, see `ddr_output`.
-    pub halves: u32,
-    /// Silence of the host after which the laser goes off [cycles of clk_sys].
-    pub host_timeout: u32,
-    /// Longest pulse, 1 to 8 [half cycles of clk_laser].
-    pub longest_pulse: u64,
-    /// Shortest time from the begin of a pulse to that of the next [cycles of clk_laser].
-    pub shortest_period: u64,
-}
 
 signals! {
     /// Input ports.

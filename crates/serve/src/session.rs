@@ -7,6 +7,7 @@ mod board;
 mod causes;
 mod clock;
 mod instrument;
+mod reply;
 pub mod request;
 mod scene;
 mod shot;
@@ -45,19 +46,11 @@ mod state;
 
 pub use board::BoardSession;
 pub use file::File;
+pub use reply::Reply;
 pub use source::Source;
 
 /// Largest simulated time of a run, within the range of [`Time`].
 const LONGEST: Time = Time::from_ns(8 << 40);
-
-/// Answer to a request.
-#[derive(Clone, Debug)]
-pub enum Reply {
-    /// The state as JSON.
-    State(Arc<str>),
-    /// A file to save.
-    File(File),
-}
 
 /// The run that all browsers see.
 pub struct Session {

@@ -3,7 +3,7 @@
 use crate::kernel::{Clocked, U};
 use crate::signals;
 
-use super::Params;
+use super::params::Params;
 
 signals! {
     /// Registers in `clk_laser`; the public one is an output port.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use tofsim::error::Result;
 
-use super::Reply;
+use super::reply::Reply;
 use super::request::Request;
 
 /// Source of the frames that browsers see, and the requests that act on it.

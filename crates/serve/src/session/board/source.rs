@@ -7,9 +7,10 @@ use tofsim::error::{Input, Result};
 use tofsim::optics::budget::LIGHT_M_S;
 
 use super::super::analyser::Ila;
+use super::super::reply::Reply;
 use super::super::request::Request;
+use super::super::source::Source;
 use super::super::view::{BinsView, ControlView, ProgressView, SCHEMA, TimeView, View};
-use super::super::{Reply, Source};
 use super::BoardSession;
 
 impl Source for BoardSession {
