@@ -124,7 +124,7 @@ fn check_modules(top: &TofTop, setup: &Setup) -> usize {
     let quiet = [
         assert_skip_is_exact(&top.reset_sync_sys, &Wires::reset_sync_sys(top), &()),
         assert_skip_is_exact(&top.reset_sync_laser, &Wires::reset_sync_laser(top), &()),
-        assert_skip_is_exact(&top.control_sync, &Wires::control_sync(top), &()),
+        assert_skip_is_exact(&top.control_sync, &Wires::control_sync(top), &p.control_sync()),
         assert_skip_is_exact(&top.frame_ctrl, &Wires::frame_ctrl(top), &p.frame_ctrl),
         assert_skip_is_exact(
             &top.vcsel_driver.registers,
