@@ -18,6 +18,11 @@ struct Line {
     gone: bool,
 }
 
+/// A line with those answers.
+fn answering(answers: &[&[u8]]) -> Line {
+    Line { answers: answers.iter().map(|answer| answer.to_vec()).collect(), ..Line::default() }
+}
+
 impl Read for &mut Line {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         if self.gone {
@@ -48,8 +53,7 @@ impl Write for &mut Line {
 
 #[test]
 fn commands_are_those_of_litex() {
-    let mut line = Line::default();
-    line.answers = [vec![], vec![], vec![1, 2, 3, 4, 0xf5, 6, 7, 8], vec![0, 0, 0, 9]].into();
+    let mut line = answering(&[&[], &[], &[1, 2, 3, 4, 0xf5, 6, 7, 8], &[0, 0, 0, 9]]);
     let mut bus = UartBone::new(&mut line, PATIENCE);
     bus.write(0x1234, &[0xdead_beef]).unwrap();
     bus.write_fixed(8, &[1, 2]).unwrap();
@@ -67,8 +71,7 @@ fn commands_are_those_of_litex() {
 
 #[test]
 fn no_command_is_longer_than_255_words() {
-    let mut line = Line::default();
-    line.answers = [vec![], vec![], vec![7; 4 * 255], vec![8; 4]].into();
+    let mut line = answering(&[&[], &[], &[7; 4 * 255], &[8; 4]]);
     let mut bus = UartBone::new(&mut line, PATIENCE);
     bus.write(0x1000, &[5; 300]).unwrap();
     let words = bus.read(0x1000, 256).unwrap();
@@ -85,8 +88,7 @@ fn no_command_is_longer_than_255_words() {
 
 #[test]
 fn a_read_is_repeated_once_after_the_bridge_has_given_up() {
-    let mut line = Line::default();
-    line.answers = [vec![1, 2, 3], vec![0, 0, 0, 7]].into();
+    let mut line = answering(&[&[1, 2, 3], &[0, 0, 0, 7]]);
     assert_eq!(UartBone::new(&mut line, PATIENCE).read(4, 1).unwrap(), [7]);
     assert_eq!((line.sent.len(), &line.sent[0]), (2, &line.sent[1]));
     assert!(line.at[1] - line.at[0] > PATIENCE + BRIDGE_TIMEOUT);
@@ -94,8 +96,7 @@ fn a_read_is_repeated_once_after_the_bridge_has_given_up() {
 
 #[test]
 fn what_remains_short_is_an_error_with_its_length() {
-    let mut line = Line::default();
-    line.answers = [vec![1, 2, 3], vec![1, 2]].into();
+    let mut line = answering(&[&[1, 2, 3], &[1, 2]]);
     let error = UartBone::new(&mut line, PATIENCE).read(4, 1).unwrap_err();
     assert!(matches!(error, BusError::Silent { received: 2, expected: 4 }), "{error:?}");
     assert_eq!(line.sent.len(), 2);

@@ -25,7 +25,7 @@ use super::connection::{LaserArgs, ParametersArgs, PortArgs, check_frames};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim board run --frames 20 --laser --port /dev/ttyUSB0\n  \
-    tofsim board run -s estimator.kind=likelihood --laser --port /dev/ttyUSB0 -o out --csv --npy\n  \
+    tofsim board run --laser --port /dev/ttyUSB0 -o out --csv --npy\n  \
     tofsim estimate out/histograms.npy --estimator likelihood")]
 pub struct Args {
     #[command(flatten)]
