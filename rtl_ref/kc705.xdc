@@ -40,7 +40,7 @@ set_false_path -to [get_pins tof_top/laser_guard/*/PRE]
 set_false_path -to [get_pins tof_top/vcsel_driver/ddr_output/oddr/R]
 
 # The ring oscillator: a clock of its own, uncorrelated on purpose.
-create_clock -period 2.000 -name ring [get_pins ring_oscillator/stage[14].lut/O]
+create_clock -period 2.000 -name ring [get_pins {ring_oscillator/stage[14].lut/O}]
 set_clock_groups -asynchronous -group [get_clocks ring]
 
 # [choice] The estimate is at the pins 8 ns after its edge of clk_sys at the latest, and stays until that of the next

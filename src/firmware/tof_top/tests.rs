@@ -26,6 +26,9 @@ fn an_asynchronous_pin_reaches_only_the_module_that_synchronises_it() {
         let expected: &[&str] = match pin {
             "rst" => &["reset_sync_sys", "reset_sync_laser"],
             "tdc_stop" => &["tdc"],
+            "uart_rx" => &["uart_bridge"],
+            "interlock" | "select_pins" => &["laser_guard"],
+            "laser_en" => &["control_sync", "laser_guard"],
             _ => &["control_sync"],
         };
         assert!(expected.contains(&module), "{pin} reaches {module}.{port}");

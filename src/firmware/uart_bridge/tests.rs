@@ -109,5 +109,5 @@ fn the_baud_rate_of_the_board_is_a_quarter_percent_off() {
     let params = Params::new(125_000_000, 921_600);
     assert_eq!(params, Params { bit_cycles: 136, timeout_cycles: 12_500_000 });
     let error: f64 = 125e6 / 136.0 / 921_600.0 - 1.0;
-    assert!((error + 0.00268).abs() < 1e-5, "{error}");
+    assert!((error + 0.002_693_5).abs() < 1e-6, "{error}");
 }

@@ -131,7 +131,8 @@ fn first_mismatch(
 #[test]
 fn a_block_by_itself_does_what_its_vectors_say() {
     let mut wrong = Vec::new();
-    for spec in BLOCKS {
+    // Those of a host are in no run.
+    for spec in BLOCKS.iter().filter(|spec| spec.model.is_some()) {
         let set: (_, &[&str]) = match spec.name {
             "frame_ctrl" => ("kc705", &["firmware.shots_per_frame=3"]),
             "code_preload" => ("histogram_validation", &[]),

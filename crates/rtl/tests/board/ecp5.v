@@ -133,5 +133,7 @@ module LUT4 #(
     input wire D,
     output wire Z
 );
-    assign #500 Z = INIT[{D, C, B, A}];
+    // An input that decides nothing may be unknown, as at the start of a loop.
+    wire [1:0] left = {INIT[{D, C, B, 1'b1}], INIT[{D, C, B, 1'b0}]};
+    assign #500 Z = left[0] == left[1] ? left[0] : left[A];
 endmodule

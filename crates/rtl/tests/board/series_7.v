@@ -134,5 +134,7 @@ module LUT2 #(
     input wire I1,
     output wire O
 );
-    assign #500 O = INIT[{I1, I0}];
+    // An input that decides nothing may be unknown, as at the start of a loop.
+    wire [1:0] left = I1 ? INIT[3:2] : INIT[1:0];
+    assign #500 O = left[0] == left[1] ? left[0] : left[I0];
 endmodule

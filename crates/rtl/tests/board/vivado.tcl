@@ -3,11 +3,11 @@
 proc printed {name} {
     proc $name {args} "puts \"$name \$args\""
 }
-foreach name {create_clock set_false_path set_property report_utilization report_timing_summary report_cdc report_drc
+foreach name {create_clock set_clock_groups set_false_path set_max_delay set_property report_utilization report_timing_summary report_cdc report_drc
         opt_design place_design phys_opt_design route_design write_checkpoint write_bitstream} {
     printed $name
 }
-foreach name {get_ports get_pins get_cells current_design all_outputs get_timing_paths} {
+foreach name {get_clocks get_ports get_pins get_cells current_design all_outputs get_timing_paths} {
     proc $name {args} "return \"$name \$args\""
 }
 

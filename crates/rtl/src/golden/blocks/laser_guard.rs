@@ -16,20 +16,6 @@ pub(super) const SPEC: Spec = Spec {
         "laser_off", "laser_block", "unlocked", "interlocked", "armed_last", "checks", "run", "gap", "gap_lasts", "too_long", "too_soon",
     ],
     configurations: &[Configuration { parameters: &["Halves"], ..LONG_PULSE }],
-    model: Some(Model {
-        settle: |at| {
-            let i = at.input();
-            at.top.laser_guard.settle(&i);
-        },
-        ..Model::new::<In>(|at| {
-            let (i, p) = (at.input(), params(at.params.vcsel_driver.pulse_half_cycles.into()));
-            match at.edge {
-                Edge::Rise => at.top.laser_guard.rise(&i, &p),
-                Edge::Middle => at.top.laser_guard.rise_laser(&i, &p),
-                Edge::Fall => {}
-            }
-        })
-    }),
     ..Spec::new("laser_guard", "laser_guard", record)
 };
 

@@ -19,7 +19,6 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "write_en", to: "arm", cycles: |_| 0 },
         Latency { from: "frame_done", to: "host_dsp_en", cycles: |_| 1 },
     ],
-    model: Some(Model::new::<In>(|at| at.top.registers.tick(&at.input(), &params(at.params)))),
     ..Spec::new("registers", "registers", record)
 };
 

@@ -12,7 +12,7 @@ use host::{HostLine, Spoilt, complete};
 /// Few cycles, so that there are many commands.
 const PARAMS: Params = Params { bit_cycles: 4, timeout_cycles: 150 };
 /// Lines, unless the setting has a number of its own: a command takes some 900.
-const CYCLES: usize = 90_000;
+const CYCLES: usize = 120_000;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -20,16 +20,17 @@ pub(super) const SPEC: Spec = Spec {
         // A byte of a bit each at least four cycles long.
         Latency { from: "uart_rx", to: "write_en", cycles: |_| 2 },
     ],
-    model: Some(Model::new::<In>(|at| at.top.uart_bridge.tick(&at.input(), &PARAMS))),
     ..Spec::new("uart_bridge", "uart_bridge", record)
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let mut setting = setting.clone();
+    setting.setup.params.is_hosted = true;
     let mut commands = Cover::new("complete commands, code x 4 + words", complete());
     let mut spoilt = Cover::new("spoilt commands, kind x 16 + bytes before", Spoilt::cases());
     let mut resets = Cover::new("reset in state", 0..=State::Lost as u64);
     let mut line = HostLine::new(PARAMS);
-    let mut run = Recorder::new(spec, setting, In::list());
+    let mut run = Recorder::new(spec, &setting, In::list());
     for cycle in 0..setting.cycles.unwrap_or(CYCLES) {
         let uart_rx = line.level(&mut run.draw, &run.top.uart_bridge, &mut spoilt);
         let (state, _) = run.top.uart_bridge.under_way();

@@ -97,7 +97,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         if cycle == FIRST_RESET {
             (i.rst, i.rst_laser) = (true, true);
         }
-        let late = i.rst_laser ^ run.draw.one_in(100);
+        let late = i.rst_laser ^ run.draw.one_in(if is_hosted { 30 } else { 100 });
         resets.see(bits([i.rst_laser, late]));
         if let Some((rate, count, wraps)) = place {
             changes.see_if(wraps && i.acquire, rate * codes + i.laser_freq.get());
