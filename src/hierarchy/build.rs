@@ -50,7 +50,12 @@ impl Build {
         TofTop::default().visit(None, &mut build);
         let aliases = build.aliases.iter().flat_map(|alias| build.shown(alias, estimator));
         let mut entries: Vec<_> = build.held.iter().cloned().chain(aliases).collect();
-        entries.sort_by_key(|(scope, entry)| (*scope, entry.kind as u8));
+        // A register that is a port for a host only stands where it stands without one.
+        let rank = |entry: &Entry| match entry.signal.only_if {
+            Some(Size::Hosted) if entry.kind == Kind::Output => Kind::Internal,
+            _ => entry.kind,
+        };
+        entries.sort_by_key(|(scope, entry)| (*scope, rank(entry) as u8));
         entries.into_iter().map(|(_, entry)| entry).collect()
     }
 

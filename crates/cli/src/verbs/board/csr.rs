@@ -14,7 +14,7 @@ use crate::verbs::terminal::{Console, print};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim board csr -o csr.csv\n  \
-    litex_server --uart --uart-port /dev/ttyUSB0 --uart-baudrate 921600\n  \
+    litex_server --uart --uart-port PORT --uart-baudrate 921600\n  \
     litex_cli --csr-csv csr.csv --regs")]
 pub struct Args {
     #[command(flatten)]

@@ -38,7 +38,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let seldom = match state {
             State::Read => 40,
             State::Lost => 300,
-            _ => 1500,
+            State::Length | State::Address => 800,
+            _ => 5000,
         };
         let rst = cycle == FIRST_RESET || run.draw.one_in(seldom);
         resets.see_if(rst, state as u64);
