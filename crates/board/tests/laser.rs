@@ -29,6 +29,11 @@ fn wait_for(device: &Device, holds: impl Fn(&Registers) -> bool) {
     }
 }
 
+/// Whether the host has switched the laser off; the firmware by itself only disarms it.
+fn is_off(now: &Registers) -> bool {
+    !now.armed && now.control == DSP_RST.with(0, 1)
+}
+
 #[test]
 fn a_board_that_is_dropped_is_left_with_the_laser_off() {
     let device = Device::on_terminal(registers(&setup()), Faults::default());
@@ -36,7 +41,6 @@ fn a_board_that_is_dropped_is_left_with_the_laser_off() {
     let on = device.state().registers.clone();
     assert!(on.armed && LASER_EN.of(on.control) == 1);
     drop(board);
-    let is_off = |now: &Registers| !now.armed && now.control == DSP_RST.with(0, 1);
     wait_for(&device, is_off);
 }
 
@@ -60,7 +64,7 @@ fn an_interruption_ends_the_wait_for_a_frame() {
     let error = board.next_frame(&setup, (0, before), Some(&stopped)).unwrap_err();
     assert!(matches!(error, Error::Interrupted));
     drop(board);
-    wait_for(&device, |now| !now.armed);
+    wait_for(&device, is_off);
 }
 
 #[test]
