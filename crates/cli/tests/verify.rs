@@ -192,8 +192,9 @@ fn a_design_with_the_estimator_of_the_thesis_only_is_checked_without_the_other()
     let top = folder.path().join("tof_top.v");
     let text = fs::read_to_string(&top).unwrap();
     let (before, instance) = text.split_once("    centroid_estimator #(").unwrap();
-    assert_eq!(instance.matches(");\n").count(), 2, "the other two are last");
-    fs::write(&top, format!("{before}endmodule\n")).unwrap();
+    assert_eq!(instance.matches(");\n").count(), 5, "the other two, and those of a host");
+    let (_, host) = instance.split_once("    uart_bridge #(").unwrap();
+    fs::write(&top, format!("{before}    uart_bridge #({host}")).unwrap();
 
     let output =
         common::output(folder.path(), &["verify", "--rtl", ".", "--json", "--cycles", "2000"]);

@@ -21,6 +21,7 @@ pub fn verilog(setup: &Setup) -> Vec<(String, String)> {
     );
     files.push((format!("{MODULE}.v"), wrapper::module(setup, &all)));
     files.push((format!("{}.v", board::name(setup)), top(setup)));
+    files.push(("ring_oscillator.v".to_owned(), board::RING_OSCILLATOR.to_owned()));
     files.push((MAP.to_owned(), map(&all)));
     files
 }
@@ -53,6 +54,21 @@ mod tests {
         for set in [".Taps(800)", ".BinBits(8)", ".OutputDivide(8)", ".Neurons(8)", "ShotsPerFrame"]
         {
             assert!(text.contains(set), "{set}: {text}");
+        }
+    }
+
+    #[test]
+    fn the_boards_tops_have_the_hash_of_their_parameters() {
+        let ecp5 = ["pll.part=ecp5", "pll.divide=2", "pll.output_divide=4"];
+        let tops = [
+            (&[][..], include_str!("../../../rtl_ref/kc705_top.v")),
+            (&ecp5[..], include_str!("../../../rtl_ref/ecp5_top.v")),
+        ];
+        for (set, text) in tops {
+            let setup = setup(&[&["tdc.recalibrate_frames=64"], set].concat());
+            let hash = parameters::hash::parameters_hash(&setup);
+            let expected = format!("parameter [63:0] ParametersHash = 64'h{hash:016x}");
+            assert!(text.contains(&expected), "expected {expected}");
         }
     }
 
@@ -93,6 +109,7 @@ mod tests {
         let top = file(&files, "ecp5_top.v");
         assert!(top.contains(".InputHz(25000000)") && !top.contains("200000000"), "{top}");
         assert!(top.contains("// oscillator, 25 MHz"), "{top}");
+        assert!(top.contains(".Hosted(1)") && top.contains(".HostTimeout(50000000)"), "{top}");
         assert!(pins.contains("FREQUENCY PORT \"clk_in\" 25 MHZ;"), "{pins}");
     }
 }

@@ -4,9 +4,13 @@ use tofsim::kernel::sizes::{Size, Sizes};
 use tofsim::scenario::Part;
 use tofsim::sim::setup::Setup;
 
-use crate::golden::parameters;
+use crate::golden::parameters::hash::parameters_hash;
+use crate::golden::parameters::{self, Parameter, Parameters};
 
 use super::wrapper;
+
+/// The ring oscillator of the boards' tops.
+pub(super) const RING_OSCILLATOR: &str = include_str!("../../../../rtl_ref/ring_oscillator.v");
 
 const KC705_TOP: &str = include_str!("../../../../rtl_ref/kc705_top.v");
 const KC705_XDC: &str = include_str!("../../../../rtl_ref/kc705.xdc");
@@ -50,16 +54,40 @@ pub fn top(setup: &Setup) -> String {
     }
     let usual = format!("{} MHz", in_mhz(BOARD_HZ));
     text = text.replace(&usual, &format!("{} MHz", in_mhz(pll.input_hz)));
-    let all = parameters::whole::tof_top_in_full(setup);
+    let mut all = parameters::whole::tof_top_in_full(setup);
+    all.retain(|(name, _)| *name != "Hosted");
+    all.extend(host(setup));
     let shots = setup.params.frame_ctrl.shots_per_frame.to_string();
     let instance = format!("    tof_top {} tof_top (", wrapper::set(&all, &shots));
-    match (text.find("    // The VCO at 500 MHz.\n    tof_top #("), text.find("    ) tof_top (")) {
-        (Some(begin), Some(end)) => {
-            text.replace_range(begin..end + "    ) tof_top (".len(), &instance);
-            text
-        }
-        _ => text.replace("    tof_top tof_top (", &instance),
-    }
+    let text = text.replace("    // The VCO at 500 MHz.\n", "");
+    // The board's own parameters are in the instance.
+    let text = replaced(&text, (" #(\n", "\n) ("), " (");
+    replaced(&text, ("    tof_top #(", "    ) tof_top ("), &instance)
+}
+
+/// Text with what stands from a beginning to an end replaced.
+fn replaced(text: &str, (begin, end): (&str, &str), by: &str) -> String {
+    let parts = text.split_once(begin).and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(end)?;
+        Some(format!("{before}{by}{after}"))
+    });
+    parts.unwrap_or_else(|| text.to_owned())
+}
+
+/// Parameters of a board's host: half a second of silence, and a laser that keeps the instrument's pulse and periods.
+fn host(setup: &Setup) -> Parameters {
+    let laser = &setup.params.vcsel_driver;
+    let shortest = laser.periods.iter().copied().min().unwrap_or_default();
+    let system_hz = 1_000_000_000_000_000 / setup.cycle().fs();
+    [
+        ("Hosted", 1),
+        ("ParametersHash", parameters_hash(setup)),
+        ("HostTimeout", system_hz / 2),
+        ("LongestPulse", laser.pulse_half_cycles.into()),
+        ("ShortestPeriod", 2 * shortest),
+    ]
+    .map(|(name, value)| (name, Parameter::Number(value)))
+    .into()
 }
 
 /// Constraints of the board's top: pins of the board, and the instrument's clocks.

@@ -16,6 +16,7 @@ use super::wrapper::{self, wrapper};
 
 /// Our tops for boards, and the pins of the ECP5's.
 const ECP5_TOP: &str = include_str!("../../../../rtl_ref/ecp5_top.v");
+const RING: &str = include_str!("../../../../rtl_ref/ring_oscillator.v");
 const ECP5_LPF: &str = include_str!("../../../../rtl_ref/ecp5.lpf");
 
 /// An FPGA.
@@ -110,7 +111,7 @@ impl TimedDesign<'_> {
             _ if !block.is_top() => (wrapper::TOP, wrapper(block)),
             Part::Kintex7 => (TOP, TOP.to_owned()),
             Part::Ecp5 if self.rtl.has(BOARD) => (BOARD, BOARD.to_owned()),
-            Part::Ecp5 => (BOARD, ECP5_TOP.to_owned()),
+            Part::Ecp5 => (BOARD, format!("{ECP5_TOP}{RING}")),
         }
     }
 
