@@ -75,8 +75,6 @@ const FAULTS: &[Fault] = &[
     (ECP5, "ecp5_top", ".interlock(interlock)", ".interlock(1'b0)"),
     (ECP5, "ecp5_top", ".select_pins(!select_pins_n)", ".select_pins(select_pins_n)"),
     (ECP5, "ecp5_top", "armed_n = !armed", "armed_n = armed"),
-    (&Board::ALL, "tof_top", "(armed || !Hosted)", "1'b1"),
-    (&Board::ALL, "tof_top", ".laser_off(laser_off)", ".laser_off(1'b0)"),
     (&Board::ALL, "tof_top", "by_host = Hosted && !pins_selected", "by_host = Hosted"),
     (KC705, "pll", ".CLKOUT0_DIVIDE(OutputDivide)", ".CLKOUT0_DIVIDE(OutputDivide / 2)"),
     (KC705, "pll", ".CLKOUT1_DIVIDE(OutputDivide / 2)", ".CLKOUT1_DIVIDE(OutputDivide)"),

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use super::{Board, TAP_FS, root, sources};
+use super::{Board, ECP5, Fault, KC705, TAP_FS, root, sources};
 
 /// The rules, in the order of their numbers in `proof.v`, each with a fault that breaks it.
 const RULES: [(&str, &str, &str); 5] = [
@@ -47,8 +47,8 @@ fn each_rule_is_proven_and_a_fault_breaks_its_proof() {
 }
 
 /// What the host and the laser of a board's top do while each rule is broken.
-fn broken_rules(board: Board) -> String {
-    let (folder, sources) = sources(None);
+fn broken_rules(board: Board, fault: Option<&Fault>) -> String {
+    let (folder, sources) = sources(fault);
     let here = root().join("crates/rtl/tests/board");
     let mut compiler = Command::new("iverilog");
     compiler.current_dir(folder.path()).args(["-g2005", "-s", "safety", "-o", "safety.vvp"]);
@@ -67,7 +67,7 @@ const SHOWN: (&str, &str) = ("```text safety\n", "```\n");
 fn each_rule_switches_the_laser_off_as_the_page_shows() {
     let page = root().join("docs/board.md");
     let text = std::fs::read_to_string(&page).unwrap();
-    let found = broken_rules(Board::Kc705);
+    let found = broken_rules(Board::Kc705, None);
     let from = text.find(SHOWN.0).expect("docs/board.md has the waveforms") + SHOWN.0.len();
     let to = from + text[from..].find(SHOWN.1).unwrap();
     if std::env::var_os("UPDATE_DOCS").is_some() {
@@ -76,12 +76,39 @@ fn each_rule_switches_the_laser_off_as_the_page_shows() {
     } else {
         assert_eq!(&text[from..to], found, "UPDATE_DOCS=1 writes it");
     }
-    assert_eq!(broken_rules(Board::Ecp5), found);
+    assert_eq!(broken_rules(Board::Ecp5, None), found);
     let faults = ["00001", "00010", "00100", "01000", "10000"];
     let shown = found.lines().filter_map(|line| line.trim().strip_prefix("laser_faults "));
     let expected = faults.map(|bits| format!("{bits}, armed 0, then 0 pulses"));
     assert_eq!(shown.collect::<Vec<_>>(), expected);
     assert!(found.starts_with("not armed\n  armed 0, 0 pulses\n"), "{found}");
+}
+
+/// Faults on the way from the guard to the laser's last register.
+const FAULTS: &[Fault] = &[
+    (&Board::ALL, "tof_top", ".laser_off(laser_off)", ".laser_off(1'b0)"),
+    (&Board::ALL, "tof_top", ".laser_block(laser_block)", ".laser_block({Halves{1'b0}})"),
+    (&Board::ALL, "tof_top", ".interlock(interlock && Hosted)", ".interlock(1'b0)"),
+    (&Board::ALL, "tof_top", ".heard(heard),\n        .arm", ".heard(1'b1),\n        .arm"),
+    (KC705, "ddr_output", ".R(is_off)", ".R(1'b0)"),
+    (ECP5, "ddr_output", ".RST(is_off)", ".RST(1'b0)"),
+];
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn a_fault_between_the_guard_and_the_laser_is_found() {
+    for fault in FAULTS {
+        for &board in fault.0 {
+            assert_ne!(
+                broken_rules(board, Some(fault)),
+                broken_rules(board, None),
+                "{}: {} -> {}",
+                fault.1,
+                fault.2,
+                fault.3
+            );
+        }
+    }
 }
 
 /// Periods of the ring oscillator within a time [ps], with 500 ps a look-up table, and the rises after it is off.
