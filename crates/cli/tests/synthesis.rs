@@ -41,7 +41,7 @@ const EXPECTED: &[(&str, &str, u64)] = &[
     ("pll", "PLLE2_BASE", 1),
     ("tof_top", "DSP48E1", 10),
     ("tof_top", "RAM256X1S", 16),
-    ("kc705_top", "DSP48E1", 10),
+    ("kc705_top", "DSP48E1", 11),
     ("kc705_top", "IBUFDS", 1),
     ("kc705_top", "OBUFDS", 1),
     ("kc705_top", "ODDR", 1),

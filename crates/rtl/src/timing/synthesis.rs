@@ -111,7 +111,13 @@ impl TimedDesign<'_> {
             _ if !block.is_top() => (wrapper::TOP, wrapper(block)),
             Part::Kintex7 => (TOP, TOP.to_owned()),
             Part::Ecp5 if self.rtl.has(BOARD) => (BOARD, BOARD.to_owned()),
-            Part::Ecp5 => (BOARD, format!("{ECP5_TOP}{RING}")),
+            // The firmware as runs have it: without a host, and with ages from a ROM.
+            Part::Ecp5 => {
+                let top = ECP5_TOP
+                    .replace("Hosted = 1'b1", "Hosted = 1'b0")
+                    .replace("Calibrated = 1'b1", "Calibrated = 1'b0");
+                (BOARD, format!("{top}{RING}"))
+            }
         }
     }
 
