@@ -4,11 +4,11 @@
 // A ring oscillator, for hits uncorrelated with the clock: a loop of look-up tables, one of which inverts, and behind it
 // a divider, so that pulses are two cycles of clk_sys or more apart and as long as the pauses between them. A loop of 15
 // with 0.3 to 1 ns each, and a division by 8, gives periods of 72 to 240 ns; what it is on a board, the host finds out.
-// For synthesis only: in a simulation the source of photons does what it does.
-`ifdef SYNTHESIS
 //
 // While it runs, its pulses take the place of tdc_stop. The choice is a register of its own clock, so that no path through
-// the carry chain begins at a register of clk_sys.
+// the carry chain begins at a register of clk_sys. For synthesis only: in a simulation the source of photons does what it
+// does.
+`ifdef SYNTHESIS
 module ring_oscillator #(
     parameter integer Stages = 15,      // of the loop
     parameter integer DivideLog2 = 3    // each bit halves the frequency
@@ -20,8 +20,7 @@ module ring_oscillator #(
     (* keep = "true", DONT_TOUCH = "TRUE", ALLOW_COMBINATORIAL_LOOPS = "TRUE" *) wire [Stages-1:0] link;
     reg [DivideLog2-1:0] divided;
     wire [DivideLog2:0] clocks = {divided, link[Stages-1]};
-
-    reg runs;
+    reg runs;  // hits come from the loop
 
     initial divided = {DivideLog2{1'b0}};
     initial runs = 1'b0;

@@ -1,5 +1,4 @@
-//! The registers of the host: control signals, state of the firmware, the last finished frame with its histogram, and
-//! how often the TDC has given each `n`.
+//! Gives a host registers for control, state, the last finished frame and the code density of the TDC.
 //!
 //! Mirrors `rtl_ref/registers.v`. One bank of the histogram's copy takes what the estimator reads while the host reads
 //! the other; they change places when a frame ends, unless the host holds the frame that it reads. The word at an
@@ -15,6 +14,7 @@ use crate::{module_of_registers, signals};
 
 pub mod map;
 mod reading;
+mod writing;
 
 signals! {
     /// Input ports.
@@ -231,7 +231,7 @@ impl RegisterFile {
             *count = q.counted + 1;
         }
         if q.writes(i) {
-            write(&mut d, i);
+            d.write(i);
         }
         if i.rst {
             d.reset();
@@ -241,11 +241,6 @@ impl RegisterFile {
 }
 
 impl Registers {
-    /// Returns whether the host writes a word.
-    fn writes(&self, i: &In) -> bool {
-        i.write_en && i.address.get() >> map::ADDRESS_BITS == 0
-    }
-
     /// Follows the firmware.
     fn follow(&self, d: &mut Self, i: &In, p: &Params) {
         let q = self;
@@ -272,50 +267,6 @@ impl Registers {
             (d.frame_depth, d.frame_sigma) = (i.depth, i.sigma);
             (d.frame_status, d.frame_valid) = (i.status, i.valid);
         }
-    }
-
-    /// The synchronous reset.
-    fn reset(&mut self) {
-        let d = *self;
-        let kept = Registers {
-            read_data: d.read_data,
-            bank: d.bank,
-            frame_depth: d.frame_depth,
-            frame_sigma: d.frame_sigma,
-            frame_status: d.frame_status,
-            frame_valid: d.frame_valid,
-            clear_place: d.clear_place,
-            counted_n: d.counted_n,
-            counted: d.counted,
-            register_word: d.register_word,
-            histogram_word: d.histogram_word,
-            density_word: d.density_word,
-            in_histogram: d.in_histogram,
-            in_density: d.in_density,
-            ..Registers::default()
-        };
-        *self = kept;
-    }
-}
-
-/// The register that the host writes.
-fn write(d: &mut Registers, i: &In) {
-    let (word, set) = (i.write_data.get() as u32, i.write_data);
-    let bit = |bit: map::RegisterBit| bit.of(word) != 0;
-    match i.address.get() as u32 {
-        at if at == map::SCRATCH.address => d.scratch = set,
-        at if at == map::CONTROL.address => {
-            (d.host_laser_en, d.dsp_en_asked) = (bit(map::LASER_EN), bit(map::DSP_EN));
-            (d.host_dsp_rst, d.host_mode) = (bit(map::DSP_RST), bit(map::MODE));
-            d.host_laser_freq = Rate::new(map::LASER_FREQ.of(word).into());
-            (d.host_ring_on, d.free_running) = (bit(map::RING_ON), bit(map::FREE_RUNNING));
-        }
-        at if at == map::FRAMES_PERMITTED.address => d.frames_permitted = set,
-        at if at == map::HOLD.address => d.hold = word & 1 == 1,
-        at if at == map::DENSITY_CLEAR.address && word & 1 == 1 => {
-            (d.clearing, d.clear_place, d.density_hits) = (true, U::new(0), U::new(0));
-        }
-        _ => {}
     }
 }
 

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use tofsim::firmware::forward2::MOST_NEURONS;
+use tofsim::firmware::registers::map;
 use tofsim::hierarchy::{Kind, every_entry_of};
 use tofsim::kernel::sizes::{Size, Sizes};
 use tofsim_rtl::golden::BLOCKS;
@@ -121,6 +122,30 @@ fn ports_widths_and_directions_are_the_same() {
         let vectors: Ports = spec.ports(&sizes()).into_iter().map(port).collect();
         assert_eq!(rust[spec.name], vectors, "ports of the golden block {}", spec.name);
     }
+}
+
+/// Words of a name, each with a capital.
+fn camel(name: &str) -> String {
+    let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
+    name.split('_').map(capital).collect()
+}
+
+#[test]
+fn the_addresses_of_the_registers_are_those_of_the_map() {
+    let registers = map::ALL.iter().map(|register| (register.name, register.address));
+    let memories = map::MEMORIES.iter().map(|memory| (memory.name, memory.address));
+    let expected = registers.chain(memories).map(|(name, address)| {
+        let bits = map::ADDRESS_BITS;
+        format!("localparam [{}:0] {}At = {bits}'h{address:04x};", bits - 1, camel(name))
+    });
+    let text = fs::read_to_string(root().join("rtl_ref/registers.v")).unwrap();
+    let found = text.lines().map(str::trim).filter(|line| line.contains("At = "));
+    assert_eq!(found.collect::<Vec<_>>(), expected.collect::<Vec<_>>());
+    for (name, value) in [("IdentityValue", map::IDENTITY_VALUE), ("ArmKey", map::ARM_KEY)] {
+        assert!(text.contains(&format!("{name} = 32'h{value:08x}")), "{name}: {value:x}");
+    }
+    let version = format!("MapVersionValue = 32'd{}", map::MAP_VERSION_VALUE);
+    assert!(text.contains(&version), "{version}");
 }
 
 #[test]
