@@ -46,6 +46,11 @@ pub struct Params {
 }
 
 impl Params {
+    /// Frequency of `clk_sys`, rounded down [Hz].
+    pub fn system_hz(&self) -> u64 {
+        self.input_hz * self.multiply / (self.divide * self.output_divide)
+    }
+
     /// Period of `clk_sys`, rounded to a multiple of 4 fs: the halves of `clk_laser` are whole femtoseconds.
     pub fn cycle(&self) -> Time {
         let quarter = 250_000_000_000_000 * self.divide * self.output_divide;

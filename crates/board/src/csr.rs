@@ -30,7 +30,7 @@ pub fn csr_csv(setup: &Setup) -> String {
         ("config_csr_data_width", 32),
         ("config_bus_address_width", 32),
         ("config_bus_data_width", 32),
-        ("config_clock_frequency", system_hz(setup)),
+        ("config_clock_frequency", setup.scenario.pll.params().system_hz()),
         ("identity_value", IDENTITY_VALUE.into()),
         ("map_version_value", MAP_VERSION_VALUE.into()),
         ("parameters_hash_value", parameters_hash(setup)),
@@ -47,12 +47,6 @@ pub fn csr_csv(setup: &Setup) -> String {
         line(&mut text, &format!("memory_region,{},{base:#010x},{size},io", memory.name));
     }
     text
-}
-
-/// Returns the frequency of clk_sys [Hz].
-fn system_hz(setup: &Setup) -> u64 {
-    let pll = setup.scenario.pll.params();
-    pll.input_hz * pll.multiply / (pll.divide * pll.output_divide)
 }
 
 fn line(text: &mut String, line: &str) {

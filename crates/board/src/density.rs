@@ -1,4 +1,4 @@
-//! The code density: how often each number of taps is hit by a ring that knows nothing of the clock.
+//! The code density: hits of each `n` by a ring oscillator that is uncorrelated with the clock.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;

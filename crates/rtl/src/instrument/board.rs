@@ -78,7 +78,7 @@ fn replaced(text: &str, (begin, end): (&str, &str), by: &str) -> String {
 fn host(setup: &Setup) -> Parameters {
     let laser = &setup.params.vcsel_driver;
     let shortest = laser.periods.iter().copied().min().unwrap_or_default();
-    let system_hz = 1_000_000_000_000_000 / setup.cycle().fs();
+    let system_hz = setup.scenario.pll.params().system_hz();
     [
         ("Hosted", 1),
         ("ParametersHash", parameters_hash(setup)),
