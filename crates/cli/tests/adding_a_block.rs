@@ -1,6 +1,7 @@
 //! The pages of docs/ that add something are enough to add it: their pieces are applied to a copy of the repository,
 //! which is built once and run.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -204,9 +205,10 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
 }
 
 #[test]
-fn every_piece_of_the_page_has_its_place() {
+fn every_piece_of_the_page_has_its_place_and_is_formatted() {
     let pages = PAGES.map(|page| fs::read_to_string(Path::new(ROOT).join(page)).unwrap());
     let folder = tempfile::tempdir().unwrap();
+    let mut changed = BTreeSet::new();
     for piece in pages.iter().flat_map(|page| pieces(page)) {
         let path = folder.path().join(piece.file);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -215,5 +217,14 @@ fn every_piece_of_the_page_has_its_place() {
             fs::copy(original, &path).unwrap();
         }
         piece.apply(folder.path());
+        changed.insert(path);
+    }
+    changed.retain(|path| path.extension().is_some_and(|extension| extension == "rs"));
+    assert!(!changed.is_empty());
+    for path in changed {
+        // From its standard input, rustfmt does not look for a file's modules.
+        let mut rustfmt = Command::new("rustfmt");
+        rustfmt.args(["--check", "--edition", "2024", "--config-path", ROOT]);
+        run(rustfmt.stdin(fs::File::open(path).unwrap()));
     }
 }
