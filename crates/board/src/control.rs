@@ -35,6 +35,18 @@ impl LaserState {
     pub fn faults(self) -> Vec<&'static str> {
         laser_faults(self.faults)
     }
+
+    /// Checks that the laser is armed; `port` is the board's.
+    ///
+    /// # Errors
+    /// When it is not; the error says why.
+    pub fn check_armed(self, port: &str) -> Result<()> {
+        if ARMED.of(self.status) == 1 {
+            return Ok(());
+        }
+        let expected = format!("the laser went off while frames were taken ({})", self.words());
+        Err(Input::new(port, expected).field(ARM.name).value(0).into())
+    }
 }
 
 impl Board {
@@ -118,11 +130,8 @@ impl Board {
     /// When it is not; the error says why.
     pub fn check_armed(&mut self) -> Result<LaserState> {
         let state = self.laser_state()?;
-        if ARMED.of(state.status) == 1 {
-            return Ok(state);
-        }
-        let expected = format!("the laser went off while frames were taken ({})", state.words());
-        Err(Input::new(self.port(), expected).field(ARM.name).value(0).into())
+        state.check_armed(self.port())?;
+        Ok(state)
     }
 
     /// Disarms and disables the laser, and holds frames back.

@@ -11,9 +11,11 @@ mod frames;
 pub mod identity;
 pub mod names;
 pub mod port;
+mod series;
 pub mod uartbone;
 
 pub use board::Board;
 pub use control::LaserState;
 pub use identity::Identity;
 pub use port::PortOptions;
+pub use series::{check_frames, dark_note};

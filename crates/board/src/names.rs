@@ -1,7 +1,11 @@
 //! Registers and their bits by name.
 
 use tofsim::error::{Input, Result, hint};
-use tofsim::firmware::registers::map::{ALL, CONTROL_BITS, FAULT_BITS, Register, RegisterBit};
+use tofsim::firmware::registers::map::{
+    ALL, CONTROL, CONTROL_BITS, DENSITY_CLEAR, FAULT_BITS, FRAMES_PERMITTED, Register, RegisterBit,
+};
+
+use crate::board::Board;
 
 /// Returns the register of that name.
 ///
@@ -78,6 +82,34 @@ impl Setting {
             let expected = format!("expected a whole number from 0 to {}", self.most());
             Input::new(source, expected).field(self.name()).value(text).into()
         })
+    }
+}
+
+impl Board {
+    /// Reads the value of a setting.
+    ///
+    /// # Errors
+    /// When the board does not answer.
+    pub fn setting(&mut self, setting: Setting) -> Result<u32> {
+        match setting {
+            Setting::Control(field) => Ok(field.of(self.read_word(&CONTROL)?)),
+            Setting::Register(register) => self.read_word(&register),
+        }
+    }
+
+    /// Changes a setting.
+    ///
+    /// # Errors
+    /// When the board does not answer, or another value is read back.
+    pub fn set(&mut self, setting: Setting, value: u32) -> Result<()> {
+        match setting {
+            Setting::Control(field) => self.set_control(field, value),
+            // These change by themselves.
+            Setting::Register(register @ (DENSITY_CLEAR | FRAMES_PERMITTED)) => {
+                self.write(&register, value)
+            }
+            Setting::Register(register) => self.write_checked(&register, value),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! Opening of a serial port.
 
+use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use serialport::{ErrorKind, SerialPort};
@@ -8,6 +9,10 @@ use tofsim::error::{Input, Result};
 
 /// Rate of the firmware's bridge unless its parameter `Baud` says otherwise [baud].
 pub const BAUD: u32 = 921_600;
+/// Rates that a port may have [baud].
+pub const BAUDS: RangeInclusive<u32> = 300..=20_000_000;
+/// Longest waits for an answer that may be asked for [s].
+pub const TIMEOUTS_S: RangeInclusive<f64> = 0.01..=86_400.0;
 /// Longest wait for an answer, unless the board is simulated.
 pub const PATIENCE: Duration = Duration::from_secs(1);
 /// Time-out of a single read of the port.

@@ -1,6 +1,7 @@
 //! tofsim as a Python package: thin doors to the library and the command, and no model of their own.
 
 mod arrays;
+mod board;
 mod command;
 mod dataset;
 mod dataset_files;
@@ -22,6 +23,8 @@ mod waves;
 /// Contents of the package `tofsim`.
 #[pyo3::pymodule]
 mod _tofsim {
+    #[pymodule_export]
+    use crate::board::Board;
     #[pymodule_export]
     use crate::command::{answer, main};
     #[pymodule_export]

@@ -2,9 +2,15 @@
 
 use serde_json::{Map, Value, json};
 
-use tofsim::firmware::registers::map::{CONTROL_BITS, FAULT_BITS, RegisterBit, STATUS_BITS};
-use tofsim_board::Identity;
+use tofsim::error::Result;
+use tofsim::firmware::registers::map::{
+    CONTROL, CONTROL_BITS, DENSITY_HITS, FAULT_BITS, FRAME, FRAMES, HITS, LASER_FAULTS,
+    RegisterBit, SHOTS, STATUS, STATUS_BITS,
+};
+use tofsim::sim::setup::Setup;
 use tofsim_board::names::{laser_faults, set_bits};
+use tofsim_board::{Board, Identity};
+use tofsim_rtl::golden::parameters::hash::parameters_hash;
 
 use crate::text::table::{facts, grouped};
 
@@ -29,6 +35,24 @@ pub struct BoardFindings {
 }
 
 impl BoardFindings {
+    /// Reads them.
+    ///
+    /// # Errors
+    /// When the board does not answer.
+    pub fn read(board: &mut Board, setup: &Setup) -> Result<Self> {
+        let counters = [FRAMES, FRAME, SHOTS, HITS, DENSITY_HITS];
+        let counters = counters.iter().map(|one| Ok((one.name, board.read_word(one)?)));
+        Ok(BoardFindings {
+            counters: counters.collect::<Result<_>>()?,
+            port: board.port().to_owned(),
+            identity: *board.identity(),
+            expected_hash: parameters_hash(setup),
+            control: board.read_word(&CONTROL)?,
+            status: board.read_word(&STATUS)?,
+            laser_faults: board.read_word(&LASER_FAULTS)?,
+        })
+    }
+
     /// Whether the board was built with the scenario's parameters.
     pub fn matches(&self) -> bool {
         self.identity.parameters_hash == self.expected_hash

@@ -4,6 +4,7 @@ from . import ila, waves
 from ._evaluation import Evaluation, evaluate
 from ._sets import dataset
 from ._tofsim import (
+    Board,
     Device,
     Frame,
     Frames,
@@ -22,6 +23,7 @@ from ._training import quantize, train
 from ._verbs import command, compare
 
 __all__ = [
+    "Board",
     "Device",
     "Evaluation",
     "Frame",

@@ -3,11 +3,7 @@
 use std::process::ExitCode;
 
 use tofsim::error::Result;
-use tofsim::firmware::registers::map::{
-    CONTROL, DENSITY_HITS, FRAME, FRAMES, HITS, LASER_FAULTS, SHOTS, STATUS,
-};
 use tofsim::sim::setup::Setup;
-use tofsim_rtl::golden::parameters::hash::parameters_hash;
 
 use crate::report::board_info::BoardFindings;
 use crate::report::writer::Report;
@@ -37,18 +33,7 @@ pub struct Args {
 pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let setup = Setup::new(args.scenario.load(None)?)?;
     let mut board = args.port.connect()?;
-    let identity = *board.identity();
-    let counters = [FRAMES, FRAME, SHOTS, HITS, DENSITY_HITS];
-    let counters = counters.iter().map(|one| Ok((one.name, board.read_word(one)?)));
-    let findings = BoardFindings {
-        counters: counters.collect::<Result<_>>()?,
-        port: board.port().to_owned(),
-        identity,
-        expected_hash: parameters_hash(&setup),
-        control: board.read_word(&CONTROL)?,
-        status: board.read_word(&STATUS)?,
-        laser_faults: board.read_word(&LASER_FAULTS)?,
-    };
+    let findings = BoardFindings::read(&mut board, &setup)?;
     let matches = findings.matches();
     Report::new(findings, &setup, &[], console).deliver(None, args.json, console)?;
     Ok(if matches { ExitCode::SUCCESS } else { ExitCode::FAILURE })

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use tofsim::error::Result;
 use tofsim::files::folder::FolderLock;
 use tofsim::sim::setup::Setup;
+use tofsim_board::check_frames;
 use tofsim_learn::estimation::Panel;
 
 use crate::choice;
@@ -16,7 +17,7 @@ use crate::report::summary::{BoardSummary, Summary};
 use crate::verbs::options::ScenarioArgs;
 use crate::verbs::terminal::{Console, print_with, stop_signal};
 
-use super::connection::{LaserArgs, ParametersArgs, PortArgs, check_frames};
+use super::connection::{LaserArgs, ParametersArgs, PortArgs};
 
 /// Get consecutive frames of a board: depths, sigma, status and histograms
 ///
@@ -75,19 +76,21 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
 
     let stop = stop_signal();
     let progress = console.progress(args.frames.into(), "frames");
-    let mut before = args.laser.begin(&mut board, &setup)?;
-    for index in 0..u64::from(args.frames) {
-        let frame = board.next_frame(&setup, (index, before), stop.as_deref())?;
-        if args.laser.laser {
-            board.check_armed()?;
-        }
-        before = before.wrapping_add(1);
-        progress.inc(1);
-        files.write(&frame)?;
-        log.push(&frame)?;
-        board.keep_alive()?;
-    }
-    board.laser_off()?;
+    let (laser, port) = (args.laser.laser, board.port().to_owned());
+    board.take_frames(
+        &setup,
+        laser,
+        args.frames.into(),
+        stop.as_deref(),
+        &mut |frame, state| {
+            if laser {
+                state.check_armed(&port)?;
+            }
+            progress.inc(1);
+            files.write(frame)?;
+            log.push(frame)
+        },
+    )?;
     progress.finish_and_clear();
     log.settle()?;
     let late = log.notes();
@@ -95,9 +98,9 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     notes.extend(late);
 
     let origin = BoardSummary {
-        port: board.port().to_owned(),
+        port,
         parameters_hash: format!("{:016x}", board.identity().parameters_hash),
-        laser: args.laser.laser,
+        laser,
     };
     let summary = Summary::of_board(origin, &log, &notes);
     files.finish(&record, &mut log, &summary, console)?;

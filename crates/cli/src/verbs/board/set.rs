@@ -3,8 +3,7 @@
 use serde_json::{Value, json};
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::registers::map::{ARM, CONTROL, DENSITY_CLEAR, FRAMES_PERMITTED};
-use tofsim_board::Board;
+use tofsim::firmware::registers::map::ARM;
 use tofsim_board::names::Setting;
 
 use crate::report::writer::{Findings, Report};
@@ -52,8 +51,12 @@ struct Changes {
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let wanted: Vec<_> = args.set.iter().map(|text| parse(text)).collect::<Result<_>>()?;
     let mut board = args.port.connect()?;
-    let changes = wanted.into_iter().map(|(setting, value)| change(&mut board, setting, value));
-    let changes = changes.collect::<Result<_>>()?;
+    let change = |(setting, value)| {
+        let before = board.setting(setting)?;
+        board.set(setting, value)?;
+        Ok(Change { setting, before, after: board.setting(setting)? })
+    };
+    let changes = wanted.into_iter().map(change).collect::<Result<_>>()?;
     let changes = Changes { port: board.port().to_owned(), changes };
     Report::without_record(changes).deliver(None, args.json, console)
 }
@@ -70,27 +73,6 @@ fn parse(text: &str) -> Result<(Setting, u32)> {
         return Err(Input::new(SOURCE, expected).field(name).value(value).into());
     }
     Ok((setting, value))
-}
-
-fn change(board: &mut Board, setting: Setting, value: u32) -> Result<Change> {
-    let (before, after) = match setting {
-        Setting::Control(field) => {
-            let before = field.of(board.read_word(&CONTROL)?);
-            board.set_control(field, value)?;
-            (before, field.of(board.read_word(&CONTROL)?))
-        }
-        Setting::Register(register) => {
-            let before = board.read_word(&register)?;
-            // These change by themselves.
-            if [DENSITY_CLEAR, FRAMES_PERMITTED].contains(&register) {
-                board.write(&register, value)?;
-            } else {
-                board.write_checked(&register, value)?;
-            }
-            (before, board.read_word(&register)?)
-        }
-    };
-    Ok(Change { setting, before, after })
 }
 
 impl Findings for Changes {

@@ -4,13 +4,13 @@ use tofsim::error::Result;
 use tofsim::sim::estimates::Estimate;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
-use tofsim_board::LaserState;
+use tofsim_board::{LaserState, check_frames};
 
 use crate::text::table::{fixed, grouped};
 use crate::verbs::options::ScenarioArgs;
 use crate::verbs::terminal::{Console, print, stop_signal};
 
-use super::connection::{LaserArgs, ParametersArgs, PortArgs, check_frames};
+use super::connection::{LaserArgs, ParametersArgs, PortArgs};
 
 /// Print a line for each frame of a board until Ctrl-C: depth, sigma, hits, status, laser faults
 #[derive(Debug, clap::Args)]
@@ -33,14 +33,9 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let mut board = args.port.open(&setup, args.parameters)?;
     console.print_notes(&args.laser.note().into_iter().collect::<Vec<_>>())?;
     let stop = stop_signal();
-    let mut before = args.laser.begin(&mut board, &setup)?;
     print(&line(["frame", "depth [m]", "sigma [mm]", "hits", "status", "laser faults"]))?;
-    for index in 0.. {
-        let frame = board.next_frame(&setup, (index, before), stop.as_deref())?;
-        print(&row(&frame, board.laser_state()?))?;
-        before = before.wrapping_add(1);
-    }
-    Ok(())
+    let mut show = |frame: &Frame, laser: LaserState| print(&row(frame, laser));
+    board.take_frames(&setup, args.laser.laser, u64::MAX, stop.as_deref(), &mut show)
 }
 
 fn row(frame: &Frame, laser: LaserState) -> String {
