@@ -6,7 +6,7 @@ use tofsim::error::Result;
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::Stepping;
 use tofsim_board::PortOptions;
-use tofsim_board::port::BAUD;
+use tofsim_board::port::{BAUD, BAUDS};
 
 /// Run the acquisition computer as a page in a browser on this computer
 ///
@@ -57,7 +57,7 @@ pub(crate) struct BoardOptions {
     pub board: Option<String>,
     /// Baud rate of the board
     #[arg(long, value_name = "N", default_value_t = BAUD, requires = "board")]
-    #[arg(value_parser = clap::value_parser!(u32).range(300..=20_000_000))]
+    #[arg(value_parser = clap::value_parser!(u32).range(i64::from(*BAUDS.start())..=i64::from(*BAUDS.end())))]
     pub baud: u32,
     /// Longest wait for the board's answer [s]
     #[arg(long, value_name = "S", default_value_t = 1, requires = "board")]

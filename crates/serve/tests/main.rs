@@ -3,6 +3,7 @@
 mod common;
 
 mod analyser;
+mod board;
 mod guard;
 mod instrument;
 mod load;

@@ -1,19 +1,11 @@
 //! Tests of the page in a browser.
 
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
 use super::common::Server;
-use super::common::chromium::Chromium;
-
-/// Returns the folder for screenshots, if the environment sets one.
-fn pictures() -> Option<PathBuf> {
-    let folder = PathBuf::from(std::env::var_os("TOFSIM_SCREENSHOTS")?);
-    std::fs::create_dir_all(&folder).unwrap();
-    Some(folder)
-}
+use super::common::chromium::{Chromium, pictures};
 
 const SWITCH: &str = "document.getElementById('laser_en').getAttribute('aria-checked')";
 const NO_SIGNAL: &str = "!document.querySelector('#histogram .area.signal')";

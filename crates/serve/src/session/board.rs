@@ -21,7 +21,7 @@ use super::view::{FrameView, RateView};
 
 mod source;
 
-/// The frames of a board. The laser is on only while `laser_en` is set and frames are taken.
+/// The frames of a board. The laser is armed only while `laser_en` is set and frames are taken.
 pub struct BoardSession {
     instrument: Instrument,
     board: Board,
@@ -111,7 +111,8 @@ impl BoardSession {
             self.pins = Pins { laser_en: false, dsp_en: true, dsp_rst: false, ..self.pins };
         }
         match request.running {
-            Some(true) => self.running = self.fault.is_none(),
+            Some(true) if self.fault.is_none() => self.start()?,
+            Some(true) => {}
             Some(false) => self.stop()?,
             None => {}
         }
@@ -119,12 +120,22 @@ impl BoardSession {
             if let Some(fault) = &self.fault {
                 return Err(Input::new("run", fault).into());
             }
-            (self.batch, self.running) = (Some((frames, 0)), true);
+            self.start()?;
+            self.batch = Some((frames, 0));
         }
         Ok(())
     }
 
-    /// Takes no more frames; the laser goes off.
+    /// Takes frames, with the laser if it is switched on.
+    fn start(&mut self) -> Result<()> {
+        if self.pins.laser_en && !self.running {
+            self.board.arm()?;
+        }
+        self.running = true;
+        Ok(())
+    }
+
+    /// Takes no more frames; the laser is switched off.
     fn stop(&mut self) -> Result<()> {
         self.running = false;
         self.clock.stop();
@@ -134,7 +145,7 @@ impl BoardSession {
     fn switch_laser(&mut self, on: bool) -> Result<()> {
         self.pins.laser_en = false;
         self.board.set_control(map::LASER_EN, on.into())?;
-        if on {
+        if on && self.running {
             self.board.arm()?;
         } else {
             self.board.write(&map::ARM, 0)?;

@@ -1,11 +1,18 @@
 //! Headless Chromium, driven over a pipe by the DevTools protocol.
 
 use std::io::{BufRead, BufReader, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
+
+/// Returns the folder for screenshots, if the environment sets one.
+pub fn pictures() -> Option<PathBuf> {
+    let folder = PathBuf::from(std::env::var_os("TOFSIM_SCREENSHOTS")?);
+    std::fs::create_dir_all(&folder).unwrap();
+    Some(folder)
+}
 
 /// A browser with one page.
 pub struct Chromium {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use tofsim::error::{Input, Result};
+use tofsim::firmware::registers::map;
 use tofsim::optics::budget::LIGHT_M_S;
 
 use super::super::analyser::Ila;
@@ -120,7 +121,8 @@ impl Source for BoardSession {
                     done == frames
                 });
                 if is_last {
-                    self.end_batch(Ok(()));
+                    let disarmed = self.board.write(&map::ARM, 0);
+                    self.end_batch(disarmed);
                 }
                 ended
             }
