@@ -96,6 +96,9 @@ module registers #(
     reg calibrated;                       // a calibration has ended, and none is under way
     reg hold;
     reg bank;                             // half of histogram_ram that takes a frame's words
+    reg hist_valid_last;                  // the word that was being read a cycle ago: its way here is long
+    reg [BinBits-1:0] hist_bin_last;
+    reg [CountBits-1:0] hist_count_last;
     reg [31:0] frame;
     reg signed [35:0] frame_depth;
     reg [35:0] frame_sigma;
@@ -143,7 +146,9 @@ module registers #(
         {frame_depth, frame_sigma, frame_status} = 79'd0;
         {clear_place, counted_n} = {2 * PlaceBits{1'b0}};
         {counted, density_hits, register_word, density_word, read_data} = 160'd0;
-        histogram_word = {CountBits{1'b0}};
+        hist_valid_last = 1'b0;
+        hist_bin_last = {BinBits{1'b0}};
+        {hist_count_last, histogram_word} = {2 * CountBits{1'b0}};
         for (word = 0; word < 2 << BinBits; word = word + 1) histogram_ram[word] = {CountBits{1'b0}};
         for (word = 0; word <= Taps; word = word + 1) density_ram[word] = 32'd0;
     end
@@ -187,7 +192,9 @@ module registers #(
     end
 
     always @(posedge clk_sys) begin
-        if (hist_valid) histogram_ram[{bank, hist_bin}] <= hist_count;
+        hist_bin_last <= hist_bin;
+        hist_count_last <= hist_count;
+        if (hist_valid_last) histogram_ram[{bank, hist_bin_last}] <= hist_count_last;
         counted <= density_ram[n];
         counted_n <= n;
         if (clearing) density_ram[clear_place] <= 32'd0;
@@ -197,6 +204,7 @@ module registers #(
     always @(posedge clk_sys) begin
         arm <= writes && place == ArmAt && write_data == ArmKey;
         disarm <= writes && place == ArmAt && write_data != ArmKey;
+        hist_valid_last <= hist_valid;
         calibrating_last <= calibrating;
         if (calibrating) calibrated <= 1'b0;
         else if (calibrating_last) calibrated <= 1'b1;
@@ -240,7 +248,7 @@ module registers #(
             host_dsp_rst <= 1'b1;
             host_laser_freq <= {RateBits{1'b0}};
             {scratch, frames_permitted, frames, shots, hits, frame} <= 192'd0;
-            {calibrating_last, calibrated, clearing, counting} <= 4'd0;
+            {hist_valid_last, calibrating_last, calibrated, clearing, counting} <= 5'd0;
             density_hits <= 32'd0;
         end
     end

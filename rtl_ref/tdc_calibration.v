@@ -49,11 +49,11 @@ module tdc_calibration #(
     reg counting;               // calibrated_age is the count of a hit
     reg [PlaceBits-1:0] hit_n;  // its n
     reg [2:0] beat;             // cycles that this word has taken
+    reg [AgeBits-1:0] own_hits;  // the count of this word
     reg [SumBits-1:0] width;    // the count as a time
     reg [SumBits-1:0] begin_sum;  // where the ages of this word begin
     reg [SumBits-1:0] middle;   // the middle of them, and a half to round
     reg early;                  // they begin at the laser edge or before it
-    reg [AgeBits-1:0] age;     // the age [units]
 
     reg calibrating_next, ring_on_next, due_next, counting_next, early_next;
     reg [1:0] state_next;
@@ -62,7 +62,7 @@ module tdc_calibration #(
     reg [HitsLog2:0] hits_next;
     reg [2:0] beat_next;
     reg [SumBits-1:0] width_next, begin_sum_next, middle_next;
-    reg [AgeBits-1:0] age_next;
+    reg [AgeBits-1:0] own_hits_next;
 
     // Counts, and then ages.
     reg [AgeBits-1:0] ram [0:Taps];
@@ -84,7 +84,7 @@ module tdc_calibration #(
         hits = {HitsLog2 + 1{1'b0}};
         beat = 3'd0;
         {width, begin_sum, middle} = {3 * SumBits{1'b0}};
-        {age, calibrated_age} = {2 * AgeBits{1'b0}};
+        {own_hits, calibrated_age} = {2 * AgeBits{1'b0}};
         for (i = 0; i <= Taps; i = i + 1) ram[i] = {AgeBits{1'b0}};
     end
 
@@ -103,7 +103,7 @@ module tdc_calibration #(
         begin_sum_next = begin_sum;
         middle_next = middle;
         early_next = early;
-        age_next = age;
+        own_hits_next = own_hits;
         read = n_valid;
         read_place = n;
         write = counting;
@@ -152,20 +152,18 @@ module tdc_calibration #(
                 read_place = place;
                 write = beat == LastBeat;
                 write_place = place;
-                write_word = age;
+                write_word = limited;
                 beat_next = beat == LastBeat ? 3'd0 : beat + 3'd1;
                 case (beat)
                     3'd0: ;
-                    3'd1: width_next = {{SumBits - AgeBits{1'b0}}, calibrated_age} * CycleSum;
-                    3'd2: begin
+                    3'd1: own_hits_next = calibrated_age;
+                    3'd2: width_next = {{SumBits - AgeBits{1'b0}}, own_hits} * CycleSum;
+                    3'd3: begin
                         middle_next = begin_sum + width + Half;
                         early_next = begin_sum <= EdgeSum;
                     end
-                    3'd3: begin
-                        age_next = limited;
-                        begin_sum_next = begin_sum + (width << 1);
-                    end
                     default: begin
+                        begin_sum_next = begin_sum + (width << 1);
                         if (place == LastPlace) begin
                             state_next = Idle;
                             calibrating_next = 1'b0;
@@ -196,7 +194,7 @@ module tdc_calibration #(
             begin_sum <= {SumBits{1'b0}};
             middle <= {SumBits{1'b0}};
             early <= 1'b0;
-            age <= {AgeBits{1'b0}};
+            own_hits <= {AgeBits{1'b0}};
         end else begin
             calibrating <= calibrating_next;
             ring_on <= ring_on_next;
@@ -212,7 +210,7 @@ module tdc_calibration #(
             begin_sum <= begin_sum_next;
             middle <= middle_next;
             early <= early_next;
-            age <= age_next;
+            own_hits <= own_hits_next;
         end
     end
 endmodule

@@ -121,6 +121,14 @@ signals! {
         pub(crate) hold: bool,
         /// Half of the histogram's copy that takes a frame's words.
         pub(crate) bank: bool,
+        /// A word of the histogram was being read a cycle ago: its way here is long.
+        pub(crate) hist_valid_last: bool,
+        /// Which word.
+        #[size(BinBits)]
+        pub(crate) hist_bin_last: Bin,
+        /// The word [hits].
+        #[size(CountBits)]
+        pub(crate) hist_count_last: Count,
         /// Number of the last finished frame plus one.
         pub(crate) frame: U<32>,
         /// Its depth [m].
@@ -220,8 +228,9 @@ impl RegisterFile {
         q.follow(&mut d, i, p);
         d.counted = self.density_ram.get(i.n.index()).copied().unwrap_or_default();
         d.counted_n = i.n;
-        if i.hist_valid {
-            self.histogram_ram[usize::from(q.bank) * p.bins + i.hist_bin.index()] = i.hist_count;
+        if q.hist_valid_last {
+            let bank = usize::from(q.bank) * p.bins;
+            self.histogram_ram[bank + q.hist_bin_last.index()] = q.hist_count_last;
         }
         if q.clearing {
             self.density_ram[q.clear_place.index()] = U::new(0);
@@ -247,6 +256,8 @@ impl Registers {
         let is_arm = q.writes(i) && i.address == u64::from(map::ARM.address);
         let is_key = i.write_data == u64::from(map::ARM_KEY);
         (d.arm, d.disarm) = (is_arm && is_key, is_arm && !is_key);
+        d.hist_valid_last = i.hist_valid;
+        (d.hist_bin_last, d.hist_count_last) = (i.hist_bin, i.hist_count);
         d.calibrating_last = i.calibrating;
         d.calibrated = !i.calibrating && (q.calibrated || q.calibrating_last);
         d.counting = i.n_valid && !q.clearing && q.density_hits != u64::from(u32::MAX);

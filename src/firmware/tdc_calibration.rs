@@ -102,6 +102,9 @@ signals! {
         pub(crate) hit_n: Place,
         /// Cycles that this word has taken.
         pub(crate) beat: U<3>,
+        /// The count of this word.
+        #[size(AgeBits)]
+        pub(crate) own_hits: Word,
         /// The count as a time.
         #[size(HitsSumBits)]
         pub(crate) width: Sum,
@@ -113,9 +116,6 @@ signals! {
         pub(crate) middle: Sum,
         /// The ages begin at the laser edge or before it.
         pub(crate) early: bool,
-        /// The age [units].
-        #[size(AgeBits)]
-        pub(crate) age: Word,
     }
 }
 
@@ -129,6 +129,13 @@ pub struct TdcCalibration {
 }
 
 module_of_registers!(TdcCalibration);
+
+impl Registers {
+    /// The age of the word in `middle` [units].
+    fn age(&self, p: &Params) -> Word {
+        Word::new(p.by_the_edge(p.age(self.middle.get()), self.early))
+    }
+}
 
 impl TdcCalibration {
     /// At power-up.
@@ -150,9 +157,8 @@ impl TdcCalibration {
     /// limited.
     pub fn limits(&self, p: &Params) -> Option<(bool, bool)> {
         let q = &self.registers;
-        let age = p.age(q.middle.get());
-        let is_limited = p.by_the_edge(age, q.early) != age;
-        (q.state == State::Integrate && q.beat == 3).then_some((q.early, is_limited))
+        let is_limited = q.age(p) != p.age(q.middle.get());
+        (q.state == State::Integrate && q.beat == BEATS - 1).then_some((q.early, is_limited))
     }
 
     /// The rising edge of `clk_sys`.
@@ -192,7 +198,7 @@ impl TdcCalibration {
         }
         let write = match q.state {
             State::Zero => Some((q.place, U::new(0))),
-            State::Integrate => (q.beat == BEATS - 1).then_some((q.place, q.age)),
+            State::Integrate => (q.beat == BEATS - 1).then(|| (q.place, q.age(p))),
             State::Idle | State::Count => q.counting.then_some((q.hit_n, q.calibrated_age + 1)),
         };
         if let Some((place, word)) = write
@@ -206,22 +212,25 @@ impl TdcCalibration {
         }
     }
 
-    /// A cycle of a word: it is read, times `Cycle`, to the middle of its ages, limited, and written.
+    /// A cycle of a word: it is read, kept, times `Cycle`, to the middle of its ages, limited and written.
     fn integrate(&self, d: &mut Registers, p: &Params) {
         let q = &self.registers;
         match q.beat.get() {
             0 => {}
-            1 => d.width = Sum::new(q.calibrated_age.get() * p.cycle),
-            2 => {
+            1 => d.own_hits = q.calibrated_age,
+            2 => d.width = Sum::new(q.own_hits.get() * p.cycle),
+            3 => {
                 d.middle = Sum::new(q.begin_sum.get() + q.width.get() + p.hits());
                 d.early = q.begin_sum.get() <= p.start_sum();
             }
-            3 => {
-                d.age = Word::new(p.by_the_edge(p.age(q.middle.get()), q.early));
+            _ => {
                 d.begin_sum = Sum::new(q.begin_sum.get() + 2 * q.width.get());
+                if q.place == p.taps as u64 {
+                    (d.state, d.calibrating) = (State::Idle, false);
+                } else {
+                    d.place = q.place + 1;
+                }
             }
-            _ if q.place == p.taps as u64 => (d.state, d.calibrating) = (State::Idle, false),
-            _ => d.place = q.place + 1,
         }
         d.beat = if q.beat == BEATS - 1 { U::new(0) } else { q.beat + 1 };
     }

@@ -39,6 +39,8 @@ impl Registers {
         *self = Registers {
             read_data: d.read_data,
             bank: d.bank,
+            hist_bin_last: d.hist_bin_last,
+            hist_count_last: d.hist_count_last,
             frame_depth: d.frame_depth,
             frame_sigma: d.frame_sigma,
             frame_status: d.frame_status,
