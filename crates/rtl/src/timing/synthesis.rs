@@ -19,6 +19,12 @@ const ECP5_TOP: &str = include_str!("../../../../rtl_ref/ecp5_top.v");
 const RING: &str = include_str!("../../../../rtl_ref/ring_oscillator.v");
 const ECP5_LPF: &str = include_str!("../../../../rtl_ref/ecp5.lpf");
 
+/// A module that a design with a host has.
+const GUARD: &str = "laser_guard";
+/// What `tof_top` has for a host.
+const HOST: [&str; 7] =
+    ["Hosted", "ParametersHash", "uart_rx", "uart_tx", "armed", "interlock", "select_pins"];
+
 /// An FPGA.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
@@ -111,13 +117,8 @@ impl TimedDesign<'_> {
             _ if !block.is_top() => (wrapper::TOP, wrapper(block)),
             Part::Kintex7 => (TOP, TOP.to_owned()),
             Part::Ecp5 if self.rtl.has(BOARD) => (BOARD, BOARD.to_owned()),
-            // The firmware as runs have it: without a host, and with ages from a ROM.
-            Part::Ecp5 => {
-                let top = ECP5_TOP
-                    .replace("Hosted = 1'b1", "Hosted = 1'b0")
-                    .replace("Calibrated = 1'b1", "Calibrated = 1'b0");
-                (BOARD, format!("{top}{RING}"))
-            }
+            Part::Ecp5 if self.rtl.has(GUARD) => (BOARD, format!("{ECP5_TOP}{RING}")),
+            Part::Ecp5 => (BOARD, format!("{}{RING}", without_host(ECP5_TOP))),
         }
     }
 
@@ -144,5 +145,28 @@ impl TimedDesign<'_> {
         };
         write_bytes(&file, &text)?;
         Ok(file)
+    }
+}
+
+/// A board's top for a design without a host, with ages from a ROM.
+fn without_host(top: &str) -> String {
+    let is_host = |line: &&str| {
+        let port = line.trim_start().strip_prefix('.').and_then(|rest| rest.split_once('('));
+        port.is_some_and(|(port, _)| HOST.contains(&port))
+    };
+    let lines = top.lines().filter(|line| !is_host(line)).map(|line| format!("{line}\n"));
+    lines.collect::<String>().replace("Calibrated = 1'b1", "Calibrated = 1'b0")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_host_the_top_connects_what_the_thesis_has() {
+        let top = without_host(ECP5_TOP);
+        assert_eq!(top.lines().count() + HOST.len(), ECP5_TOP.lines().count());
+        assert!(top.contains(".tdc_stop(hit),") && top.contains("Calibrated = 1'b0"));
+        assert!(!HOST.iter().any(|port| top.contains(&format!(".{port}("))));
     }
 }
