@@ -1,10 +1,12 @@
 # Placement of the carry chain: 200 CARRY4 up one column of slices, each with its four tap registers
 # in the same slice. A file of its own, because an XDC may not loop: read_xdc -unmanaged.
 #
-# [choice] Of column and rows: near the left edge, where the HR banks are (tdc_stop is in bank 16),
-# up to the top row of the part. Look at the device view first: the part has 350 rows of slices in 7
-# clock regions of 80 columns, but X0Y2 and X0Y3 (rows 100 to 199) have 12 columns less (public
-# report of a xc7k325t: 3,400 slices instead of 4,000), and which ones could not be found out here.
+# [board] 77 CLB columns (SLICE_X0 to X153) in the lower three clock regions; 73 (to X145) in the upper four, where the
+# transceivers are (frames of each column in prjxray-db's kintex7/xc7k325tffg900-2/part.json). X0 to X7 are the four
+# between the I/O column on the left and the first block RAM, in all 350 rows. Public reports count twelve columns less in
+# rows 100 to 199: those of the configuration logic, by the frames X24 to X35. tdc_stop comes in at row 228 of the left
+# edge (D26 is IOB_X0Y228).
+# [choice] Column 2, from row 150 up to the top row of the part.
 set column 2
 set bottom 150
 set chain tof_top/tdc/carry_chain
