@@ -5,6 +5,7 @@ pub mod builtin;
 pub mod capture;
 pub mod clock;
 pub mod core;
+pub mod debug_core;
 pub mod export;
 pub mod plan;
 mod probe_values;

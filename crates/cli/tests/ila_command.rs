@@ -1,5 +1,8 @@
 //! `tofsim ila capture` as users and scripts meet it.
 
+use std::fs;
+use std::process::Command;
+
 use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup};
 
 use crate::common::{self, empty, files, json, refused, setup, stdout};
@@ -19,6 +22,64 @@ fn the_command_writes_all_forms_and_says_when_it_triggered() {
     );
     let table = stdout(folder.path(), &args[..6]);
     assert!(table.contains("triggered") && table.contains("clk_sys"), "{table}");
+}
+
+/// The commands of Vivado are those of the script's own test: Yosys finds each net, and its width, in the board's top.
+#[test]
+fn the_core_for_vivado_has_the_probes_of_the_configuration_on_nets_of_the_board() {
+    let folder = empty();
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+    let tcl = |probes: &str| stdout(folder.path(), &["ila", "tcl", "--probes", probes, "kc705"]);
+    let shot = tcl("shot");
+    for line in [
+        "create_debug_core u_ila_0 ila",
+        "set_property C_DATA_DEPTH 1024 [get_debug_cores u_ila_0]",
+        "connect_debug_port u_ila_0/clk [get_nets [list {tof_top/clk_laser}]]",
+        "connect_debug_port u_ila_0/probe3 [get_nets [list {tof_top/vcsel_driver/laser_pulse}]]",
+        "set_property port_width 3 [get_debug_ports u_ila_0/probe6]",
+        "set_property C_CLK_INPUT_FREQ_HZ 250000000 [get_debug_cores dbg_hub]",
+    ] {
+        assert!(shot.lines().any(|other| other == line), "{line}: {shot}");
+    }
+    let all = [&shot, &tcl("fig_6_6"), &tcl("fig_6_21")].map(String::as_str).concat();
+    let run = |ila: &str| {
+        let file = folder.path().join("ila.tcl");
+        fs::write(&file, ila).unwrap();
+        let mut yosys = Command::new("yosys");
+        yosys.arg("-c").arg(format!("{root}/crates/rtl/tests/board/vivado.tcl"));
+        yosys.env("SCRIPT", format!("{root}/rtl_ref/kc705.tcl")).env("SLACK", "max 0.1 min 0.1");
+        yosys.env("OUT", folder.path().join("out")).env("ILA", file);
+        let done = yosys.output().expect("yosys: apt-get install yosys");
+        let said = [done.stdout, done.stderr].concat();
+        (done.status.success(), String::from_utf8_lossy(&said).into_owned())
+    };
+    let (is_done, said) = run(&all);
+    assert!(is_done, "{said}");
+    assert!(said.contains("create_debug_port u_ila_0 probe"), "{said}");
+    assert!(said.contains("write_debug_probes -force"), "{said}");
+    let (is_done, _) = run(&all.replace("tof_top/spad_rst}", "tof_top/spad_reset}"));
+    assert!(!is_done, "a net that is not there");
+}
+
+#[test]
+fn what_a_core_in_the_fpga_cannot_sample_is_refused() {
+    let folder = empty();
+    let tcl = |args: &[&str]| refused(folder.path(), &[&["ila", "tcl", "--probes"], args].concat());
+    let clock = tcl(&["fig_6_13"]);
+    assert!(clock.contains("set-up fig_6_13:9:10: probe.0.signal"), "{clock}");
+    assert!(clock.contains("expected no clock"), "{clock}");
+    let set_up = |name: &str, text: &str| {
+        fs::write(folder.path().join(name), text).unwrap();
+        tcl(&[name])
+    };
+    let word = set_up("ram.toml", "[[probe]]\nsignal = \"histogram_builder.ram_0\"\n");
+    assert!(word.contains("ram.toml:2:10") && word.contains("a word of a RAM has none"), "{word}");
+    let free = set_up("free.toml", "clock = \"100MHz\"\n[[probe]]\nsignal = \"start\"\n");
+    assert!(
+        free.contains("free.toml:1:9: clock = 100MHz: expected clk_sys or clk_laser"),
+        "{free}"
+    );
+    assert!(tcl(&["nowhere"]).contains("no such file or built-in probe configuration"));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 pub mod capture;
 pub mod info;
 pub mod replay;
+pub mod tcl;
 
 use clap::Subcommand;
 use schemars::schema_for;
@@ -29,6 +30,7 @@ enum Verb {
     Capture(Box<capture::Args>),
     Info(info::Args),
     Replay(replay::Args),
+    Tcl(tcl::Args),
     /// List the built-in probe configurations
     List {
         /// Print JSON
@@ -54,6 +56,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
         Verb::Capture(args) => capture::run(args, console),
         Verb::Info(args) => info::run(args, console),
         Verb::Replay(args) => replay::run(args, console),
+        Verb::Tcl(args) => tcl::run(args, console),
         Verb::List { json } => list(*json),
         Verb::Show { set_up } => show(set_up),
         Verb::Schema { map } => schema(*map),

@@ -118,7 +118,7 @@ impl Instead {
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let mut set_up = AnalyserSetup::load(&args.probes)?;
     args.instead.lay_over(&mut set_up);
-    let setup = simulated(args, &set_up)?;
+    let setup = simulated(&set_up, args.scenario.as_deref(), &args.set, args.seed)?;
     let mut notes = setup.notes()?;
     console.print_notes(&notes)?;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
@@ -167,11 +167,17 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)
 }
 
-fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {
-    let name = args.scenario.as_deref().unwrap_or(&set_up.file.scenario);
-    // What the set-up sets is meant for its own scenario.
-    let own = if args.scenario.is_none() { &set_up.file.set[..] } else { &[] };
-    Setup::new(load(name, &[own, &args.set].concat(), args.seed)?)
+/// Loads the scenario of a configuration, or the one that is given instead, with keys set.
+pub(super) fn simulated(
+    set_up: &AnalyserSetup,
+    scenario: Option<&str>,
+    set: &[String],
+    seed: Option<u64>,
+) -> Result<Setup> {
+    // What the configuration sets is meant for its own scenario.
+    let own = if scenario.is_none() { &set_up.file.set[..] } else { &[] };
+    let name = scenario.unwrap_or(&set_up.file.scenario);
+    Setup::new(load(name, &[own, set].concat(), seed)?)
 }
 
 /// Returns the error that nothing triggered, and the trigger.
