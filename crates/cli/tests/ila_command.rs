@@ -66,7 +66,7 @@ fn what_a_core_in_the_fpga_cannot_sample_is_refused() {
     let folder = empty();
     let tcl = |args: &[&str]| refused(folder.path(), &[&["ila", "tcl", "--probes"], args].concat());
     let clock = tcl(&["fig_6_13"]);
-    assert!(clock.contains("set-up fig_6_13:9:10: probe.0.signal"), "{clock}");
+    assert!(clock.contains("set-up fig_6_13:11:10: probe.0.signal"), "{clock}");
     assert!(clock.contains("expected no clock"), "{clock}");
     let set_up = |name: &str, text: &str| {
         fs::write(folder.path().join(name), text).unwrap();
@@ -76,7 +76,7 @@ fn what_a_core_in_the_fpga_cannot_sample_is_refused() {
     assert!(word.contains("ram.toml:2:10") && word.contains("a word of a RAM has none"), "{word}");
     let free = set_up("free.toml", "clock = \"100MHz\"\n[[probe]]\nsignal = \"start\"\n");
     assert!(
-        free.contains("free.toml:1:9: clock = 100MHz: expected clk_sys or clk_laser"),
+        free.contains("free.toml:1:9: clock = \"100MHz\": expected clk_sys or clk_laser"),
         "{free}"
     );
     assert!(tcl(&["nowhere"]).contains("no such file or built-in probe configuration"));

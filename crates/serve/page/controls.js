@@ -60,7 +60,10 @@ export function show(next) {
   $("run-state").classList.toggle("on", state.running && !state.held);
   say($("run-state"), state.fault ? "fault" : !state.running ? "stopped" : state.held ? "held" : "running");
   say($("held"), state.fault ?? state.held ?? state.laser_fixed ?? "");
-  say($("about"), `scenario ${state.scenario}, seed ${state.seed}, fidelity ${state.fidelity}`);
+  const origin = state.board ? `board at ${state.board}` : `seed ${state.seed}, fidelity ${state.fidelity}`;
+  say($("about"), `scenario ${state.scenario}, ${origin}`);
+  document.body.classList.toggle("of-board", Boolean(state.board));
+  say($("time-here-name"), state.board ? "taken in" : "simulated in");
   say($("time-board"), seconds(time.board_s));
   say($("time-here"), seconds(time.here_s));
   say($("time-slower"), time.board_s > 0 ? (time.here_s / time.board_s).toFixed(1) : "–");

@@ -8,6 +8,8 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use tofsim::firmware::registers::map::DSP_RST;
+use tofsim::firmware::tof_top::slot::DepthM;
+use tofsim::sim::estimates::digits;
 use tofsim::sim::setup::Setup;
 use tofsim_rtl::golden::parameters::hash::parameters_hash;
 
@@ -30,6 +32,11 @@ fn registers() -> Registers {
         HeldFrame { depth: words.depth.get(), valid: true, histogram, ..HeldFrame::default() };
     let host_timeout = Duration::from_secs(60);
     Registers { host_timeout, ..Registers::new(parameters_hash(&setup), vec![frame]) }
+}
+
+/// The depth of its frames.
+fn depth() -> DepthM {
+    DepthM::from_bits(registers().results[0].depth)
 }
 
 fn server(device: &Device, args: &[&str]) -> Server {
@@ -62,8 +69,7 @@ fn frames_are_those_of_the_board_and_the_laser_is_off_until_it_is_switched_on() 
         (&"board".into(), &false.into())
     );
     let frame = server.frames(3);
-    let held = registers().results[0].clone();
-    assert_eq!((&frame["index"], &frame["depth_raw"]), (&2.into(), &held.depth.into()));
+    assert_eq!((&frame["index"], &frame["depth_raw"]), (&2.into(), &digits(depth()).into()));
     assert_eq!(device.state().registers.lit, 0);
 
     let lit = server.act("control", "{\"laser_en\":true}");
@@ -82,7 +88,7 @@ fn frames_are_those_of_the_board_and_the_laser_is_off_until_it_is_switched_on() 
     );
     assert!(!device.state().registers.armed);
     for (path, body, why) in [
-        ("scene", "{\"set\":{\"target.distance_m\":0.3}}", "in front of the board"),
+        ("scene", "{\"target.distance_m\":0.3}", "in front of the board"),
         ("ila", "{\"arm\":true}", "no logic analyser but Vivado's"),
     ] {
         let answer = server.post(path, body);
@@ -124,13 +130,16 @@ fn in_a_browser_a_boards_frames_go_by_and_its_laser_is_switched() {
     browser.wait(&format!("{frames} > 3"));
     let switch = "document.getElementById('laser_en').getAttribute('aria-checked')";
     assert_eq!(browser.value(switch), "false");
+    let shown = browser.value("document.getElementById('about').textContent");
+    assert_eq!(shown, format!("scenario kc705, board at {}", device.port));
+    let analyser = "document.getElementById('ila-arm').checkVisibility()";
+    assert_eq!(browser.value(analyser), false, "a board's analyser is Vivado's");
     browser.press("l");
     browser.wait(&format!("{switch} === 'true'"));
     server.wait(|state| state["frame"]["laser_en"] == true);
     assert!(device.state().registers.armed);
     let network = "[...document.querySelectorAll('#depths tbody tr')].find(row => row.cells[0].textContent.startsWith('network'))?.cells[1].textContent";
-    let depth_m = server.state()["frame"]["depth_m"].as_f64().unwrap();
-    browser.wait(&format!("{network}?.startsWith('{depth_m:.2}')"));
+    browser.wait(&format!("{network}?.startsWith('{:.3}')", depth().to_num::<f64>()));
     if let Some(folder) = pictures() {
         browser.screenshot(&folder.join("board.png"));
     }

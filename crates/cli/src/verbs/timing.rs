@@ -72,7 +72,8 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let known = args.record.as_deref().map(Record::read).transpose()?.flatten().unwrap_or_default();
     let mut tools = BTreeMap::from([("yosys".to_owned(), version(YOSYS, "-V", work.path())?)]);
     if let Some(tool) = place {
-        tools.insert("nextpnr".to_owned(), version(tool, "--version", work.path())?);
+        let version = version(tool, "--version", work.path())?;
+        tools.insert("nextpnr".to_owned(), format!("{version} {}", nextpnr::ROUTER));
     }
     let known = if known.tools == tools { known } else { Record::default() };
     let one = |block: &&'static TimedBlock| {

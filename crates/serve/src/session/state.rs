@@ -34,6 +34,7 @@ impl Session {
             scenario: &self.origin.name,
             seed: self.origin.scenario.seed,
             fidelity: self.options.fidelity.name(),
+            board: None,
             hash: &setup.hash(),
             running: self.running,
             fault: self.fault.as_deref(),

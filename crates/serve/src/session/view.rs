@@ -24,6 +24,8 @@ pub struct View<'a> {
     pub seed: u64,
     /// Simulation fidelity.
     pub fidelity: &'static str,
+    /// Port of the board whose frames are shown, if they are not simulated.
+    pub board: Option<&'a str>,
     /// Hash of the present scenario.
     pub hash: &'a str,
     /// Whether the run is running.

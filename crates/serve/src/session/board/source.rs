@@ -30,6 +30,7 @@ impl Source for BoardSession {
             scenario: &setup.name,
             seed: setup.scenario.seed,
             fidelity: "board",
+            board: Some(self.board.port()),
             hash: &setup.hash(),
             running: self.running,
             fault: self.fault.as_deref(),
@@ -39,7 +40,7 @@ impl Source for BoardSession {
             laser_fixed: None,
             scene: Vec::new(),
             scene_coming: false,
-            scene_fixed: Some("the scene is the one in front of the board"),
+            scene_fixed: Some("it is the one in front of the board"),
             frame: self.frame.as_ref(),
             progress: ProgressView {
                 frame: done,
