@@ -23,6 +23,9 @@ use crate::objects::object;
 use crate::running::{self, Terms, Watch};
 use crate::scenario::Scenario;
 
+// Python shows a default that is a number.
+const _: () = assert!(BAUD == 921_600);
+
 /// A real board over its serial port: frames, calibration, registers by name. It must have been built with the
 /// parameters of the scenario, unless `any_parameters` is given.
 ///
@@ -55,7 +58,7 @@ impl Board {
 #[pymethods]
 impl Board {
     #[new]
-    #[pyo3(signature = (port, scenario = None, *, baud = BAUD, timeout = 1.0, any_parameters = false))]
+    #[pyo3(signature = (port, scenario = None, *, baud = 921_600, timeout = 1.0, any_parameters = false))]
     fn new(
         py: Python<'_>,
         port: String,
@@ -124,7 +127,7 @@ impl Board {
     ///
     /// `age_se_ps` is the standard error of `age_ps`, `units` the word of the ROM. The delay to tap 0, which counts cannot
     /// measure, is that of the scenario's chain.
-    #[pyo3(signature = (hits = 1 << 20, *, progress = None))]
+    #[pyo3(signature = (hits = 1_048_576, *, progress = None))]
     fn calibrate<'py>(
         &self,
         py: Python<'py>,

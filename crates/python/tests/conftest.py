@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from firmware import Firmware
 
 Command = Callable[..., "subprocess.CompletedProcess[str]"]
 
@@ -68,3 +69,15 @@ def kill_one_on_the_way(client: Any) -> tuple[Callable[[int, int], None], list[i
             os.kill(killed[0], signal.SIGKILL)
 
     return progress, killed
+
+
+@pytest.fixture
+def firmware(command: Command, tmp_path: Path) -> Iterator[Firmware]:
+    """A board of the scenario kc705."""
+    map_file = tmp_path / "csr.csv"
+    done = command("board", "csr", "-o", str(map_file))
+    assert done.returncode == 0, done.stderr
+    firmware = Firmware(map_file)
+    yield firmware
+    os.close(firmware.theirs)
+    os.close(firmware.ours)
