@@ -59,32 +59,27 @@ impl Board {
         stop: Option<&AtomicBool>,
         take: &mut dyn FnMut(&Frame, LaserState) -> Result<()>,
     ) -> Result<()> {
-        let taken = self.take_all(setup, laser, count, stop, take);
+        let taken = self.start(setup, laser).and_then(|mut before| {
+            (0..count).try_for_each(|index| {
+                let frame = self.next_frame(setup, (index, before), stop)?;
+                before = before.wrapping_add(1);
+                let state = self.laser_state()?;
+                take(&frame, state)?;
+                self.keep_alive()
+            })
+        });
         let off = self.laser_off();
         taken.and(off)
     }
 
-    fn take_all(
-        &mut self,
-        setup: &Setup,
-        laser: bool,
-        count: u64,
-        stop: Option<&AtomicBool>,
-        take: &mut dyn FnMut(&Frame, LaserState) -> Result<()>,
-    ) -> Result<()> {
+    /// Lets frames begin, and returns the number before the first one.
+    fn start(&mut self, setup: &Setup, laser: bool) -> Result<u32> {
         self.prepare(setup, laser)?;
-        let mut before = self.begin_frames()?;
+        let before = self.begin_frames()?;
         if laser {
             self.arm()?;
         }
         self.release()?;
-        for index in 0..count {
-            let frame = self.next_frame(setup, (index, before), stop)?;
-            let state = self.laser_state()?;
-            take(&frame, state)?;
-            self.keep_alive()?;
-            before = before.wrapping_add(1);
-        }
-        Ok(())
+        Ok(before)
     }
 }
