@@ -22,7 +22,7 @@ fn examples_fit_80_columns() {
     for (command, text) in helps {
         let examples = text.lines().skip_while(|line| *line != "Examples:").skip(1);
         for line in examples.take_while(|line| !line.is_empty()) {
-            let begins = ["  tofsim ", "  cargo ", "  make ", "  litex_"];
+            let begins = ["  tofsim ", "  cargo ", "  make ", "  litex_", "  vivado "];
             assert!(begins.iter().any(|begin| line.starts_with(begin)), "{command}: {line}");
             assert!(line.chars().count() <= 80, "{command}: {line}");
         }
