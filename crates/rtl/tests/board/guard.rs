@@ -7,7 +7,7 @@ use super::{Board, ECP5, Fault, KC705, TAP_FS, root, sources};
 /// The rules, in the order of their numbers in `proof.v`, each with a fault that breaks it.
 const RULES: [(&str, &str, &str); 5] = [
     ("unlocked and interlocked", "cut = !locked || interlock;", "cut = !locked;"),
-    ("not armed", "blocks_first = !armed || !armed_last || run_next", "blocks_first = run_next"),
+    ("not armed", "if (arming == 3'd1) armed", "if (arming <= 3'd1) armed"),
     ("host_silent", "silence >= HostTimeout;", "silence >= 2 * HostTimeout;"),
     ("pulse_too_long", "blocks_first || run_next + 4'd1 >=", "blocks_first || run_next >="),
     ("rate_too_high", "gap_next = ShortestPeriod - 16'd1;", "gap_next = ShortestPeriod - 16'd2;"),
