@@ -65,7 +65,7 @@ fn a_fault_of_the_spad_reset_or_of_the_pulse_is_counted_and_not_proven() {
     fault("spad_rst_width", &laser(before, twice), 2);
     fault("spad_rst_mode_1", &[["spad_control.v", "pre_start && !mode", "pre_start"]], 1);
     fault("laser_on_lag", &laser("fire && !fire_last", "fire"), 4000);
-    let simulated = ["ddr_output.v", "clk_laser ? d[0] : second", "clk_laser ? d[0] : level"];
+    let simulated = ["ddr_output.v", "clk_laser ? d_first : second", "clk_laser ? d_first : level"];
     let synthesized = ["ddr_output.v", ".D2(d_second)", ".D2(d[0])"];
     fault("laser_on_width", &[simulated, synthesized], 4000);
 }
