@@ -25,6 +25,8 @@ mod translated;
 mod wave;
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use tofsim::error::Result;
 use tofsim::sim::setup::Setup;
@@ -47,7 +49,19 @@ impl Source {
     /// # Errors
     /// If it cannot be read or has none of the formats.
     pub fn file(path: &Path, radix: Option<Radix>) -> Result<Source> {
-        Ok(detect::open(path, radix)?.distinguish())
+        Source::file_stopped_by(path, radix, Arc::default())
+    }
+
+    /// Opens a file as [`Source::file`] does; once `stop` is set, opening and reading it fail as interrupted.
+    ///
+    /// # Errors
+    /// As [`Source::file`], and if it is stopped.
+    pub fn file_stopped_by(
+        path: &Path,
+        radix: Option<Radix>,
+        stop: Arc<AtomicBool>,
+    ) -> Result<Source> {
+        Ok(detect::open(path, radix, &stop)?.distinguish().stopped_by(stop))
     }
 
     /// Creates a source that simulates `frames` frames or, without a number, as many as are read, up to

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -20,8 +21,8 @@ use crate::running::{self, Terms};
 #[pyo3(name = "_wave_signals")]
 pub fn wave_signals(py: Python<'_>, path: PathBuf) -> Result<BTreeMap<String, u32>> {
     let terms = Terms { threads: Some(1), progress: None };
-    running::run(py, terms, move |_| {
-        let source = Source::file(&path, None)?;
+    running::run(py, terms, move |watch| {
+        let source = Source::file_stopped_by(&path, None, Arc::clone(&watch.stop))?;
         let readable = source.signals.into_iter().filter(|one| one.kind != SignalKind::Other);
         Ok(readable.map(|signal| (signal.name.text, signal.width)).collect())
     })
@@ -51,7 +52,7 @@ struct Read {
 pub fn read_waves(py: Python<'_>, path: PathBuf, names: Vec<String>) -> Result<Bound<'_, PyDict>> {
     let terms = Terms { threads: Some(1), progress: None };
     let read = running::run(py, terms, move |watch| {
-        let source = Source::file(&path, None)?;
+        let source = Source::file_stopped_by(&path, None, Arc::clone(&watch.stop))?;
         let signal = |name: &String| {
             let found = source.signals.iter().find(|signal| signal.name.text == *name);
             let fault = || Input::new(path.display(), "there is no such signal").value(name);

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use tofsim::error::{Error, Input, Result};
 
@@ -20,8 +21,8 @@ const CSV: &[u8] = b"Sample in Buffer";
 /// Number of bytes that are examined.
 const HEAD: u64 = 4096;
 
-/// Opens the source at `path`.
-pub(super) fn open(path: &Path, radix: Option<Radix>) -> Result<Source> {
+/// Opens the source at `path`, until `stop` is set.
+pub(super) fn open(path: &Path, radix: Option<Radix>, stop: &AtomicBool) -> Result<Source> {
     let found = std::fs::metadata(path).map_err(Error::io(path, "read"))?;
     if !found.is_file() {
         let expected = "expected a file, because it is read more than once";
@@ -48,7 +49,7 @@ pub(super) fn open(path: &Path, radix: Option<Radix>) -> Result<Source> {
             return Err(Input::new(path.display(), expected).at(1, 1).value(line).into());
         }
     };
-    wave::source(path, format)
+    wave::source(path, format, stop)
 }
 
 fn starts_as_csv(text: &[u8]) -> bool {

@@ -4,8 +4,9 @@ use std::collections::HashSet;
 use std::fs::File;
 use std::io::BufRead;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Input, Result, poll_stop};
 
 use super::bytes::Bytes;
 
@@ -18,22 +19,23 @@ pub(super) struct Body {
     pub(super) texts: HashSet<Vec<u8>>,
 }
 
-/// Reads the values of the VCD at `path`.
+/// Reads the values of the VCD at `path`, until `stop` is set.
 ///
 /// # Errors
-/// If the file cannot be read, or time goes back.
-pub(super) fn body(path: &Path) -> Result<Body> {
+/// If the file cannot be read, time goes back, or it is stopped.
+pub(super) fn body(path: &Path, stop: Option<&AtomicBool>) -> Result<Body> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
-    vcd(path, Bytes::new(file))
+    vcd(path, Bytes::new(file), stop)
 }
 
 /// Scans a VCD, and checks that time does not go back.
 ///
 /// The library assumes that times are in order: otherwise it prints a line on standard output and omits changes.
-fn vcd(path: &Path, mut file: impl BufRead) -> Result<Body> {
+fn vcd(path: &Path, mut file: impl BufRead, stop: Option<&AtomicBool>) -> Result<Body> {
     let mut words = StampParser { line: 1, ..StampParser::default() };
     let fault = |(line, expected)| Input::new(path.display(), expected).at(line, 1);
     loop {
+        poll_stop(stop)?;
         let block = file.fill_buf().map_err(|error| Error::io(path, "read")(error))?;
         if block.is_empty() {
             // The last word may have no blank behind it.
@@ -168,11 +170,14 @@ mod tests {
 
     use super::*;
 
+    /// Reads a text in blocks of that many bytes.
+    fn read(text: &str, block: usize, is_stopped: bool) -> Result<Body> {
+        let file = BufReader::with_capacity(block, text.as_bytes());
+        vcd(Path::new("a.vcd"), file, Some(&AtomicBool::new(is_stopped)))
+    }
+
     fn last(text: &str) -> std::result::Result<Option<u64>, String> {
-        let read = |block| {
-            let file = BufReader::with_capacity(block, text.as_bytes());
-            vcd(Path::new("a.vcd"), file).map_err(|error| error.to_string())
-        };
+        let read = |block| read(text, block, false).map_err(|error| error.to_string());
         let whole = read(text.len());
         (1..20).for_each(|block| assert_eq!(read(block), whole, "{block} bytes at once"));
         whole.map(|body| body.end)
@@ -188,11 +193,15 @@ mod tests {
     }
 
     #[test]
+    fn a_scan_can_be_stopped() {
+        assert!(matches!(read("$end\n#0\n1!\n", 4, true), Err(Error::Interrupted)));
+    }
+
+    #[test]
     fn signals_with_words_are_found_by_their_codes() {
         let text = "$end\n#0\nsidle !\nb0 s\nr1.5 #\n$comment sx a $end\n1s\nSRUN \"\n";
         for block in 1..20 {
-            let file = BufReader::with_capacity(block, text.as_bytes());
-            let texts = vcd(Path::new("a.vcd"), file).unwrap().texts;
+            let texts = read(text, block, false).unwrap().texts;
             assert_eq!(texts, HashSet::from([b"!".to_vec(), b"\"".to_vec()]));
         }
     }

@@ -23,7 +23,7 @@ pub(super) fn located(path: &Path, error: Error) -> Error {
 
 /// Returns the first error.
 fn fault(path: &Path) -> Option<Input> {
-    let texts = body(path).ok()?.texts;
+    let texts = body(path, None).ok()?.texts;
     let mut words = HeadWords::new(fst::open(path).ok()?);
     let head = match Head::read(path, &mut words, &texts) {
         Ok(head) => head,

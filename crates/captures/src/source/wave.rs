@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use wellen::stream::{Filter, StreamError, StreamingWaveform};
 use wellen::{Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
@@ -48,8 +49,8 @@ fn open(path: &Path, pieces: &Arc<[Piece]>) -> Result<StreamingWaveform<Bytes>> 
     wave.map_err(|error| fault(path, error))
 }
 
-/// Opens the waveform at `path`.
-pub(super) fn source(path: &Path, format: SourceFormat) -> Result<Source> {
+/// Opens the waveform at `path`, until `stop` is set.
+pub(super) fn source(path: &Path, format: SourceFormat, stop: &AtomicBool) -> Result<Source> {
     let mut file = fst::open(path)?;
     let (end, pieces) = match format {
         SourceFormat::Fst => {
@@ -58,7 +59,7 @@ pub(super) fn source(path: &Path, format: SourceFormat) -> Result<Source> {
         }
         // Time stamps are looked for in text alone: packed bytes may look like some.
         _ => {
-            let Body { end, texts } = body(path)?;
+            let Body { end, texts } = body(path, Some(stop))?;
             (end, Head::read(path, &mut HeadWords::new(file), &texts)?.pieces().into())
         }
     };

@@ -26,7 +26,7 @@ use crate::report::comparison::{self, ComparisonFindings};
 use crate::report::writer::Report;
 
 use super::draws::load;
-use super::host::{Host, host};
+use super::host::host;
 use super::terminal::Console;
 
 /// Compare two waveforms or captures: A is the reference, B the capture under test
@@ -166,7 +166,8 @@ struct How {
 /// Runs the command.
 pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let radix = args.which.radix;
-    let open = |path: &PathBuf| Source::file(path, radix);
+    let stop = host().map(|host| host.stop).unwrap_or_default();
+    let open = |path: &PathBuf| Source::file_stopped_by(path, radix, Arc::clone(&stop));
     let Simulated { scenario, set, seed, frames } = &args.simulated;
     let (mut notes, mut record) = (Vec::new(), None);
     let (a, b) = match (scenario, &args.files[..]) {
@@ -178,7 +179,7 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
             let frames = frames.or((!b.is_capture()).then_some(1));
             super::frames::check("--frames", frames.unwrap_or(1), &setup)?;
             record = Some(Record::new(&setup, &console.command).into());
-            (Source::simulation(setup, frames), b)
+            (Source::simulation(setup, frames).stopped_by(Arc::clone(&stop)), b)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
         (given, _) => {
@@ -188,10 +189,6 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
             };
             return Err(Input::new("compare", expected).into());
         }
-    };
-    let (a, b) = match host() {
-        Some(Host { stop, .. }) => (a.stopped_by(Arc::clone(&stop)), b.stopped_by(stop)),
-        None => (a, b),
     };
     no_input_is_written(args)?;
     let options = options(args)?;
