@@ -1,5 +1,6 @@
 //! Lines of bits: what goes into a block, or comes out of it, clock by clock.
 
+use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use bitvec::prelude::*;
@@ -107,10 +108,13 @@ impl Table {
 
 /// Bits in hexadecimal, all digits, at least one.
 pub fn hex(bits: &BitSlice<u64, Lsb0>) -> String {
-    const DIGITS: &[u8; 16] = b"0123456789abcdef";
-    let digit = |nibble: &BitSlice<u64, Lsb0>| DIGITS[nibble.load_le::<usize>()] as char;
-    let digits: String = bits.chunks(4).rev().map(digit).collect();
-    if digits.is_empty() { "0".to_owned() } else { digits }
+    let mut text = String::with_capacity(16 * bits.len().div_ceil(64));
+    for word in bits.chunks(64).rev() {
+        let digits = word.len().div_ceil(4);
+        let word: u64 = word.load_le();
+        let _ = write!(text, "{word:0digits$x}");
+    }
+    if text.is_empty() { "0".to_owned() } else { text }
 }
 
 /// Puts reported signals into the line under construction.
