@@ -28,12 +28,16 @@ fn netlist(sources: &Sources) -> PathBuf {
     sources.remove("kc705_top.v");
     sources.remove("ecp5_top.v");
     let rest = yosys::modules(&sources).filter(|name| !KEPT.contains(name));
+    // Look-up tables stay expressions: Yosys takes minutes to make a primitive for each of thousands of contents.
     // Vectors are split, because Icarus takes minutes for one with a driver for each of 800 bits.
     let script = format!(
         "tee -q -o cells.txt read_verilog -lib +/xilinx/cells_sim.v\n\
          read_verilog -lib {}\nread_verilog -DROM_IN_LUTS {}\n\
          chparam -set ShotsPerFrame {SHOTS} tof_top\n\
-         synth_xilinx -family xc7 -top tof_top -flatten -noiopad -noclkbuf\n\
+         synth_xilinx -family xc7 -top tof_top -flatten -noiopad -noclkbuf -run begin:map_luts\n\
+         opt_expr -mux_undef -noclkinv\nabc -luts 2:2,3,6:5,10,20\nclean\n\
+         techmap -map +/xilinx/ff_map.v\nxilinx_srl -fixed -minlen 3\n\
+         techmap -map +/xilinx/cells_map.v -D LUT_WIDTH=6\nclean\nhierarchy -check\n\
          tee -q -o stat.json stat -json\n\
          splitnets\nopt_clean -purge\nrename tof_top tof_top_netlist\n\
          write_verilog -noattr netlist.v\n",
