@@ -6,7 +6,11 @@ use std::path::Path;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use tofsim::firmware::depth_estimator::datapath::Datapath;
+
 use crate::common::{empty, refused, stdout};
+
+use super::drawn::network_of;
 
 /// A small instrument of its own clock, chain, histogram and network.
 const SCENARIO: &str = r#"
@@ -129,7 +133,7 @@ fn write(folder: &Path, network: &str, changed: &str, from: &str, to: &str) {
 fn forty_files_with_one_thing_wrong_each_are_refused_with_the_place_and_what_would_do() {
     let (folder, mut random) = (empty(), ChaCha8Rng::seed_from_u64(3));
     let path = folder.path();
-    super::network_of(&mut random, (64, 4), super::Datapath::THESIS, &path.join("network.toml"));
+    network_of(&mut random, (64, 4), Datapath::THESIS, &path.join("network.toml"));
     let network = fs::read_to_string(path.join("network.toml")).unwrap();
     write(path, &network, "", "", "");
     let run = ["run", "a.toml", "--waves", "none", "-o", "out"];
