@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use tofsim::Setup;
 use tofsim_rtl::checkers::{Checkers, blocks_of};
+use tofsim_rtl::verify::simulator::QUICK_TO_COMPILE;
 
 /// Returns the root of the repository.
 pub fn root() -> PathBuf {
@@ -95,7 +96,8 @@ pub fn compile(folder: &Path, top: &str, files: &[PathBuf], options: &[&str]) ->
             "-Wno-style",
             "-Wno-TIMESCALEMOD",
         ])
-        .args(["-CFLAGS", "-O0", "--top-module", top, "-o", "bench", "--Mdir"])
+        .args(QUICK_TO_COMPILE)
+        .args(["--top-module", top, "-o", "bench", "--Mdir"])
         .arg(folder.join("build"))
         .args(options)
         .args(checkers)

@@ -4,6 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use tofsim_rtl::verify::simulator::QUICK_TO_COMPILE;
+
 use crate::common;
 
 use super::same;
@@ -75,7 +77,8 @@ fn in_verilator_it_is_the_same_without_a_map() {
     let sources: Vec<&str> = sources.iter().map(String::as_str).collect();
     let bench = folder.join("tof_top");
     let flags = ["--binary", "--timing", "--trace", "-Wno-fatal", "-Wno-lint", "-Mdir", "built"];
-    run(&bench, "verilator", &[&flags[..], &["--top-module", "tb_tof_top"], &sources].concat());
+    let top = ["--top-module", "tb_tof_top"];
+    run(&bench, "verilator", &[&flags[..], &QUICK_TO_COMPILE, &top, &sources].concat());
     run(&bench, "./built/Vtb_tof_top", &[]);
     compare(folder);
 }

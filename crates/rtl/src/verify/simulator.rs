@@ -8,6 +8,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+pub use arguments::QUICK_TO_COMPILE;
+
 use arguments::SourceOptions;
 use job::Job;
 
@@ -37,9 +39,6 @@ const WAYS: [(Simulator, bool, &str); 3] = [
     (Simulator::Verilator, false, "Verilator accepts these files: verify --simulator verilator"),
     (Simulator::Icarus, false, "Icarus Verilog accepts these files: verify --simulator icarus"),
 ];
-
-/// Optimisation of what Verilator writes: a bench runs for seconds, and is as fast as with Verilator's own `-Os`.
-const FAST_TO_COMPILE: &str = "OPT_FAST=-O1 OPT_SLOW=-O0";
 
 /// A compiled bench.
 #[derive(Clone, Debug)]
@@ -93,7 +92,7 @@ impl Simulator {
             Simulator::Verilator => arguments::verilator(
                 "--binary",
                 top,
-                ["-Mdir", "obj_dir", "-o", "bench", "-MAKEFLAGS", FAST_TO_COMPILE],
+                ["-Mdir", "obj_dir", "-o", "bench"].into_iter().chain(QUICK_TO_COMPILE),
             ),
         };
         let texts: Result<String> = bench.iter().map(|file| read_text(file)).collect();
