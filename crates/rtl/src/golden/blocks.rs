@@ -101,10 +101,11 @@ mod tests {
         }
     }
 
+    /// With another seed than the two of the lockstep tests, which see the same of theirs.
     #[test]
     fn every_stimulus_covers_its_goals() {
-        let mut gaps = Vec::new();
-        for (spec, seed) in BLOCKS.iter().flat_map(|spec| [(spec, 1), (spec, 20_221_121)]) {
+        let (seed, mut gaps) = (20_221_121, Vec::new());
+        for spec in BLOCKS {
             let mut all = vec![("", vectors(spec, seed, None))];
             for configuration in spec.configurations {
                 let vectors = configured(spec, configuration, seed);

@@ -71,7 +71,7 @@ impl Table {
     /// Writes a word into the line under construction.
     pub fn set(&mut self, column: usize, value: u64) {
         let Column { low, width, .. } = self.columns[column];
-        self.line[low..low + width].store_le(value);
+        put(self.line.as_raw_mut_slice(), low, width, value);
     }
 
     /// Writes bits into the line under construction, the first one lowest.
@@ -103,6 +103,23 @@ impl Table {
             writeln!(out, "{}", hex(self.row(row)))?;
         }
         Ok(())
+    }
+}
+
+/// Replaces up to 64 bits from `low` on by the lowest of `value`.
+///
+/// By words: lines take most of the time of recording, and a bit slice's place costs more than the store.
+fn put(words: &mut [u64], low: usize, width: usize, value: u64) {
+    if width == 0 {
+        return;
+    }
+    let (word, bit) = (low / 64, low % 64);
+    let mask = u64::MAX >> (64 - width);
+    let value = value & mask;
+    words[word] = words[word] & !(mask << bit) | value << bit;
+    if bit + width > 64 {
+        let rest = 64 - bit;
+        words[word + 1] = words[word + 1] & !(mask >> rest) | value >> rest;
     }
 }
 
@@ -159,6 +176,22 @@ mod tests {
         table.write(&mut text).unwrap();
         assert_eq!(String::from_utf8(text).unwrap(), "1a5f00000001\n0a5f00000001\n");
         assert_eq!(table.hex(1, 2), "f00000001");
+    }
+
+    #[test]
+    fn a_word_replaces_only_its_bits_wherever_it_lies() {
+        for (low, width) in [(0, 64), (3, 1), (60, 4), (60, 5), (63, 64), (64, 64), (37, 0)] {
+            for before in [0, u64::MAX] {
+                let mut expected = bitvec![u64, Lsb0; 0; 192];
+                expected.as_raw_mut_slice().fill(before);
+                let mut found = expected.clone();
+                put(found.as_raw_mut_slice(), low, width, 0xdead_beef_0123_4567);
+                if width > 0 {
+                    expected[low..low + width].store_le(0xdead_beef_0123_4567_u64);
+                }
+                assert_eq!(found, expected, "{width} bits at {low}");
+            }
+        }
     }
 
     #[test]
