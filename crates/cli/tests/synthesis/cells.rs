@@ -3,10 +3,15 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
+use std::path::Path;
 
+use serde::{Deserialize, Serialize};
+
+use super::recorded::recorded;
 use super::yosys::{self, Sources};
 
 /// Primitives of a module: how many of each type.
+#[derive(Serialize, Deserialize)]
 pub struct Cells {
     counts: BTreeMap<String, u64>,
     /// CARRY4 of the TDC's chain, by their names.
@@ -36,11 +41,11 @@ const NAMED: &[&str] = &["PLLE2", "ODDR", "OBUFDS", "IBUFDS"];
 impl Cells {
     /// Synthesises a module for the 7 series.
     pub fn of(sources: &Sources, top: &str) -> Self {
-        Self::with(sources, top, "")
+        Self::with(sources, top, top, "")
     }
 
-    /// The same after a command of Yosys.
-    pub fn with(sources: &Sources, top: &str, command: &str) -> Self {
+    /// The same after a command of Yosys, under another name.
+    pub fn with(sources: &Sources, top: &str, name: &str, command: &str) -> Self {
         let sources = yosys::needed(sources, top);
         let script = format!(
             "read_verilog {}\n{command}\nsynth_xilinx -family xc7 -top {top} -flatten\n\
@@ -48,7 +53,11 @@ impl Cells {
              tee -q -o chain.txt select -count t:CARRY4 c:*carry_chain.slice* %i\n",
             yosys::paths(yosys::modules(&sources)),
         );
-        let folder = yosys::results(&sources, &script);
+        recorded(name, &script, &sources, || Cells::read(&yosys::results(&sources, &script)))
+    }
+
+    /// Reads what the script wrote.
+    fn read(folder: &Path) -> Self {
         let stat = fs::read_to_string(folder.join("stat.json")).unwrap();
         let stat: serde_json::Value = serde_json::from_str(&stat).unwrap();
         let counts = stat["design"]["num_cells_by_type"].clone();

@@ -4,11 +4,9 @@ use tofsim::firmware::tdc_decoder::Decoder;
 use tofsim_learn::characterisation::decoders::{COSTS, DecoderCost};
 
 use super::cells::Cells;
+use super::recorded::MAKER;
 use super::yosys;
 use crate::common;
-
-/// The version that the numbers are of.
-const MAKER: &str = "Yosys 0.23";
 
 #[test]
 #[ignore = "long: ./check --full"]
@@ -23,9 +21,13 @@ fn the_costs_of_the_decoders_are_those_of_their_netlists() {
         if decoder == Decoder::Reordered {
             command += &format!("\nchparam -set Order {order} tdc_decoder");
         }
-        // With the default, as the table of all modules has it.
-        let command = if number == 0 { "" } else { &command };
-        let cells = Cells::with(&sources, "tdc_decoder", command);
+        let cells = match number {
+            // The default, as in the table of all modules.
+            0 => Cells::of(&sources, "tdc_decoder"),
+            _ => {
+                Cells::with(&sources, "tdc_decoder", &format!("tdc_decoder.{decoder:?}"), &command)
+            }
+        };
         assert!(cells.odd().is_empty(), "{decoder:?}: {:?}", cells.odd());
         let luts = cells.count("LUT") + cells.count("INV");
         if cells.maker == MAKER {

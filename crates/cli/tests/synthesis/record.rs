@@ -1,6 +1,7 @@
 //! Tests of the recorded place and route in `docs/timing.json`, which `./check --timing` writes, against the Verilog,
 //! the document about it, and the required contents.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
@@ -11,6 +12,16 @@ use tofsim_rtl::timing::{self, BLOCKS, Measurement, TimedDesign, nextpnr};
 use tofsim_rtl::verify::process::{Limits, YOSYS};
 
 use crate::common;
+
+use super::recorded::recorded;
+use super::yosys;
+
+/// What gives Yosys its scripts and the modules around blocks.
+const SCRIPTS: &str = concat!(
+    include_str!("../../../rtl/src/timing/block.rs"),
+    include_str!("../../../rtl/src/timing/synthesis.rs"),
+    include_str!("../../../rtl/src/timing/wrapper.rs"),
+);
 
 const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs");
 
@@ -93,18 +104,25 @@ fn row(line: &str, record: &Record) -> String {
 #[ignore = "long: ./check --full"]
 fn the_record_is_of_this_verilog() {
     let folder = common::empty();
-    let limits = Limits::new(Duration::from_secs(600));
     let maker = version(YOSYS, "-V", folder.path()).unwrap();
     let record = record();
     if record.tools["yosys"] != maker {
         // Another version makes other netlists; the record says which it was.
         return eprintln!("docs/timing.json is of {}, this is {maker}", record.tools["yosys"]);
     }
-    let rtl = timing::own(folder.path(), &common::setup("kc705", &[])).unwrap();
-    let design = TimedDesign { rtl: &rtl, folder: folder.path(), work: folder.path(), limits };
+    let netlists = recorded("ecp5", SCRIPTS, &yosys::rtl_ref(), || netlists(folder.path()));
     for block in BLOCKS {
-        let netlist = nextpnr::digest(&design, block).unwrap();
         let recorded = &measurement(&record, block.name).netlist;
-        assert_eq!(&netlist, recorded, "{}: docs/timing.md says how to place it", block.name);
+        let netlist = &netlists[block.name];
+        assert_eq!(netlist, recorded, "{}: docs/timing.md says how to place it", block.name);
     }
+}
+
+/// The digest of each block's netlist.
+fn netlists(folder: &Path) -> BTreeMap<String, String> {
+    let limits = Limits::new(Duration::from_secs(600));
+    let rtl = timing::own(folder, &common::setup("kc705", &[])).unwrap();
+    let design = TimedDesign { rtl: &rtl, folder, work: folder, limits };
+    let digest = |block| nextpnr::digest(&design, block).unwrap();
+    BLOCKS.iter().map(|block| (block.name.to_owned(), digest(block))).collect()
 }
