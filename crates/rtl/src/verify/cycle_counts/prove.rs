@@ -43,7 +43,7 @@ pub fn prove(
         Answer::Holds(steps) => steps,
         Answer::Fails(why) | Answer::Stuck(why) => return Ok(Some(why)),
     };
-    // What holds of any number is proven as soon; the longest induction takes seconds to prove nothing.
+    // A property that holds of any number needs no longer an induction; the longest takes seconds.
     let steps = promise.properties.steps.min(steps + 2);
     for mutant in promise.expected.checked_sub(1).into_iter().chain([promise.expected + 1]) {
         let why = match ask(mutant, steps)? {
