@@ -10,7 +10,8 @@ use tempfile::TempDir;
 
 use crate::common;
 
-const FRAMES: usize = 20;
+/// Two more than are between two calibrations.
+const FRAMES: usize = 6;
 /// Keys of a frame that a board and a run have alike.
 const KEYS: [&str; 8] =
     ["index", "depth_raw", "depth_m", "sigma_m", "valid", "status", "shots", "histogram"];
@@ -141,7 +142,7 @@ fn frames_of_the_likelihood_estimator_are_those_of_a_run() {
 fn frames_of_a_board_that_calibrates_itself_are_those_of_a_run() {
     Board::start(
         5_000_000,
-        &["tdc.recalibrate_frames=8", "tdc.profile=kintex7", "firmware.mode=1"],
+        &["tdc.recalibrate_frames=4", "tdc.profile=kintex7", "firmware.mode=1"],
     )
     .check();
 }

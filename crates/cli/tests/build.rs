@@ -41,7 +41,23 @@ pub fn build(folder: &Path, more: &[&str]) -> (i32, String) {
     (done.status.code().unwrap(), said)
 }
 
-/// The journal of a build.
+/// The journal of a build into the folder `out`.
 pub fn journal(folder: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(folder.join("out/build.json")).unwrap()).unwrap()
+}
+
+/// Asserts that a build with every step has counted cycles, proven them, and counted primitives.
+pub fn is_whole(journal: &Value) {
+    let steps = &journal["steps"];
+    let counts = steps["cycles"]["result"]["counts"].as_array().unwrap();
+    assert!(!counts.is_empty());
+    for count in counts {
+        assert_eq!(count["expected"], count["rtl"], "{count}");
+        assert_eq!(count["proven"], true, "{count}");
+    }
+    for part in ["kintex7", "ecp5"] {
+        let used = &steps["cost"]["result"]["parts"][part];
+        let [lut, dsp] = ["lut", "dsp"].map(|what| used[what].as_u64().unwrap());
+        assert!((100..20_000).contains(&lut) && dsp > 0, "{part}: {used}");
+    }
 }

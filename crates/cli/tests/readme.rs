@@ -7,6 +7,7 @@ use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use crate::build::is_whole;
 use crate::common::{empty, output, tofsim};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
@@ -65,4 +66,6 @@ fn every_command_of_the_readme_runs_as_printed() {
         let error = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "tofsim {}: {error}", args.join(" "));
     }
+    let journal = fs::read_to_string(clone.path().join("mine/build.json")).unwrap();
+    is_whole(&serde_json::from_str(&journal).unwrap());
 }

@@ -134,7 +134,7 @@ fn plant(every: usize, least: usize) {
 #[test]
 #[ignore = "long: ./check --full"]
 fn a_checker_stops_at_a_fault_where_the_bench_of_the_block_does() {
-    plant(7, 40);
+    plant(20, 14);
 }
 
 #[test]

@@ -81,28 +81,6 @@ fn the_module_with_the_parameters_is_held_to_the_model() {
 }
 
 #[test]
-#[ignore = "long: ./check --full"]
-fn a_whole_build_proves_verifies_and_counts() {
-    let folder = small();
-    let (status, said) = build(folder.path(), &[]);
-    assert_eq!(status, 0, "{said}");
-    let steps = &journal(folder.path())["steps"];
-    let counts = steps["cycles"]["result"]["counts"].as_array().unwrap();
-    let estimator = &counts[0];
-    // 16 bins, then what two neurons take.
-    assert_eq!(estimator["expected"], estimator["rtl"], "{estimator}");
-    assert!(counts.iter().all(|count| count["proven"] == true));
-    let parts = &steps["cost"]["result"]["parts"];
-    for part in ["kintex7", "ecp5"] {
-        let lut = parts[part]["lut"].as_u64().unwrap();
-        assert!(
-            (100..5000).contains(&lut) && parts[part]["dsp"].as_u64().unwrap() > 0,
-            "{part}: {lut}"
-        );
-    }
-}
-
-#[test]
 fn what_cannot_be_built_is_refused_and_leaves_nothing() {
     let folder = small();
     let path = folder.path();
