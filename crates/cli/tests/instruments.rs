@@ -94,8 +94,11 @@ fn twice_as_many_instruments_pass_in_verilator() {
     let reports = blocks_pass(&["--simulator", "verilator"], 12..12 + instruments().div_ceil(3));
     for report in reports {
         let goals = ["met", "of"].map(|what| report["goals"][what].as_u64().unwrap());
-        // A draw may leave out rare cases.
-        assert!(goals[0] * 10 >= goals[1] * 8, "{report}");
+        // A draw may leave out rare cases, most of all of a limit that few histograms come near.
+        let is_of_limits =
+            ["likelihood_estimator", "tansig"].map(Value::from).contains(&report["block"]);
+        let least = if is_of_limits { 8 } else { 9 };
+        assert!(goals[0] * 10 >= goals[1] * least, "{report}");
     }
     frames_pass_in("verilator", 12..12 + 2 * instruments());
 }
