@@ -15,7 +15,7 @@ use tofsim_captures::ila::read::{CaptureRow, Opened, open};
 
 /// Opens a file and reads all its rows.
 pub fn read(path: &Path, radix: Option<Radix>) -> Result<(Opened, Vec<CaptureRow>)> {
-    let mut opened = open(path, radix)?;
+    let mut opened = open(path, radix, None)?;
     let (mut rows, mut row) = (Vec::new(), CaptureRow::default());
     while opened.rows.next(&mut row)? {
         rows.push(row.clone());

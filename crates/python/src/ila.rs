@@ -51,7 +51,7 @@ pub fn read_ila<'py>(
     let radix = radix_of(radix)?;
     let terms = Terms { threads: Some(1), progress: None };
     let read = running::run(py, terms, move |watch| {
-        let mut opened = open(&path, radix)?;
+        let mut opened = open(&path, radix, Some(&watch.stop))?;
         let columns = opened.columns;
         let mut read = Read {
             form: opened.form,

@@ -19,6 +19,7 @@ mod vcd;
 use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use tofsim::error::{Error, Result};
 
@@ -31,12 +32,19 @@ pub use opened::{
 pub(crate) use opened::{MOST_STATES, put_word, word};
 
 /// Opens a capture. `radix` applies to a CSV without radices that can be read in several ways.
-pub fn open(path: &Path, radix: Option<Radix>) -> Result<Opened> {
+///
+/// # Errors
+/// When the file cannot be read or is no capture, and [`Error::Interrupted`] once `stop` is set.
+pub fn open(path: &Path, radix: Option<Radix>, stop: Option<&AtomicBool>) -> Result<Opened> {
     let fault = || Error::io(path, "read");
     let mut file = File::open(path).map_err(fault())?;
     let mut start = Vec::new();
     file.by_ref().take(2).read_to_end(&mut start).map_err(fault())?;
     file.rewind().map_err(fault())?;
     let source = path.display().to_string();
-    if start == b"PK" { archive::open(source, file, radix) } else { csv::open(source, file, radix) }
+    if start == b"PK" {
+        archive::open(source, file, radix, stop)
+    } else {
+        csv::open(source, file, radix, stop)
+    }
 }

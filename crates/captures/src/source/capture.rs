@@ -1,6 +1,7 @@
 //! A logic analyser's CSV files and archives as sources.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use tofsim::error::Result;
 
@@ -18,9 +19,9 @@ struct CaptureOrigin {
     radix: Option<Radix>,
 }
 
-/// Opens the capture at `path`.
-pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
-    let opened = open(path, radix)?;
+/// Opens the capture at `path`, until `stop` is set.
+pub(super) fn source(path: &Path, radix: Option<Radix>, stop: &AtomicBool) -> Result<Source> {
+    let opened = open(path, radix, Some(stop))?;
     let format = match opened.form {
         CaptureForm::Csv => SourceFormat::IlaCsv,
         CaptureForm::LegacyCsv => SourceFormat::LegacyIlaCsv,
@@ -43,7 +44,7 @@ fn signal(column: &Column, id: usize) -> Signal {
 
 impl signals::Origin for CaptureOrigin {
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
-        let mut opened = open(&self.path, self.radix)?;
+        let mut opened = open(&self.path, self.radix, None)?;
         let places: Vec<_> = ids.iter().map(|&id| opened.columns[id].place()).collect();
         Ok(Cursor::spawn(widths, move |feed| {
             let (mut row, mut before) = (CaptureRow::default(), CaptureRow::default());

@@ -36,7 +36,7 @@ pub(super) fn open(path: &Path, radix: Option<Radix>, stop: &AtomicBool) -> Resu
         return Err(Input::new(path.display(), "is empty").into());
     }
     if head.starts_with(ARCHIVE) || starts_as_csv(text) {
-        return capture::source(path, radix);
+        return capture::source(path, radix, stop);
     }
     let format = match head[0] {
         _ if text.starts_with(b"$") => SourceFormat::Vcd,

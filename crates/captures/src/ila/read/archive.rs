@@ -7,8 +7,9 @@ mod merge;
 
 use std::fs::File;
 use std::io::{BufReader, Cursor, Read};
+use std::sync::atomic::AtomicBool;
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Input, Result, poll_stop};
 
 use super::super::capture::Radix;
 use super::buffer::Buffer;
@@ -28,8 +29,13 @@ const LARGEST_LIST: u64 = 1 << 23;
 /// Size limit of a VCD [bytes].
 const LARGEST_VCD: u64 = 1 << 28;
 
-/// Opens an archive.
-pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<Opened> {
+/// Opens an archive, until `stop` is set.
+pub(super) fn open(
+    source: String,
+    file: File,
+    radix: Option<Radix>,
+    stop: Option<&AtomicBool>,
+) -> Result<Opened> {
     let (entries, notes) = Entries::open(source, file)?;
     let mut parts = Parts { entries, faults: Vec::new(), notes };
     let dump = parts.read("waveform.dmp", |source, entry| {
@@ -57,7 +63,8 @@ pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<O
     let are_all = places.iter().all(Option::is_some);
     // Without radices the digits of a CSV say less than the dump's bits.
     let csv = csv.filter(|_| has_names && (radix_stated || !are_all));
-    let table = csv.and_then(|(source, bytes)| parts.table(source, bytes, radix));
+    let table = csv.and_then(|(source, bytes)| parts.table(source, bytes, radix, stop));
+    poll_stop(stop)?;
     if table.is_none() && dump.is_none() {
         return parts.vcd_alone(false);
     }
@@ -167,9 +174,10 @@ impl Parts {
         source: String,
         bytes: Vec<u8>,
         radix: Option<Radix>,
+        stop: Option<&AtomicBool>,
     ) -> Option<(Opened, u64)> {
         let lines = bytes.iter().filter(|&&byte| byte == b'\n').count() as u64 + 1;
-        let table = csv::open(source, Cursor::new(bytes), radix);
+        let table = csv::open(source, Cursor::new(bytes), radix, stop);
         self.keep("waveform.csv", table).map(|table| (table, lines))
     }
 

@@ -1,6 +1,7 @@
 //! Streaming reader of CSV files.
 
 use std::io::{Read, Seek};
+use std::sync::atomic::AtomicBool;
 
 use tofsim::error::{Error, Result};
 
@@ -12,18 +13,19 @@ use super::order::Order;
 use super::survey::survey;
 use super::table::{Table, first_lines};
 
-/// Opens a CSV. It is read twice, because only the whole file shows which columns are numbers.
+/// Opens a CSV, until `stop` is set. It is read twice, because only the whole file shows which columns are numbers.
 pub(super) fn open<R: Read + Seek + Send + 'static>(
     source: String,
     mut file: R,
     hint: Option<Radix>,
+    stop: Option<&AtomicBool>,
 ) -> Result<Opened> {
     let fault = |error| Error::io(source.as_ref(), "read")(error);
     let lines = first_lines(&mut file).map_err(fault)?;
     file.rewind().map_err(fault)?;
     let mut header = Header::read(&source, &lines)?;
     let mut table = below(&source, file, &header)?;
-    survey(&mut table, &mut header, hint)?;
+    survey(&mut table, &mut header, hint, stop)?;
     file = table.into_inner();
     file.rewind().map_err(fault)?;
     let table = below(&source, file, &header)?;

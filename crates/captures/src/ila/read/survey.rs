@@ -5,8 +5,9 @@
 //! name does and cannot be a number. In a file with quotes around everything, quotes have no meaning.
 
 use std::io::Read;
+use std::sync::atomic::AtomicBool;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::{Input, Result, poll_stop};
 
 use super::super::capture::Radix;
 use super::header::{FIXED, Header, TRAIL};
@@ -48,12 +49,13 @@ impl Found {
     }
 }
 
-/// Reads the rest of `table`, and stores the types of the columns in `header`. `hint` decides between several possible
-/// radices.
+/// Reads the rest of `table` until `stop` is set, and stores the types of the columns in `header`. `hint` decides
+/// between several possible radices.
 pub(super) fn survey(
     table: &mut Table<impl Read>,
     header: &mut Header,
     hint: Option<Radix>,
+    stop: Option<&AtomicBool>,
 ) -> Result<()> {
     let first = FIXED.len() + usize::from(header.gap);
     let fields = first + header.columns.len();
@@ -67,6 +69,7 @@ pub(super) fn survey(
     let mut found: Vec<Found> = (0..header.columns.len()).map(new).collect();
     let mut all_quoted = false;
     while table.advance_to(fields)? {
+        poll_stop(stop)?;
         let row = &table.row;
         // Vivado never quotes the number of a sample.
         let quoted = row.is_quoted(0);
