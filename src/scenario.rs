@@ -22,6 +22,10 @@ mod load;
 pub mod mesh;
 mod model;
 #[doc(hidden)]
+pub mod offsets;
+#[doc(hidden)]
+pub mod projection;
+#[doc(hidden)]
 pub mod pulse;
 #[doc(hidden)]
 pub mod show;

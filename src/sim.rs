@@ -11,6 +11,7 @@ pub mod estimates;
 pub mod fast;
 pub mod frames;
 pub mod free_running;
+pub mod image;
 mod jitter;
 pub mod live;
 mod oscillator;

@@ -120,6 +120,15 @@ impl<'a> CsvInput<'a> {
         self.field(index).or_else(|| decimal().map(|x| x as u64))
     }
 
+    /// Parses a field of the row as a number below `count`.
+    ///
+    /// # Errors
+    /// If it is none.
+    pub fn place(&self, index: usize, count: usize) -> Result<usize> {
+        let found = self.field::<usize>(index).filter(|place| *place < count);
+        Ok(found.ok_or_else(|| self.fault(index, format!("expected 0 to {}", count - 1)))?)
+    }
+
     /// Creates an error at a field of the row.
     pub fn fault(&self, index: usize, expected: impl std::fmt::Display) -> Input {
         let (column, value) = self.row.fields.get(index).copied().unwrap_or((1, ""));

@@ -5,24 +5,19 @@ use std::sync::Arc;
 
 use crate::kernel::Time;
 use crate::kernel::pulse::Pulse;
+use crate::scenario::Scenario;
 use crate::scenario::mesh::Mesh;
 use crate::scenario::wiring::Wiring;
-use crate::scenario::{AmbientModel, Filter, Scenario};
 
 use super::dark::DarkRates;
-use super::geometry;
-use super::scene::{Ambient, Scene};
-use super::spread::Spread;
+use super::photometry::{AmbientRate, seen_sr, signal_per_shot, white_per_shot};
+use super::pixels::Pixels;
+use super::returned::Returned;
+use super::scene::{Ambient, PixelLight, Scene};
+use super::spread::{self, Spread};
 use super::variation::Variation;
 
-/// Planck constant, exact in the SI [J s].
-pub const PLANCK_J_S: f64 = 6.626_070_15e-34;
-/// Speed of light, exact in the SI [m/s].
-pub const LIGHT_M_S: f64 = 299_792_458.0;
-/// Detection efficiency at which the fitted ambient rate is stated [1].
-const FITTED_EFFICIENCY: f64 = 0.003;
-/// Largest distance of Table 4.3, to which the fitted ambient rate belongs [m].
-const FARTHEST_FITTED_M: f64 = 0.6;
+pub use super::photometry::LIGHT_M_S;
 
 /// Expected light on the SPADs connected to the TDC, all together.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,22 +82,51 @@ impl Budget {
     /// rates.
     pub fn of_scene(scenario: &Scenario, pulse: Pulse, mesh: Option<&Mesh>) -> Self {
         let scene = scenario.complex_scene().map(|_| Scene::new(scenario, mesh));
-        let seen = match &scene {
-            None => Ambient { target_sr: seen_sr(scenario), air_sr: 0.0 },
-            Some(scene) => scene.ambient(),
+        let ambient = AmbientRate::of(scenario);
+        if let (Some(scene), Some(pixels)) = (&scene, Pixels::of(scenario)) {
+            let light = scene.of_pixels(&pixels);
+            return Budget::of_light(scenario, pulse, &ambient, &light[0], 0.0);
+        }
+        let background = |seen: &Ambient| {
+            Budget::of_background(scenario, pulse, &ambient, seen, scenario.laser.delay_ps)
         };
+        let Some(scene) = scene else {
+            let seen = Ambient { target_sr: seen_sr(scenario), air_sr: 0.0 };
+            let signal_per_shot = f64::from(scenario.spad.on_tdc) * signal_per_shot(scenario);
+            return Budget { signal_per_shot, ..background(&seen) };
+        };
+        background(&scene.ambient()).with_light(&scene.returned(), scenario)
+    }
+
+    /// Computes the budget of a pixel that sees such light and whose signal path has an additional delay, for the
+    /// given laser pulse and without measured dark rates [ps].
+    pub(super) fn of_light(
+        scenario: &Scenario,
+        pulse: Pulse,
+        ambient: &AmbientRate,
+        light: &PixelLight,
+        offset_ps: f64,
+    ) -> Self {
+        let delay_ps = scenario.laser.delay_ps + offset_ps;
+        Budget::of_background(scenario, pulse, ambient, &light.ambient, delay_ps)
+            .with_light(&light.returned, scenario)
+    }
+
+    /// Computes the part of a budget that does not depend on the laser's light.
+    fn of_background(
+        scenario: &Scenario,
+        pulse: Pulse,
+        ambient: &AmbientRate,
+        seen: &Ambient,
+        delay_ps: f64,
+    ) -> Self {
         let on_tdc = f64::from(scenario.spad.on_tdc);
-        let rate_hz = match scenario.ambient.model {
-            AmbientModel::Fitted => fitted_ambient_rate_hz,
-            AmbientModel::Physical => physical_ambient_rate_hz,
-        };
-        let ambient_rate_hz = rate_hz(scenario, scenario.target.reflectance, seen.target_sr);
-        let airlight_rate_hz = rate_hz(scenario, 1.0, seen.air_sr);
-        let delay = Time::from_ps_f64(scenario.laser.delay_ps);
+        let rate_hz = |reflectance, seen_sr| ambient.hz(scenario, reflectance, seen_sr);
+        let delay = Time::from_ps_f64(delay_ps);
         let flight = Time::from_ps_f64(2e12 * scenario.target.distance_m / LIGHT_M_S);
-        let budget = Budget {
-            ambient_rate_hz: on_tdc * ambient_rate_hz,
-            airlight_rate_hz: on_tdc * airlight_rate_hz,
+        Budget {
+            ambient_rate_hz: on_tdc * rate_hz(scenario.target.reflectance, seen.target_sr),
+            airlight_rate_hz: on_tdc * rate_hz(1.0, seen.air_sr),
             dark_rate_hz: DarkRates::new(&scenario.spad, None).on_tdc_hz(),
             pulse_energy_j: scenario.laser.pulse_energy_j(),
             mean_arrival: delay + flight,
@@ -110,18 +134,15 @@ impl Budget {
             pulse,
             variation: Variation::of(&scenario.laser),
             ..Budget::default()
-        };
-        match &scene {
-            None => Budget { signal_per_shot: on_tdc * signal_per_shot(scenario), ..budget },
-            Some(scene) => budget.with_light_of(scene, scenario),
         }
     }
 
     /// Replaces the laser light by that returned from a scene, distributed in time.
-    fn with_light_of(self, scene: &Scene, scenario: &Scenario) -> Self {
-        let returned = scene.returned();
+    fn with_light(self, returned: &Returned, scenario: &Scenario) -> Self {
         let horizon_m = longest_period_s(scenario) * LIGHT_M_S / 2.0;
-        let (spread, air) = Spread::new(&returned, &self.pulse, self.delay, horizon_m);
+        let is_one_of_many = scenario.array.count() > 1 && returned.air.is_some();
+        let steps = if is_one_of_many { spread::COARSE } else { spread::FINE };
+        let (spread, air) = Spread::new(returned, &self.pulse, self.delay, horizon_m, steps);
         let white = f64::from(scenario.spad.on_tdc) * white_per_shot(scenario);
         let target = &scenario.target;
         let mean_m = returned.diffuse.mean_m().or_else(|| returned.retro.mean_m());
@@ -200,26 +221,6 @@ impl Budget {
     }
 }
 
-/// Computes S_p of one SPAD: eq. 3.13 in eq. 3.14, with P_s / f as the pulse energy.
-fn signal_per_shot(scenario: &Scenario) -> f64 {
-    let (target, laser) = (&scenario.target, &scenario.laser);
-    let illumination_deg = laser.field_of_illumination_deg;
-    let seen_deg = illumination_deg.min(scenario.spad.field_of_view_deg);
-    let sin = libm::sin((illumination_deg / 4.0).to_radians());
-    let lens_energy_j = laser.pulse_energy_j() * target.reflectance * scenario.lens.area_m2
-        / (4.0 * PI * PI * sin * sin)
-        * geometry::round_trip(target, seen_deg);
-    lens_energy_j * scenario.filter.efficiency * avalanches_per_joule(scenario)
-}
-
-/// Computes S_p of one SPAD for a white target whose sum in eq. 3.13 is 1 per square metre [m^2].
-fn white_per_shot(scenario: &Scenario) -> f64 {
-    let sin = libm::sin((scenario.laser.field_of_illumination_deg / 4.0).to_radians());
-    let lens_energy_j_m2 =
-        scenario.laser.pulse_energy_j() * scenario.lens.area_m2 / (4.0 * PI * PI * sin * sin);
-    lens_energy_j_m2 * scenario.filter.efficiency * avalanches_per_joule(scenario)
-}
-
 /// Returns the longest laser period that the run may use [s].
 fn longest_period_s(scenario: &Scenario) -> f64 {
     let firmware = &scenario.firmware;
@@ -227,70 +228,6 @@ fn longest_period_s(scenario: &Scenario) -> f64 {
     let codes = [firmware.laser_freq].into_iter().chain(changes);
     let cycles = codes.filter_map(|code| firmware.laser_periods.get(code as usize)).max();
     cycles.map_or(0.0, |cycles| *cycles as f64) * scenario.pll.params().cycle().seconds()
-}
-
-/// Computes N_r of one SPAD, proportional to irradiance and reflectance, with the constant fitted to Table 4.3, and
-/// scaled by the ambient light that the optics collect from a projected solid angle, relative to the optics for which
-/// the constant is stated.
-fn fitted_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -> f64 {
-    let ambient = &scenario.ambient;
-    let of_the_thesis_optics =
-        ambient.fitted_rate_hz_per_w_m2_nm * ambient.irradiance_w_m2_nm * reflectance
-            / FITTED_EFFICIENCY
-            * scenario.spad.detection_efficiency();
-    of_the_thesis_optics * against_the_thesis_optics(scenario, seen_sr)
-}
-
-/// Returns the ratio of ambient photons with a scenario's optics to those with the thesis's: exactly 1 for the
-/// thesis's optics and distances, because both are the same sum [1].
-///
-/// The reference is the thesis's target at the scenario's distance, because Table 4.3 has one rate for all distances,
-/// and beyond the table's largest distance it is constant.
-fn against_the_thesis_optics(scenario: &Scenario, own_sr: f64) -> f64 {
-    let mut thesis = Scenario::default();
-    thesis.target.distance_m = scenario.target.distance_m.min(FARTHEST_FITTED_M);
-    thesis.target.cells = scenario.target.cells;
-    ambient_photons_hz(scenario, own_sr) / ambient_photons_hz(&thesis, seen_sr(&thesis))
-}
-
-/// Computes the rate of ambient photons on one SPAD from a white target of the given projected solid angle, in an
-/// irradiance of 1 W/m^2/nm [1/s].
-fn ambient_photons_hz(scenario: &Scenario, seen_sr: f64) -> f64 {
-    passband_nm(&scenario.filter) / PI
-        * scenario.lens.area_m2
-        * seen_sr
-        * photons_per_joule(scenario)
-}
-
-/// Computes N_r of one SPAD by eq. 3.20, with the factors that eq. 3.19 omits: pi of a diffuse reflector, and the
-/// solid angle.
-fn physical_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -> f64 {
-    let radiance_w_m2_sr =
-        scenario.ambient.irradiance_w_m2_nm * passband_nm(&scenario.filter) * reflectance / PI;
-    radiance_w_m2_sr * scenario.lens.area_m2 * seen_sr * avalanches_per_joule(scenario)
-}
-
-/// Returns the integral of the filter's transmission, eq. 3.17 [nm].
-fn passband_nm(filter: &Filter) -> f64 {
-    filter.efficiency * (2.0 * PI).sqrt() * filter.sigma_nm
-}
-
-/// Returns the projected solid angle of the visible part of a plain target [sr].
-fn seen_sr(scenario: &Scenario) -> f64 {
-    geometry::projected_solid_angle(&scenario.target, scenario.spad.field_of_view_deg)
-}
-
-/// Returns the number of avalanches of one SPAD per joule on the lens: eq. 3.14 behind the filter [1/J].
-fn avalanches_per_joule(scenario: &Scenario) -> f64 {
-    photons_per_joule(scenario) * scenario.spad.detection_efficiency()
-}
-
-/// Returns the number of photons on one SPAD per joule on the lens. The factor 2 / pi is the square array within the
-/// lens's round image [1/J].
-fn photons_per_joule(scenario: &Scenario) -> f64 {
-    let photon_j = PLANCK_J_S * LIGHT_M_S / (scenario.laser.wavelength_nm * 1e-9);
-    let share = 2.0 / (PI * scenario.spad.count as f64);
-    scenario.lens.efficiency * share / photon_j
 }
 
 #[cfg(test)]

@@ -4,11 +4,13 @@ use std::ops::Range;
 
 use crate::kernel::pulse::normal_quantile;
 use crate::scenario::Spad;
-use crate::scenario::dark::Measured;
 use crate::scenario::wiring::{ON_TDC, Wiring};
 
 /// Temperature at which `spad.dark_rate_hz` is stated [deg C].
 pub const STATED_AT_C: f64 = 20.0;
+
+/// The part of a turn by which successive steps are spread best over turns (golden section) [1].
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
 /// Returns the median dark count rate at the scenario's temperature, which doubles every `spad.dark_doubling_c`
 /// degrees [1/s].
@@ -34,8 +36,8 @@ pub struct DarkRates {
 }
 
 impl DarkRates {
-    /// Computes the rates of a detector: equal, spread, or measured.
-    pub fn new(spad: &Spad, measured: Option<&Measured>) -> Self {
+    /// Computes the rates of a detector: equal, spread, or measured for each output of the row [1/s].
+    pub fn new(spad: &Spad, measured: Option<&[Option<f64>]>) -> Self {
         let (wiring, middle_hz) = (Wiring::of(spad), dark_rate_hz(spad));
         let count = wiring.simulated.len();
         let Some(measured) = measured else {
@@ -45,6 +47,18 @@ impl DarkRates {
         let rate = |output| measured.get(output).copied().flatten().unwrap_or(spad.dark_rate_hz);
         let (parts, unit_hz) = (wiring.simulated.clone().map(rate).collect(), growth(spad));
         DarkRates { parts, unit_hz, wiring, one_hz: rate(ON_TDC) * unit_hz }
+    }
+
+    /// Computes the rate of the pixel at a place of an array: measured, or one of a log-normal distribution whose
+    /// quantiles lie scattered over the array, so that the rates are not random [1/s].
+    pub fn of_pixel(spad: &Spad, measured: Option<f64>, place: usize) -> Self {
+        let spread = || {
+            let part = ((place as f64 + 0.5) * GOLDEN).fract();
+            let factor = if spad.dark_spread == 0.0 { 1.0 } else { spread(spad.dark_spread, part) };
+            spad.dark_rate_hz * factor
+        };
+        let one_hz = measured.unwrap_or_else(spread) * growth(spad);
+        DarkRates { parts: Vec::new(), unit_hz: one_hz, wiring: Wiring::of(spad), one_hz }
     }
 
     /// Returns the total rate of the outputs connected to the TDC [1/s].
@@ -83,12 +97,14 @@ fn quantiles(spread: f64, count: usize) -> Vec<f64> {
     if spread == 0.0 {
         return Vec::new();
     }
-    let quantile = |k: usize| {
-        let part = (k as f64 + 0.5) / count as f64;
-        libm::exp(spread * normal_quantile(part))
-    };
+    let quantile = |k: usize| self::spread(spread, (k as f64 + 0.5) / count as f64);
     let place = |k: usize| if k.is_multiple_of(2) { k / 2 } else { count - 1 - k / 2 };
     (0..count).map(|k| quantile(place(k))).collect()
+}
+
+/// Returns a quantile of the log-normal distribution with median 1.
+fn spread(spread: f64, part: f64) -> f64 {
+    libm::exp(spread * normal_quantile(part))
 }
 
 #[cfg(test)]
@@ -141,12 +157,30 @@ mod tests {
     }
 
     #[test]
+    fn pixels_have_rates_of_the_distribution_or_measured_ones() {
+        let spad = Spad { dark_spread: 0.8, temperature_c: 28.0, ..Spad::default() };
+        let of = |place| DarkRates::of_pixel(&spad, None, place).on_tdc_hz();
+        let mut rates: Vec<_> = (0..1200).map(of).collect();
+        let mean = rates.iter().sum::<f64>() / 1200.0;
+        assert!((mean / (200.0 * (0.32f64).exp()) - 1.0).abs() < 0.01, "{mean}");
+        // Neighbours in a row and in a column differ.
+        assert!(rates.windows(31).all(|part| part[1] != part[0] && part[30] != part[0]));
+        rates.sort_by(f64::total_cmp);
+        assert!((rates[600] / 200.0 - 1.0).abs() < 0.01, "{}", rates[600]);
+        let measured = DarkRates::of_pixel(&spad, Some(40.0), 7);
+        assert_eq!(
+            (measured.on_tdc_hz(), measured.of_row_hz(), measured.one_hz()),
+            (80.0, 80.0, 80.0)
+        );
+    }
+
+    #[test]
     fn measured_rates_are_those_of_the_outputs_and_grow_with_temperature_as_all_do() {
         let mut measured = [None; 30];
         (measured[15], measured[16], measured[2]) = (Some(500.0), Some(0.0), Some(9000.0));
         let rates = |on_tdc, row_outputs| {
             let spad = Spad { on_tdc, row_outputs, temperature_c: 28.0, ..Spad::default() };
-            let rates = DarkRates::new(&spad, Some(&measured));
+            let rates = DarkRates::new(&spad, Some(&measured[..]));
             (rates.on_tdc_hz(), rates.of_row_hz(), rates.one_hz())
         };
         assert_eq!(rates(1, 0), (1000.0, 1000.0, 1000.0));

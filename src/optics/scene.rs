@@ -6,12 +6,12 @@
 //! `beta / r^2 dr dw` of the lidar equation up to the first surface. All of it passes through the air twice, `exp(-2
 //! alpha r)`.
 
+mod array;
 mod element;
-mod outline;
+pub(super) mod outline;
 mod raster;
 mod surface;
-
-use std::f64::consts::PI;
+mod view;
 
 use crate::scenario::Scenario;
 use crate::scenario::effects::Effect;
@@ -19,9 +19,11 @@ use crate::scenario::mesh::Mesh;
 
 use super::air::Air;
 use super::returned::{Haze, Returned};
+pub use array::PixelLight;
 use element::{Element, elements};
 use raster::Placed;
 use surface::{Kind, Surface, surfaces};
+use view::View;
 
 /// A target and the air in front of it.
 pub struct Scene<'a> {
@@ -52,15 +54,15 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Passes the elements inside a cone of the given full angle to `take`.
-    fn elements(&self, full_angle_deg: f64, mut take: impl FnMut(Element)) {
+    /// Passes the elements inside a view to `take`.
+    fn elements(&self, view: &View, mut take: impl FnMut(Element)) {
         let cells = self.scenario.target.cells;
         for surface in &self.surfaces {
             // A quadrant has that many.
-            elements(surface, full_angle_deg, 2 * cells, &mut take);
+            elements(surface, view, 2 * cells, &mut take);
         }
         if let Some(mesh) = &self.mesh {
-            mesh.elements(full_angle_deg, cells, take);
+            mesh.elements(view, cells, take);
         }
     }
 
@@ -77,50 +79,66 @@ impl<'a> Scene<'a> {
     /// Computes the ambient light: that from the target, attenuated on its way to the sensor, and that scattered by
     /// the air (Koschmieder).
     pub fn ambient(&self) -> Ambient {
-        let full_angle_deg = self.scenario.spad.field_of_view_deg;
-        let (mut target_sr, mut hidden_sr) = (0.0, 0.0);
-        self.elements(full_angle_deg, |element| {
-            let projected_sr = element.axis_cos * element.sr;
-            let passes = self.air.passes(element.sight_m);
-            target_sr += projected_sr * passes;
-            hidden_sr += projected_sr * passes;
-        });
+        let view = View::cone(self.scenario.spad.field_of_view_deg);
+        let mut target_sr = 0.0;
+        self.elements(&view, |element| target_sr += element.seen_sr(&self.air));
+        self.with_airlight(target_sr, &view, self.scenario.target.cells)
+    }
+
+    /// Returns the ambient light of a view that sees a target of that projected solid angle through the air [sr].
+    fn with_airlight(&self, target_sr: f64, view: &View, cells: u32) -> Ambient {
         if self.is_clear() {
             return Ambient { target_sr, air_sr: 0.0 };
         }
-        let sin = libm::sin((full_angle_deg / 2.0).to_radians());
-        let air_sr = self.air.airlight * (PI * sin * sin - hidden_sr).max(0.0);
+        let air_sr =
+            self.air.airlight * (view.solid_angle(cells).projected_sr - target_sr).max(0.0);
         Ambient { target_sr, air_sr }
     }
 
     /// Computes the returned laser light.
     pub fn returned(&self) -> Returned {
         let (laser, spad) = (&self.scenario.laser, &self.scenario.spad);
-        let full_angle_deg = laser.field_of_illumination_deg.min(spad.field_of_view_deg);
-        let target = &self.scenario.target;
-        let together = self.is_plain().then_some(target.distance_m);
-        let mut returned = Returned::default();
-        let mut hidden = Vec::new();
-        self.elements(full_angle_deg, |element| {
-            let Element { kind, sight_m, cos, sr, .. } = element;
-            let passes = self.air.passes(2.0 * sight_m);
-            let square = sight_m * sight_m;
-            let (weight, of) = match kind {
-                Kind::Diffuse => (cos / square * sr, &mut returned.diffuse),
-                Kind::Retro => (sr / (square * cos), &mut returned.retro),
-            };
-            let (at_m, spread_m) = match together {
-                Some(distance_m) => (distance_m, 0.0),
-                None => (sight_m, element.spread_m),
-            };
-            of.add(at_m, spread_m, weight * passes, weight);
-            hidden.push([sight_m, sr]);
-        });
+        let view = View::cone(laser.field_of_illumination_deg.min(spad.field_of_view_deg));
+        let together = self.is_plain().then_some(self.scenario.target.distance_m);
+        let mut collected = Collected::default();
+        self.elements(&view, |element| collected.add(&element, &self.air, together));
+        self.with_air(collected, &view, self.scenario.target.cells)
+    }
+
+    /// Returns what was collected, and the light that the air in front of it returns.
+    fn with_air(&self, collected: Collected, view: &View, cells: u32) -> Returned {
+        let Collected { mut returned, hidden } = collected;
         if !self.is_clear() {
-            let cone_sr = 2.0 * PI * (1.0 - libm::cos((full_angle_deg / 2.0).to_radians()));
-            returned.air = Some(Haze::new(self.air, cone_sr, hidden));
+            returned.air = Some(Haze::new(self.air, view.solid_angle(cells).sr, hidden));
         }
         returned
+    }
+}
+
+/// Light returned by surfaces within a view.
+#[derive(Default)]
+struct Collected {
+    returned: Returned,
+    /// Distances at which the surfaces end the beam, each with a solid angle [m, sr].
+    hidden: Vec<[f64; 2]>,
+}
+
+impl Collected {
+    /// Adds the light of an element, at its own distance or, for a plain target, at that along the axis [m].
+    fn add(&mut self, element: &Element, air: &Air, together: Option<f64>) {
+        let &Element { kind, sight_m, cos, sr, .. } = element;
+        let passes = air.passes(2.0 * sight_m);
+        let square = sight_m * sight_m;
+        let (weight, of) = match kind {
+            Kind::Diffuse => (cos / square * sr, &mut self.returned.diffuse),
+            Kind::Retro => (sr / (square * cos), &mut self.returned.retro),
+        };
+        let (at_m, spread_m) = match together {
+            Some(distance_m) => (distance_m, 0.0),
+            None => (sight_m, element.spread_m),
+        };
+        of.add(at_m, spread_m, weight * passes, weight);
+        self.hidden.push([sight_m, sr]);
     }
 }
 

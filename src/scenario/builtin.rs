@@ -19,7 +19,7 @@ const INSTRUMENTS: &[(&str, &str)] =
 
 /// Name and text of each other built-in scenario.
 const SCENARIOS: &[(&str, &str)] = files!("scenarios", "toml":
-    "near", "far", "bright", "fog", "step",
+    "near", "far", "bright", "fog", "step", "array",
     "spad_validation", "tdc_validation", "histogram_validation", "estimator_validation",
 );
 
@@ -32,6 +32,7 @@ const STIMULI: &[(&str, &str)] = &[
     ("../photons/tdc_validation.csv", include_str!("../../stimuli/photons/tdc_validation.csv")),
     ("../codes/kc705.csv", include_str!("../../stimuli/codes/kc705.csv")),
     ("../histograms/kc705.csv", include_str!("../../stimuli/histograms/kc705.csv")),
+    ("../meshes/table.obj", include_str!("../../stimuli/meshes/table.obj")),
 ];
 
 fn find(files: &[(&'static str, &'static str)], name: &str) -> Option<&'static str> {
@@ -64,29 +65,36 @@ pub enum Source {
 }
 
 impl Source {
-    /// Reads the text file `name`, and returns its full name and its text. In a folder that has no such file, the name
-    /// of a built-in one stands for that, so that a built-in scenario can be saved and used anywhere.
+    /// Reads the text file `name`, and returns its full name and its text.
     ///
     /// # Errors
     /// If there is no such file, or it is not UTF-8.
     pub fn read(&self, name: &str) -> Result<(String, String)> {
-        let path = self.path(name);
-        if let Some(text) = find(STIMULI, name)
-            && (*self == Source::BuiltIn || !path.exists())
-        {
-            return Ok((name.trim_start_matches("../").to_owned(), text.into()));
+        if let Some((name, text)) = self.built_in(name) {
+            return Ok((name, text.into()));
         }
+        let path = self.path(name);
         Ok((path.display().to_string(), read_text(&path)?))
     }
 
-    /// Reads the file `name`, which may be binary, and returns its full name and its bytes. No built-in file is
-    /// binary.
+    /// Reads the file `name`, which may be binary, and returns its full name and its bytes.
     ///
     /// # Errors
     /// If there is no such file.
     pub fn read_bytes(&self, name: &str) -> Result<(String, Vec<u8>)> {
+        if let Some((name, text)) = self.built_in(name) {
+            return Ok((name, text.into()));
+        }
         let path = self.path(name);
         Ok((path.display().to_string(), read_bytes(&path)?))
+    }
+
+    /// Returns the full name and the text of a built-in file. In a folder that has no such file, it stands for that, so
+    /// that a built-in scenario can be saved and used anywhere.
+    fn built_in(&self, name: &str) -> Option<(String, &'static str)> {
+        let text = find(STIMULI, name)?;
+        let is_used = *self == Source::BuiltIn || !self.path(name).exists();
+        is_used.then(|| (name.trim_start_matches("../").to_owned(), text))
     }
 
     fn path(&self, name: &str) -> PathBuf {

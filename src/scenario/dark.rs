@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::files::csv::CsvInput;
 
 use super::builtin::Source;
-use super::model::Spad;
+use super::model::{Array, Scenario};
 use super::wiring::{OUTPUTS, ROWS, SELECTED};
 
 /// Columns of the file.
@@ -12,50 +12,70 @@ const HEADER: [&str; 3] = ["row", "output", "rate_hz"];
 /// Upper limit of a rate, the same as for `spad.dark_rate_hz` [1/s].
 const MOST_HZ: f64 = 1e9;
 
-/// Measured dark count rate of each output of the selected row; `None` for outputs that the file does not list [1/s].
-pub type Measured = [Option<f64>; OUTPUTS];
+/// Measured dark count rates of an array; `None` for outputs that the file does not list [1/s].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// Number of outputs of a row.
+    columns: usize,
+    rates: Vec<Option<f64>>,
+}
 
-/// Loads the dark count rates of the selected row, if the detector names a file. Its path is relative to `base`.
+impl Measured {
+    /// Returns the rates of the selected row [1/s].
+    pub fn selected(&self) -> &[Option<f64>] {
+        &self.rates[SELECTED * self.columns..][..self.columns]
+    }
+
+    /// Returns the rate of an output, if the file lists it [1/s].
+    pub fn rate(&self, row: usize, output: usize) -> Option<f64> {
+        self.rates[row * self.columns + output]
+    }
+}
+
+/// Loads the dark count rates, if the detector names a file. Its path is relative to `base`.
 ///
 /// # Errors
 /// If the file cannot be read, or a row is invalid.
-pub fn load(spad: &Spad, base: &Source) -> Result<Option<Measured>> {
-    let Some(name) = &spad.dark_file else { return Ok(None) };
+pub fn load(scenario: &Scenario, base: &Source) -> Result<Option<Measured>> {
+    let Some(name) = &scenario.spad.dark_file else { return Ok(None) };
     let (source, text) = base.read(name)?;
-    parse(&source, &text).map(Some)
+    let Array { rows, columns, .. } = scenario.array;
+    let size = [ROWS.max(rows as usize), OUTPUTS.max(columns as usize)];
+    parse(&source, &text, size).map(Some)
 }
 
-fn parse(source: &str, text: &str) -> Result<Measured> {
+fn parse(source: &str, text: &str, [rows, columns]: [usize; 2]) -> Result<Measured> {
     let mut input = CsvInput::new(source, text, &HEADER)?;
-    let mut array = [[None; OUTPUTS]; ROWS];
+    let mut rates = vec![None; rows * columns];
     while input.advance()? {
-        let place = |column: usize, count: usize| {
-            let found = input.field::<usize>(column).filter(|place| *place < count);
-            let last = count - 1;
-            found.ok_or_else(|| input.fault(column, format!("expected 0 to {last}")))
-        };
-        let (row, output) = (place(0, ROWS)?, place(1, OUTPUTS)?);
+        let [row, output] = [input.place(0, rows)?, input.place(1, columns)?];
         let rate_hz = input.field::<f64>(2).filter(|rate| (0.0..=MOST_HZ).contains(rate));
         let expected = "expected a rate from 0 to 1e9 [1/s]";
         let rate_hz = rate_hz.ok_or_else(|| input.fault(2, expected))?;
-        if array[row][output].replace(rate_hz).is_some() {
+        if rates[row * columns + output].replace(rate_hz).is_some() {
             let expected = format!("expected each output once, row {row} has it already");
             return Err(input.fault(1, expected).into());
         }
     }
-    Ok(array[SELECTED])
+    Ok(Measured { columns, rates })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn parse(source: &str, text: &str) -> Result<Measured> {
+        super::parse(source, text, [ROWS, OUTPUTS])
+    }
+
     #[test]
     fn the_selected_row_is_taken_and_what_is_not_named_is_not_known() {
         let text = "# of chip 7\nrow,output,rate_hz\n0,15,250.5\n39,15,7\n0,0,0\n";
         let found = parse("d.csv", text).unwrap();
-        assert_eq!((found[15], found[0], found[14]), (Some(250.5), Some(0.0), None));
-        assert_eq!(parse("d.csv", "row,output,rate_hz\n").unwrap(), [None; OUTPUTS]);
+        let row = found.selected();
+        assert_eq!((row[15], row[0], row[14]), (Some(250.5), Some(0.0), None));
+        assert_eq!((found.rate(39, 15), found.rate(0, 15)), (Some(7.0), Some(250.5)));
+        assert_eq!(parse("d.csv", "row,output,rate_hz\n").unwrap().selected(), [None; OUTPUTS]);
     }
 
     #[test]

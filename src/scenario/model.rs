@@ -41,6 +41,7 @@ macro_rules! table {
     };
 }
 
+mod array;
 mod board;
 mod optics;
 mod scene;
@@ -48,6 +49,7 @@ mod tdc;
 mod training;
 
 pub use crate::firmware::tdc_decoder::Decoder;
+pub use array::Array;
 pub use board::{Control, Estimator, Firmware, Part, Pll, QuenchMode};
 pub use optics::{Ambient, AmbientModel, DeadTimeKind, Filter, Laser, Lens, Spad};
 pub use scene::{Atmosphere, Shape, Target, VisibilityModel};
@@ -75,6 +77,8 @@ table! {
         pub filter: Filter = Filter::default(),
         /// The detector.
         pub spad: Spad = Spad::default(),
+        /// The array of pixels.
+        pub array: Array = Array::default(),
         /// The clock generator.
         pub pll: Pll = Pll::default(),
         /// The time-to-digital converter.

@@ -1,5 +1,6 @@
 //! Checks of the scenario that involve more than one key.
 
+mod array;
 mod clocks;
 mod target;
 
@@ -32,6 +33,7 @@ pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     spads(scenario, checked)?;
     laser(scenario, checked)?;
     target::check(&scenario.target, checked)?;
+    array::check(scenario, checked)?;
     control(scenario, checked)?;
     dark_frames(scenario, checked)
 }

@@ -45,6 +45,8 @@ pub enum Source {
     /// Sampling instants of the chain's registers within their set-up window; the position in the stream is the
     /// edge's time.
     SetupWindow = 16,
+    /// Seeds of an array's pixels; the frame number is that of the pixel.
+    Pixel = 17,
 }
 
 /// Length of a shot's section of a stream [32-bit words].

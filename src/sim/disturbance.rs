@@ -29,6 +29,11 @@ impl Disturbance {
         Disturbance { half_window: Time::from_fs(window.fs() / 2), words, pace }
     }
 
+    /// Returns the same disturbance with other random words.
+    pub fn with_words(self, words: ChaCha8Rng) -> Self {
+        Disturbance { words, ..self }
+    }
+
     /// Samples the taps at an edge, with the pin at `level`, of a chain that has these delays at a pace of 1.
     #[cold]
     pub fn sample(

@@ -9,6 +9,7 @@ mod fits;
 mod instrument;
 mod length;
 mod notes;
+mod pixel;
 mod recalibration;
 mod record;
 mod stimulus;
@@ -40,6 +41,8 @@ use super::jitter::Jitter;
 use super::timeline::Timeline;
 
 pub(super) use detector::effects;
+pub use pixel::ArraySetup;
+use pixel::PixelFiles;
 
 /// A scenario, ready to run.
 #[derive(Clone, Debug)]
@@ -81,6 +84,10 @@ pub struct Setup {
     /// Light on all SPADs that are simulated, if these are more.
     row_light: Option<Light>,
     pins: Pins,
+    /// Seed of the random streams: the scenario's, or one of a pixel.
+    pub(super) seed: u64,
+    /// What files say of an array's pixels.
+    pixel_files: Arc<PixelFiles>,
 }
 
 impl Setup {
@@ -123,6 +130,11 @@ impl Setup {
         Err(Input::new(source, expected).field("estimator.network").value(&network.name).into())
     }
 
+    /// Returns the seed of the random streams: the scenario's, or that of the pixel.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
     /// The clocks.
     pub fn pll(&self) -> &Pll {
         &self.pll
@@ -137,16 +149,16 @@ impl Setup {
     pub fn device(&self) -> Device {
         let scenario = &self.scenario;
         let rms_ps = scenario.pll.jitter_rms_ps;
-        let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
+        let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, self.seed));
         let calibrates = self.params.tdc_calibration.is_some();
-        let front_end = detector::front_end(scenario, calibrates);
+        let front_end = detector::front_end(scenario, calibrates, self.seed);
         Device::new(
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
             self.disturbance.clone(),
             self.light_of_row().clone(),
-            (detector::spads(scenario, &self.dark), front_end),
+            (detector::spads(scenario, &self.dark, self.seed), front_end),
             Timeline::new(scenario),
         )
     }

@@ -1,6 +1,7 @@
 //! Tests of the settings that affect the budget, and of those that do not.
 
 use super::*;
+use crate::scenario::AmbientModel;
 
 fn budget(scenario: &Scenario) -> Budget {
     Budget::new(scenario, Pulse::default())

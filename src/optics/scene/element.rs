@@ -1,9 +1,10 @@
-//! Visible surface elements: cells of rows within a cone around the axis.
+//! Visible surface elements: cells of rows within a view.
 
-use std::f64::consts::PI;
+use crate::optics::air::Air;
 
 use super::outline::{Outline, Span, common, without};
 use super::surface::{Kind, Surface};
+use super::view::View;
 
 /// A visible surface element.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +20,18 @@ pub struct Element {
     pub axis_cos: f64,
     /// Solid angle [sr].
     pub sr: f64,
+}
+
+impl Element {
+    /// Returns the projected solid angle, as far as its light passes through the air to the sensor [sr].
+    pub fn seen_sr(&self, air: &Air) -> f64 {
+        self.axis_cos * self.sr * air.passes(self.sight_m)
+    }
+}
+
+/// Returns the cosine of the angle between the line of sight through (u, v, 1) and the axis.
+pub fn axis_cos(u: f64, v: f64) -> f64 {
+    1.0 / (1.0 + u * u + v * v).sqrt()
 }
 
 /// A cell in the plane one metre in front of the sensor.
@@ -37,7 +50,7 @@ impl Cell {
         let across = |from: [f64; 2], to: [f64; 2]| from[0] - to[0];
         let along_u = across(hit(u + du / 2.0, v), hit(u - du / 2.0, v));
         let along_v = across(hit(u, v + dv / 2.0), hit(u, v - dv / 2.0));
-        let axis_cos = 1.0 / (1.0 + u * u + v * v).sqrt();
+        let axis_cos = axis_cos(u, v);
         Element {
             kind,
             sight_m,
@@ -49,23 +62,13 @@ impl Cell {
     }
 }
 
-/// Passes the elements of a surface inside a cone of the given full angle to `take`, with `cells` rows per band and
-/// `cells` cells per span. A band ends where an occluding surface begins or ends.
-///
-/// Rows are denser towards the ends of a band, where circles end: they lie at the sines of equidistant angles, so
-/// that the error of the sum falls with the square of their number for any outline.
-pub fn elements(surface: &Surface, full_angle_deg: f64, cells: u32, mut take: impl FnMut(Element)) {
-    let reach = libm::tan((full_angle_deg / 2.0).to_radians());
-    let Some(rows) = common(&surface.outline.rows(), &[-reach, reach]) else { return };
-    let step = PI / f64::from(cells);
-    for band in bands(surface, rows) {
-        let (middle, half) = ((band[0] + band[1]) / 2.0, (band[1] - band[0]) / 2.0);
-        for row in 0..cells {
-            let angle = (f64::from(row) + 0.5) * step - PI / 2.0;
-            let v = middle + half * libm::sin(angle);
-            let dv = half * libm::cos(angle) * step;
-            let end = (reach * reach - v * v).max(0.0).sqrt();
-            for span in seen(surface, v, &[-end, end]) {
+/// Passes the elements of a surface inside a view to `take`, with `cells` rows per band and `cells` cells per span. A
+/// band ends where an occluding surface begins or ends.
+pub fn elements(surface: &Surface, view: &View, cells: u32, mut take: impl FnMut(Element)) {
+    let rows = view.rows().and_then(|rows| common(&surface.outline.rows(), &rows));
+    for band in rows.iter().flat_map(|rows| bands(surface, *rows)) {
+        for [v, dv] in view.rows_of(band, cells) {
+            for span in seen(surface, v, view) {
                 let du = (span[1] - span[0]) / f64::from(cells);
                 for cell in 0..cells {
                     let u = span[0] + (f64::from(cell) + 0.5) * du;
@@ -87,9 +90,10 @@ fn bands(surface: &Surface, rows: Span) -> Vec<Span> {
 }
 
 /// Returns the parts of a row that show the surface.
-fn seen(surface: &Surface, v: f64, cone: &Span) -> Vec<Span> {
-    let within = |span: &Span| common(span, cone);
-    let mut spans: Vec<_> = surface.outline.spans(v).iter().filter_map(within).collect();
+fn seen(surface: &Surface, v: f64, view: &View) -> Vec<Span> {
+    let of_surface = surface.outline.spans(v);
+    let within = |part: Span| of_surface.iter().filter_map(move |span| common(span, &part));
+    let mut spans: Vec<_> = view.spans(v).into_iter().flat_map(within).collect();
     for other in surface.hidden_by.iter().flat_map(|other| other.spans(v)) {
         spans = spans.iter().flat_map(|span| without(span, &other)).collect();
     }

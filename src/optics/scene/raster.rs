@@ -6,9 +6,12 @@
 use crate::scenario::Target;
 use crate::scenario::mesh::Mesh;
 
+use crate::optics::pixels::Pixels;
+
 use super::element::{Cell, Element};
 use super::outline::{Vector, common, dot};
 use super::surface::{Body, Kind, Pose};
+use super::view::View;
 
 /// Number of raster cells per cell of the scenario key.
 const FINER: u32 = 8;
@@ -34,9 +37,9 @@ impl Placed {
         Placed(triangles)
     }
 
-    /// Passes the visible elements inside a cone of the given full angle to `take`.
-    pub fn elements(&self, full_angle_deg: f64, cells: u32, mut take: impl FnMut(Element)) {
-        let reach = libm::tan((full_angle_deg / 2.0).to_radians());
+    /// Passes the visible elements inside a cone to `take`.
+    pub fn elements(&self, cone: &View, cells: u32, mut take: impl FnMut(Element)) {
+        let reach = cone.reach();
         let side = (cells * FINER).min(MOST) as usize;
         let axis = |axis: usize| {
             let seen = self.0.as_flattened().iter().map(move |corner| corner[axis] / corner[2]);
@@ -47,18 +50,41 @@ impl Placed {
             common(&ends, &[-reach, reach])
         };
         let (Some(us), Some(vs)) = (axis(0), axis(1)) else { return };
-        let raster = Raster { us, vs, side };
-        let nearest = raster.nearest(&self.0);
-        for (place, triangle) in nearest.iter().enumerate() {
+        let raster = Raster { us, vs, sides: [side; 2] };
+        self.visible(&raster, |[u, v], element| {
+            if u.hypot(v) < reach {
+                take(element());
+            }
+        });
+    }
+
+    /// Passes the visible elements in the field of view of an array, with the place of each, to `take`. A pixel has
+    /// whole cells, as long as the lens does not distort.
+    pub fn elements_of(
+        &self,
+        pixels: &Pixels,
+        cells: u32,
+        mut take: impl FnMut([f64; 2], Element),
+    ) {
+        let [us, vs] = pixels.ends();
+        let longest = pixels.rows.max(pixels.columns);
+        let cells = ((cells * FINER).min(MOST) as usize).div_ceil(longest);
+        let raster = Raster { us, vs, sides: [pixels.columns * cells, pixels.rows * cells] };
+        self.visible(&raster, |place, element| take(place, element()));
+    }
+
+    /// Passes the place of each cell that shows a triangle to `take`, with its element.
+    fn visible(&self, raster: &Raster, mut take: impl FnMut([f64; 2], &dyn Fn() -> Element)) {
+        for (place, triangle) in raster.nearest(&self.0).iter().enumerate() {
             let Some(triangle) = triangle.checked_sub(1) else { continue };
             let cell = raster.cell(place);
-            if cell.u.hypot(cell.v) < reach {
+            take([cell.u, cell.v], &|| {
                 let triangle = &self.0[triangle as usize];
                 let normal = normal(triangle);
                 let length = dot(&normal, &normal).sqrt();
                 let plane = Body::plane(&triangle[0], normal.map(|part| part / length));
-                take(cell.element(Kind::Diffuse, |u, v| plane.hit(u, v)));
-            }
+                cell.element(Kind::Diffuse, |u, v| plane.hit(u, v))
+            });
         }
     }
 }
@@ -73,37 +99,39 @@ fn normal([a, b, c]: &[Vector; 3]) -> Vector {
 struct Raster {
     us: [f64; 2],
     vs: [f64; 2],
-    side: usize,
+    /// Number of columns and of rows.
+    sides: [usize; 2],
 }
 
 impl Raster {
     fn cell(&self, place: usize) -> Cell {
-        let size = |ends: [f64; 2]| (ends[1] - ends[0]) / self.side as f64;
-        let (du, dv) = (size(self.us), size(self.vs));
+        let [columns, rows] = self.sides;
+        let size = |ends: [f64; 2], count: usize| (ends[1] - ends[0]) / count as f64;
+        let (du, dv) = (size(self.us, columns), size(self.vs, rows));
         let middle = |from: f64, size: f64, k: usize| from + (k as f64 + 0.5) * size;
-        let u = middle(self.us[0], du, place % self.side);
-        Cell { u, v: middle(self.vs[0], dv, place / self.side), du, dv }
+        let u = middle(self.us[0], du, place % columns);
+        Cell { u, v: middle(self.vs[0], dv, place / columns), du, dv }
     }
 
     /// Returns for each cell the number, from 1, of the nearest triangle on the line of sight through its centre; 0
     /// if there is none.
     fn nearest(&self, triangles: &[[Vector; 3]]) -> Vec<u32> {
-        let mut found = vec![(f64::INFINITY, 0); self.side * self.side];
+        let mut found = vec![(f64::INFINITY, 0); self.sides[0] * self.sides[1]];
         for (number, triangle) in triangles.iter().enumerate() {
             let seen = triangle.map(|[x, y, z]| [x / z, y / z]);
             let normal = normal(triangle);
             let plane = dot(&normal, &triangle[0]);
-            let [rows, columns] = [(1, self.vs), (0, self.us)].map(|(axis, ends)| {
-                let places = seen.map(|corner| {
-                    (corner[axis] - ends[0]) / (ends[1] - ends[0]) * self.side as f64 - 0.5
-                });
+            let [columns, rows] = [(0, self.us), (1, self.vs)].map(|(axis, ends)| {
+                let side = self.sides[axis] as f64;
+                let places =
+                    seen.map(|corner| (corner[axis] - ends[0]) / (ends[1] - ends[0]) * side - 0.5);
                 let low = places.into_iter().fold(f64::INFINITY, f64::min).ceil().max(0.0);
                 let high = places.into_iter().fold(f64::NEG_INFINITY, f64::max).floor();
-                low as usize..(high + 1.0).clamp(0.0, self.side as f64) as usize
+                low as usize..(high + 1.0).clamp(0.0, side) as usize
             });
             for row in rows {
                 for column in columns.clone() {
-                    let place = row * self.side + column;
+                    let place = row * self.sides[0] + column;
                     let Cell { u, v, .. } = self.cell(place);
                     if !holds(&seen, u, v) {
                         continue;

@@ -1,5 +1,7 @@
 //! Tests of the visible part of each shape against its own integral.
 
+use std::f64::consts::PI;
+
 use crate::scenario::{Shape, Target};
 
 use super::*;

@@ -176,7 +176,7 @@ effects! {
         why: "the pulse energy differs from shot to shot",
         example: ["laser.energy_jitter=0.8"],
     }
-    /// The target is not the plain rectangle of eq. 3.23.
+    /// The target is not the plain rectangle of eq. 3.23, or a pixel sees a rectangle of it.
     Target {
         keys: [
             key!(target.shape),
@@ -186,6 +186,9 @@ effects! {
             key!(target.offset_y_m),
             key!(target.retro_side_m),
             key!(target.extended),
+            key!(array.field_of_view_deg),
+            key!(array.rows),
+            key!(array.columns),
         ],
         breaks: [&[CramerRaoBound], MODELS, SEARCHES],
         why: "the light of a shot is not one echo of the laser's pulse from the axis",

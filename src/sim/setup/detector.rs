@@ -15,11 +15,11 @@ use crate::sensor::spad::Spads;
 use super::recalibration;
 
 /// The diodes of the row that are simulated, at power-up.
-pub(super) fn spads(scenario: &Scenario, dark: &DarkRates) -> Spads {
+pub(super) fn spads(scenario: &Scenario, dark: &DarkRates, seed: u64) -> Spads {
     let spad = &scenario.spad;
     let dead_time = Time::from_ps_f64(spad.dead_time_ns * 1e3);
     let count = Wiring::of(spad).simulated.len();
-    Spads::new(count, dead_time, Time::NEVER).with_effects(effects(spad, dark), scenario.seed)
+    Spads::new(count, dead_time, Time::NEVER).with_effects(effects(spad, dark), seed)
 }
 
 /// Returns the parameters of the shaper of pulses on `tdc_stop`, if there is one.
@@ -33,9 +33,9 @@ pub(super) fn shaper(spad: &Spad) -> Option<shaper::Params> {
 }
 
 /// Returns the driver of `tdc_stop` at power-up, with a ring if the firmware calibrates itself.
-pub(super) fn front_end(scenario: &Scenario, calibrates: bool) -> FrontEnd {
+pub(super) fn front_end(scenario: &Scenario, calibrates: bool, seed: u64) -> FrontEnd {
     let ring = calibrates.then(|| recalibration::ring(&scenario.tdc));
-    FrontEnd::new(Ring::new(ring, scenario.seed), shaper(&scenario.spad).map(Shaper::new))
+    FrontEnd::new(Ring::new(ring, seed), shaper(&scenario.spad).map(Shaper::new))
 }
 
 /// Returns the light of the link budget.

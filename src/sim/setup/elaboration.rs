@@ -7,13 +7,16 @@ use crate::firmware::pll::Pll;
 use crate::firmware::tof_top::estimator_params::EstimatorParams;
 use crate::firmware::tof_top::{FirmwareEstimator, HistogramSource, Params};
 use crate::firmware::{centroid_estimator, frame_ctrl, histogram_builder, vcsel_driver};
+use crate::kernel::pulse::Pulse;
 use crate::kernel::{S, Time, U};
 use crate::network::Network;
 use crate::optics::Budget;
 use crate::optics::dark::DarkRates;
 use crate::scenario::builtin::Source;
+use crate::scenario::dark::Measured;
+use crate::scenario::mesh::Mesh;
 use crate::scenario::wiring::Wiring;
-use crate::scenario::{self, Loaded, MOST_SEED, Scenario, dark, mesh, pulse};
+use crate::scenario::{self, Array, Loaded, MOST_SEED, Scenario, dark, mesh, pulse};
 use crate::sim::timeline::pins_at_power_up;
 
 use super::converter::Converter;
@@ -26,8 +29,25 @@ impl Setup {
     /// [`Setup::new`], it accepts a network for another histogram.
     ///
     /// # Errors
-    /// When one of the files cannot be read or used.
+    /// When one of the files cannot be read or used, or the scenario has an array of several pixels.
     pub fn of_counts(loaded: Loaded) -> Result<Self> {
+        let Array { rows, columns, .. } = loaded.scenario.array;
+        for (key, count) in [("array.rows", rows), ("array.columns", columns)] {
+            if count > 1 {
+                let expected = "expected 1 here: `tofsim image` simulates arrays, `tofsim run --pixel` one of the \
+                                pixels";
+                let fault = Input::new(format!("scenario {}", loaded.name), expected);
+                return Err(fault.field(key).value(count).into());
+            }
+        }
+        Setup::elaborated(loaded, Budget::of_scene)
+    }
+
+    /// Elaborates a scenario with the budget that `budget` computes from it, its pulse and its mesh.
+    pub(super) fn elaborated(
+        loaded: Loaded,
+        budget: impl FnOnce(&Scenario, Pulse, Option<&Mesh>) -> Budget,
+    ) -> Result<Self> {
         let Loaded { name, scenario, set, files, renamed } = loaded;
         check_seed(&name, scenario.seed)?;
         let network = network(&scenario, &files)?;
@@ -35,12 +55,12 @@ impl Setup {
         let histogram = scenario.histogram();
         let converter = Converter::new(&scenario, &files, pll.cycle)?;
         let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
-        let measured = dark::load(&scenario.spad, &files)?;
-        let (dark, wiring) =
-            (DarkRates::new(&scenario.spad, measured.as_ref()), Wiring::of(&scenario.spad));
+        let measured = dark::load(&scenario, &files)?;
+        let of_row = measured.as_ref().map(Measured::selected);
+        let (dark, wiring) = (DarkRates::new(&scenario.spad, of_row), Wiring::of(&scenario.spad));
         let pulse = pulse::load(&scenario.laser, &files)?;
         let mesh = mesh::load(&scenario.target, &files)?;
-        let budget = Budget::of_scene(&scenario, pulse, mesh.as_deref()).with_dark_rates(&dark);
+        let budget = budget(&scenario, pulse, mesh.as_deref()).with_dark_rates(&dark);
         let of_row = (light.is_none() && wiring.has_unwired())
             .then(|| by_budget(&budget.of_row(&wiring, &dark), scenario.seed));
         let light = light.unwrap_or_else(|| by_budget(&budget, scenario.seed));
@@ -65,6 +85,7 @@ impl Setup {
         let slowest = converter.course.as_ref().map_or(1.0, |course| course.slowest);
         check_fits(&name, &scenario, &params, slowest)?;
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
+        let seed = scenario.seed;
         let mut setup = Setup {
             name,
             scenario,
@@ -84,6 +105,8 @@ impl Setup {
             row_light: of_row,
             pins,
             no_depth,
+            seed,
+            pixel_files: Arc::default(),
         };
         let shots = setup.params.frame_ctrl.shots_per_frame.into();
         // One that the estimator is not for has a stand-in, which nothing starts.

@@ -18,9 +18,21 @@ const FAINTEST_FRAME: f64 = 1.0;
 
 impl Setup {
     /// Distance of the target, where a depth can be that of the target: where light and not a list or
-    /// a ROM decides it, the laser's light comes back, and the histogram holds the echo [m].
+    /// a ROM decides it, the laser's light comes back, and the histogram holds the echo. That of a pixel with a field of
+    /// view of its own is the mean along its lines of sight [m].
     pub fn true_depth_m(&self) -> Option<f64> {
-        self.no_depth.is_none().then_some(self.scenario.target.distance_m)
+        self.no_depth.is_none().then_some(())?;
+        match self.scenario.array.is_rectangular() {
+            true => self.mean_radial_m(),
+            false => Some(self.scenario.target.distance_m),
+        }
+    }
+
+    /// Returns the mean distance of what returns the laser's light, along the lines of sight; `None` if nothing does
+    /// [m].
+    pub fn mean_radial_m(&self) -> Option<f64> {
+        let returns = self.budget.signal_per_shot + self.budget.retro_per_shot > 0.0;
+        returns.then(|| self.budget.flight().seconds() * LIGHT_M_S / 2.0)
     }
 
     /// Returns notes on depths outside of the model's validity: impossible ones, or else those outside of the

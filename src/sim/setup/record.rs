@@ -89,13 +89,17 @@ impl Setup {
             Light::Optics(_) | Light::None => None,
         };
         let pulse = &self.budget.pulse;
-        let (dark, mesh) = (&self.dark, &self.mesh);
+        // Each pixel has a dark rate of its own.
+        let is_one = scenario.array.count() == 1;
+        let dark = is_one.then_some(&self.dark);
+        let (mesh, pixels) = (&self.mesh, (!is_one).then_some(&self.pixel_files));
         let mut keys = format!("{scenario:?}");
         for (_, name) in names(scenario).filter(|(_, name)| Path::new(name).is_absolute()) {
             let short = Path::new(name).file_name().unwrap_or_default().to_string_lossy();
             keys = keys.replace(&format!("{name:?}"), &format!("{short:?}"));
         }
-        let all = format_args!("{keys} {params:?} {given:?} {pulse:?} {dark:?} {mesh:?}");
+        let all =
+            format_args!("{keys} {params:?} {given:?} {pulse:?} {dark:?} {mesh:?} {pixels:?}");
         format!("{:016x}", digest_of(all))
     }
 }

@@ -1,0 +1,123 @@
+//! The setups of an array's pixels: what they have in common is elaborated once.
+
+use std::sync::Arc;
+
+use rand_chacha::rand_core::Rng;
+
+use crate::error::Result;
+use crate::optics::dark::DarkRates;
+use crate::optics::{Budget, PixelBudgets, Pixels};
+use crate::scenario::dark::Measured;
+use crate::scenario::{Loaded, MOST_SEED, Scenario, dark, offsets};
+use crate::sensor::streams::{Source, stream};
+
+use super::Setup;
+use super::detector::by_budget;
+
+/// Largest number of columns, by which pixels are numbered in random streams: a pixel's does not depend on the size of
+/// its array.
+const MOST_COLUMNS: usize = 64;
+
+/// An array of pixels, ready to run. Each pixel is simulated as an instrument of one pixel.
+#[derive(Clone, Debug)]
+pub struct ArraySetup {
+    common: Setup,
+    /// The light on each pixel; `None` for a single one that sees a cone.
+    budgets: Option<PixelBudgets>,
+}
+
+/// What files say of the pixels of an array.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PixelFiles {
+    /// Additional delay of each pixel's signal path; empty if there is none [ps].
+    offsets_ps: Vec<f64>,
+    /// Dark count rates that were measured.
+    measured: Option<Measured>,
+}
+
+impl ArraySetup {
+    /// Loads the files that the scenario names, and elaborates it.
+    ///
+    /// # Errors
+    /// When one of the files cannot be read or used, or the estimator is a network for another histogram.
+    pub fn new(loaded: Loaded) -> Result<Self> {
+        let files = loaded.files.clone();
+        let Some(pixels) = Pixels::of(&loaded.scenario) else {
+            return Ok(ArraySetup { common: Setup::new(loaded)?, budgets: None });
+        };
+        let pixel_files = PixelFiles {
+            offsets_ps: offsets::load(&loaded.scenario, &files)?,
+            measured: dark::load(&loaded.scenario, &files)?,
+        };
+        let without_light = |scenario: &Scenario, pulse, _: Option<&_>| {
+            let pulse_energy_j = scenario.laser.pulse_energy_j();
+            Budget { pulse, pulse_energy_j, ..Budget::default() }
+        };
+        let mut common = Setup::elaborated(loaded, without_light)?;
+        common.check_estimator()?;
+        (common.no_depth, common.pixel_files) = (None, Arc::new(pixel_files));
+        let budgets = PixelBudgets::new(&common.scenario, pixels, common.mesh.as_deref());
+        Ok(ArraySetup { common, budgets: Some(budgets) })
+    }
+
+    /// Returns the part that all pixels have in common: everything but light and random streams.
+    pub fn common(&self) -> &Setup {
+        &self.common
+    }
+
+    /// Returns the directions of the pixels; `None` for a single one that sees a cone.
+    pub fn pixels(&self) -> Option<&Pixels> {
+        self.budgets.as_ref().map(PixelBudgets::pixels)
+    }
+
+    /// Returns the number of rows and of columns.
+    pub fn size(&self) -> [usize; 2] {
+        let array = &self.common.scenario.array;
+        [array.rows as usize, array.columns as usize]
+    }
+
+    /// Returns the direction of a pixel's middle as a unit vector: to the right, down and forward [1].
+    pub fn sight(&self, row: usize, column: usize) -> [f64; 3] {
+        self.pixels().map_or([0.0, 0.0, 1.0], |pixels| pixels.sight(row, column))
+    }
+
+    /// Returns the setup of a pixel. Its random streams have a seed of their own, by row and column: the first 64 bits
+    /// of the stream [`Source::Pixel`], of which 63 count.
+    pub fn pixel(&self, row: usize, column: usize) -> Setup {
+        let Some(budgets) = &self.budgets else { return self.common.clone() };
+        let (common, [_, columns]) = (&self.common, self.size());
+        let (scenario, place) = (&common.scenario, row * columns + column);
+        let PixelFiles { offsets_ps, measured } = &*common.pixel_files;
+        let offset_ps = offsets_ps.get(place).copied().unwrap_or_default();
+        let budget = budgets.of(scenario, common.budget.pulse.clone(), place, offset_ps);
+        let is_alone = scenario.array.count() == 1;
+        let (dark, seed) = if is_alone {
+            (common.dark.clone(), scenario.seed)
+        } else {
+            let measured = measured.as_ref().and_then(|rates| rates.rate(row, column));
+            let number = row * MOST_COLUMNS + column;
+            let dark = DarkRates::of_pixel(&scenario.spad, measured, place);
+            (dark, seed_of(scenario.seed, number as u64))
+        };
+        common.with_light(budget.with_dark_rates(&dark), dark, seed)
+    }
+}
+
+/// Returns the seed of the pixel with such a number.
+fn seed_of(seed: u64, number: u64) -> u64 {
+    stream(seed, Source::Pixel, number).next_u64() & MOST_SEED
+}
+
+impl Setup {
+    /// Returns the same setup with other light, and with random streams of another seed.
+    fn with_light(&self, budget: Budget, dark: DarkRates, seed: u64) -> Self {
+        let light = by_budget(&budget, seed);
+        let words = stream(seed, Source::SetupWindow, 0);
+        let disturbance = self.disturbance.clone().map(|one| one.with_words(words));
+        let setup = Setup { budget, dark, light, disturbance, seed, ..self.clone() };
+        Setup { no_depth: setup.why_no_depth(), ..setup }
+    }
+}
+
+#[cfg(test)]
+mod tests;
