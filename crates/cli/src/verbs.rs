@@ -16,10 +16,12 @@ mod formats;
 pub mod frames;
 pub mod host;
 pub mod ila;
+pub mod image;
 pub mod interrupt;
 pub mod man;
 pub mod new;
 pub mod options;
+pub mod pixel;
 mod progress;
 pub mod quantize;
 pub mod report;
@@ -77,6 +79,7 @@ pub struct Answer {
 enum Verb {
     New(new::Args),
     Run(run::Args),
+    Image(image::Args),
     Rerun(rerun::Args),
     Budget(budget::Args),
     Estimate(estimate::Args),
@@ -168,6 +171,7 @@ impl Cli {
         match &self.verb {
             Verb::New(args) => new::run(args, console),
             Verb::Run(args) => run::run(args, console),
+            Verb::Image(args) => image::run(args, console),
             Verb::Rerun(args) => return rerun::run(args, console),
             Verb::Budget(args) => budget::run(args, console),
             Verb::Estimate(args) => estimate::run(args, console),

@@ -26,6 +26,7 @@ mod fidelities;
 mod golden;
 mod grid;
 mod ila_command;
+mod image;
 mod instruments;
 mod laser_delay;
 mod limits;

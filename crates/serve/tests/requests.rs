@@ -113,8 +113,11 @@ fn frames_under_way_are_seen_changed_and_stopped() {
 }
 
 #[test]
-fn every_built_in_scenario_has_a_page() {
-    for (name, _) in tofsim::scenario::builtin::scenarios() {
+fn every_built_in_scenario_of_one_pixel_has_a_page() {
+    for (name, text) in tofsim::scenario::builtin::scenarios() {
+        if text.contains("\n[array]\n") {
+            continue;
+        }
         let server = Server::start(&["--stopped", "--fidelity", "shot", name]);
         let answer = server.post("run", "{\"frames\":1}");
         assert!(

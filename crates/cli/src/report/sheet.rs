@@ -19,6 +19,8 @@ pub enum Digits {
 
 /// The text of a file, after its name.
 pub type NamedText = (String, String);
+/// The bytes of a file, after its name.
+pub type NamedBytes = (String, Vec<u8>);
 
 /// A table with a row for each item of a slice: of some columns as CSV, of some for people.
 pub struct Sheet<'a, R> {

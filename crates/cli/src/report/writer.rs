@@ -12,7 +12,7 @@ use crate::record::{LazyRecord, Record};
 use crate::text::table::plain;
 use crate::verbs::terminal::{Console, print, print_json};
 
-use super::sheet::NamedText;
+use super::sheet::{NamedBytes, NamedText};
 
 /// Findings of a verb: the object of `--json`, tables for people, and files.
 pub trait Findings {
@@ -46,6 +46,14 @@ pub trait Findings {
     /// # Errors
     /// When the plotting library fails.
     fn plots(&self) -> Result<Vec<NamedText>> {
+        Ok(Vec::new())
+    }
+
+    /// Returns the files of other formats, which hold the record's line where their format has a place for it.
+    ///
+    /// # Errors
+    /// When a file cannot be encoded.
+    fn other_files(&self, _record: &str) -> Result<Vec<NamedBytes>> {
         Ok(Vec::new())
     }
 }
@@ -111,7 +119,10 @@ impl<'a, F: Findings> Report<'a, F> {
             let plots = self.findings.plots()?.into_iter();
             let plots = plots.map(|(name, svg)| (name, record.in_svg(&svg)));
             let whole = F::FILE.map(|name| (name.to_owned(), format!("{:#}\n", self.json())));
-            console.write_into(folder, sheets.chain(plots).chain(whole))?;
+            let texts = sheets.chain(plots).chain(whole);
+            let texts = texts.map(|(name, text)| (name, text.into_bytes()));
+            let others = self.findings.other_files(&record.line())?;
+            console.write_into(folder, texts.chain(others))?;
         }
         if as_json { print_json(&self.json()) } else { console.report(&self.findings.text()) }
     }

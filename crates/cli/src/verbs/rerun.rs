@@ -17,11 +17,12 @@ use super::terminal::{Console, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
-const VERBS: [&str; 17] = [
+const VERBS: [&str; 18] = [
     "budget",
     "estimate",
     "quantize --explore",
     "run",
+    "image",
     "evaluate",
     "dataset",
     "train",
@@ -122,7 +123,14 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
     let folder = path.parent().unwrap_or(Path::new(""));
     // A logic analyser's formats have no room for it: the map beside has.
     let map = format!("{}.map.toml", path.file_stem().unwrap_or_default().to_string_lossy());
-    let names = ["summary.json", "evaluation.json", "dataset.json", "ports.json", "report.json"];
+    let names = [
+        "summary.json",
+        "image.json",
+        "evaluation.json",
+        "dataset.json",
+        "ports.json",
+        "report.json",
+    ];
     let mut beside = names.into_iter().chain([map.as_str()]);
     let found = beside.find_map(|name| Record::find(&read(&folder.join(name)).ok()?));
     found.ok_or_else(|| {

@@ -29,6 +29,7 @@ use crate::report::table;
 
 use super::draws::{load, use_threads};
 use super::frames;
+use super::pixel::PixelPlace;
 use super::terminal::{Console, print_with, stop_signal};
 
 /// Simulate frames: photons to depth, with a waveform
@@ -75,6 +76,9 @@ pub struct Args {
     /// dark and a lit one (firmware.dark_frames) for all estimators
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
+    /// Pixel of an array to simulate: its row from the top and its column from the left, from 0
+    #[arg(long, value_name = "ROW,COL")]
+    pixel: Option<PixelPlace>,
     /// Do not run the likelihood estimator on each frame for comparison
     #[arg(long)]
     no_second_opinion: bool,
@@ -98,7 +102,11 @@ type TakeFrame<'a> = &'a mut dyn FnMut(&Frame) -> Result<()>;
 /// Runs the command.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let waves = args.waves_format()?;
-    let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
+    let loaded = load(&args.scenario, &args.overrides(), args.seed)?;
+    let setup = match args.pixel {
+        None => Setup::new(loaded)?,
+        Some(pixel) => pixel.setup(loaded)?,
+    };
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
     let mut notes = setup.notes()?;

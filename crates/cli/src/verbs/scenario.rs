@@ -5,11 +5,12 @@ use serde_json::json;
 
 use tofsim::error::Result;
 use tofsim::scenario::{self, builtin, keys, show};
-use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::ArraySetup;
 
 use crate::report::writer::print_list;
 
 use super::options::ScenarioArgs;
+use super::pixel::notes_of_all;
 use super::terminal::{Console, print, print_json};
 
 /// List, show and check scenarios
@@ -60,9 +61,10 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
             }
         }
         What::Check { which, json } => {
-            let setup = Setup::new(which.load(None)?)?;
+            let array = ArraySetup::new(which.load(None)?)?;
+            let setup = array.common();
             setup.windows(&[], 1)?;
-            let notes = setup.notes()?;
+            let notes = notes_of_all(&array)?;
             console.print_notes(&notes)?;
             if *json {
                 print_json(&json!({ "scenario": setup.name, "ok": true, "notes": notes }))

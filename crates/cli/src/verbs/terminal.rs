@@ -95,19 +95,19 @@ impl Console {
         Err(Input::new("--strict", expected).field(&first.key).value(&first.value).into())
     }
 
-    /// Writes files, given by name and text, into a folder, which is made if it is not there.
+    /// Writes files, given by name and contents, into a folder, which is made if it is not there.
     ///
     /// # Errors
     /// When another run writes there, or a file cannot be written.
     pub fn write_into(
         &self,
         folder: &Path,
-        files: impl IntoIterator<Item = (impl AsRef<Path>, String)>,
+        files: impl IntoIterator<Item = (impl AsRef<Path>, impl AsRef<[u8]>)>,
     ) -> Result<()> {
         let _held = FolderLock::take(folder)?;
-        for (name, text) in files {
+        for (name, contents) in files {
             let path = folder.join(name);
-            write_bytes(&path, text)?;
+            write_bytes(&path, contents)?;
             self.wrote(&path);
         }
         Ok(())

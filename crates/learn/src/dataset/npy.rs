@@ -37,7 +37,7 @@ pub(super) fn create(
     let count = format!("<u{count_bytes}");
     let create = |(name, kind, width)| {
         let mut file = OutputFile::create(&folder.join(name))?;
-        array_header(&mut file, kind, rows, width).map_err(|error| file.fault(error))?;
+        array_header(&mut file, kind, &[rows, width as u64]).map_err(|error| file.fault(error))?;
         Ok(file)
     };
     // Name, type in NumPy's words and elements of a row of each file.
@@ -67,14 +67,14 @@ pub(super) fn write(files: &mut NpyFiles, samples: &[Sample], grid: &Grid) -> Re
     Ok(())
 }
 
-/// Writes the header of an array of `rows` x `width` elements of a type in NumPy's words.
+/// Writes the header of an array of elements of a type in NumPy's words.
 ///
 /// # Errors
 /// When it cannot be written.
-pub fn array_header(file: &mut OutputFile, kind: &str, rows: u64, width: usize) -> io::Result<()> {
+pub fn array_header(file: impl Write, kind: &str, shape: &[u64]) -> io::Result<()> {
     let kind = kind.parse().map_err(io::Error::other)?;
     let options = WriteOptions::new_header_only().dtype(DType::new_scalar(kind));
-    options.shape(&[rows, width as u64]).writer(file).write_header_only().map(drop)
+    options.shape(shape).writer(file).write_header_only().map(drop)
 }
 
 /// The floats of an array of one or two dimensions, and how many there are in a row.

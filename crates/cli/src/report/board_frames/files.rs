@@ -79,7 +79,7 @@ impl<'a> FrameFiles<'a> {
         if formats.npy {
             let mut create = |name, kind, width| {
                 let mut file = OutputFile::create(&place(name))?;
-                array_header(&mut file, kind, frames.into(), width)
+                array_header(&mut file, kind, &[frames.into(), width as u64])
                     .map_err(|error| file.fault(error))?;
                 Ok::<_, Error>(file)
             };

@@ -1,0 +1,273 @@
+//! Depth images: tables, JSON, arrays, pictures and point clouds.
+
+mod arrays;
+mod cloud;
+mod picture;
+mod statistics;
+
+use serde_json::{Value, json};
+
+use tofsim::error::Result;
+use tofsim::optics::Pixels;
+use tofsim::sim::image::{Pixel, PixelFrame};
+use tofsim::sim::setup::ArraySetup;
+
+use crate::text::table::{facts, fixed, grouped, number_or_dash};
+
+use super::sheet::Digits::{Fixed, Shortest};
+use super::sheet::{NamedBytes, NamedText, Sheet};
+use super::writer::Findings;
+
+use statistics::ImageStatistics;
+
+/// Most rows of the table that is printed.
+const SHOWN: usize = 20;
+
+/// Simulated images of an array, or the part of them that one pixel sees.
+pub struct DepthImages<'a> {
+    /// The array.
+    pub array: &'a ArraySetup,
+    /// Name of the simulation fidelity.
+    pub fidelity: &'static str,
+    /// Number of images.
+    pub images: u64,
+    /// All pixels by row, then column, or a single one.
+    pub pixels: Vec<ImagePixel>,
+}
+
+/// A pixel of the images.
+pub struct ImagePixel {
+    /// Row, from the top.
+    pub row: usize,
+    /// Column, from the left.
+    pub column: usize,
+    /// Direction that it looks at, as a unit vector: to the right, down and forward [1].
+    pub sight: [f64; 3],
+    /// What it expects and what it measured.
+    pub measured: Pixel,
+}
+
+/// A pixel in one image.
+#[derive(Clone, Copy)]
+struct Reading<'a> {
+    image: usize,
+    pixel: &'a ImagePixel,
+    frame: &'a PixelFrame,
+}
+
+impl Reading<'_> {
+    /// Distance along the line of sight, if it is valid [m].
+    fn radial_m(&self) -> Option<f64> {
+        self.frame.valid.then_some(self.frame.radial_m)
+    }
+
+    /// Distance from the sensor's plane, if it is valid [m].
+    fn perpendicular_m(&self) -> Option<f64> {
+        Some(self.radial_m()? * self.pixel.sight[2])
+    }
+
+    /// Standard deviation of the distance, if that is valid and its estimator states one [m].
+    fn sigma_m(&self) -> Option<f64> {
+        self.frame.sigma_m.filter(|_| self.frame.valid)
+    }
+
+    /// Difference from the true distance, if there are both [m].
+    fn error_m(&self) -> Option<f64> {
+        Some(self.radial_m()? - self.pixel.measured.expected.radial_m?)
+    }
+
+    /// Place of what is seen: to the right, down and forward of the sensor [m].
+    fn point(&self) -> Option<[f64; 3]> {
+        let radial_m = self.radial_m()?;
+        Some(self.pixel.sight.map(|part| radial_m * part))
+    }
+}
+
+impl DepthImages<'_> {
+    /// Returns whether there are all pixels, and not a single one of several.
+    fn is_whole(&self) -> bool {
+        let [rows, columns] = self.array.size();
+        self.pixels.len() == rows * columns
+    }
+
+    /// Returns the readings of an image, by row, then column.
+    fn image(&self, image: usize) -> impl Iterator<Item = Reading<'_>> {
+        self.pixels.iter().filter_map(move |pixel| {
+            Some(Reading { image, pixel, frame: pixel.measured.frames.get(image)? })
+        })
+    }
+
+    /// Returns a value of each pixel in the first image.
+    fn first(&self, value: impl Fn(&Reading) -> Option<f64>) -> Vec<Option<f64>> {
+        self.image(0).map(|one| value(&one)).collect()
+    }
+
+    /// Returns the readings of all images, one after the other.
+    fn readings(&self) -> Vec<Reading<'_>> {
+        (0..self.images as usize).flat_map(|image| self.image(image)).collect()
+    }
+
+    fn statistics(&self) -> Vec<ImageStatistics> {
+        (0..self.images as usize).map(|image| ImageStatistics::of(self.image(image))).collect()
+    }
+
+    /// Returns what the pixels look at and how: as a pinhole camera of OpenCV, whose pixels have their middles at whole
+    /// numbers, and whose axes point to the right, down and forward.
+    fn geometry(&self) -> Option<Value> {
+        let (array, pixels) = (&self.array.common().scenario.array, self.array.pixels()?);
+        let Pixels { rows, columns, .. } = *pixels;
+        let [fx, fy] = pixels.focal_pixels();
+        let middle = |count: usize| (count as f64 - 1.0) / 2.0;
+        let [k1, k2] = array.distortion;
+        Some(json!({
+            "field_of_view_deg": pixels.field_of_view_deg(),
+            "axes": "x to the right, y down, z forward",
+            "fx": fx,
+            "fy": fy,
+            "cx": middle(columns),
+            "cy": middle(rows),
+            "distortion": [k1, k2, 0.0, 0.0],
+        }))
+    }
+
+    /// Returns the least, the median and the largest number of hits that pixels can expect, where shots do not depend
+    /// on each other.
+    fn expected(&self, hits: impl Fn(&Pixel) -> Option<f64>) -> Option<[f64; 3]> {
+        statistics::ends_and_median(self.pixels.iter().filter_map(|pixel| hits(&pixel.measured)))
+    }
+
+    fn signal_hits(&self) -> Option<[f64; 3]> {
+        self.expected(|pixel| pixel.expected.signal_hits)
+    }
+
+    fn ambient_hits(&self) -> Option<[f64; 3]> {
+        self.expected(|pixel| pixel.expected.ambient_hits)
+    }
+
+    /// Returns the table of a single pixel.
+    fn pixel_table(&self) -> String {
+        let readings: Vec<_> = self.readings().into_iter().take(SHOWN).collect();
+        let mm = |metres: Option<f64>| number_or_dash(metres.map(|metres| 1e3 * metres), 3);
+        Sheet::of(&readings)
+            .words("image", |one| one.image as u64)
+            .words("depth [m]", |one| number_or_dash(one.radial_m(), 6))
+            .words("error [mm]", move |one| mm(one.error_m()))
+            .words("sigma [mm]", move |one| mm(one.sigma_m()))
+            .words("hits", |one| grouped(one.frame.hits))
+            .words("status", |one| match one.frame.status.is_empty() {
+                true => "-".to_owned(),
+                false => one.frame.status.to_string(),
+            })
+            .table()
+    }
+
+    /// Returns the first lines: what the images are of.
+    fn facts(&self) -> Vec<(&'static str, String)> {
+        let (setup, [rows, columns]) = (self.array.common(), self.array.size());
+        let mut facts = vec![
+            ("scenario", format!("{}, seed {}", setup.name, setup.scenario.seed)),
+            ("array", format!("{rows} x {columns} pixels")),
+        ];
+        if let Some(pixels) = self.array.pixels() {
+            let [across, up] = pixels.field_of_view_deg().map(|full_deg| fixed(full_deg, 2));
+            facts.push(("field of view", format!("{across} x {up} deg (across, up)")));
+        }
+        if !self.is_whole() {
+            let pixel = |pixel: &ImagePixel| format!("row {}, column {}", pixel.row, pixel.column);
+            facts.extend(self.pixels.first().map(|one| ("pixel", pixel(one))));
+        }
+        facts.push(("estimator", setup.params.estimator.name().to_owned()));
+        facts.push(("fidelity", self.fidelity.to_owned()));
+        let range = |[least, median, most]: [f64; 3]| {
+            let [least, median, most] = [least, median, most].map(|hits| fixed(hits, 1));
+            if self.is_whole() {
+                format!("{least} to {most} a pixel, median {median}")
+            } else {
+                format!("{median}, expected")
+            }
+        };
+        facts.extend(self.signal_hits().map(|hits| ("signal hits", range(hits))));
+        facts.extend(self.ambient_hits().map(|hits| ("ambient hits", range(hits))));
+        facts
+    }
+}
+
+impl Findings for DepthImages<'_> {
+    const SCHEMA: &'static str = "tofsim.image/1";
+    const FILE: Option<&'static str> = Some("image.json");
+
+    fn json(&self) -> Value {
+        let (setup, [rows, columns]) = (self.array.common(), self.array.size());
+        let ends = |hits: Option<[f64; 3]>| {
+            hits.map(
+                |[least, median, most]| json!({ "least": least, "median": median, "most": most }),
+            )
+        };
+        let mut object = json!({
+            "fidelity": self.fidelity,
+            "estimator": setup.params.estimator.name(),
+            "rows": rows,
+            "columns": columns,
+            "geometry": self.geometry(),
+            "signal_hits": ends(self.signal_hits()),
+            "ambient_hits": ends(self.ambient_hits()),
+            "images": self.statistics(),
+        });
+        if let Some(pixel) = self.pixels.first().filter(|_| !self.is_whole()) {
+            object["pixel"] = json!([pixel.row, pixel.column]);
+            object["pixel_seed"] = self.array.pixel(pixel.row, pixel.column).seed().into();
+        }
+        object
+    }
+
+    fn text(&self) -> String {
+        let facts = facts(self.facts());
+        let table = if self.is_whole() {
+            statistics::table(&self.statistics())
+        } else {
+            self.pixel_table()
+        };
+        let more = match self.images.saturating_sub(SHOWN as u64) {
+            0 => String::new(),
+            more => format!("\n... and {} more", grouped(more)),
+        };
+        format!("{facts}\n\n{table}{more}\n")
+    }
+
+    fn sheets(&self) -> Vec<NamedText> {
+        let readings = self.readings();
+        let sheet = Sheet::of(&readings)
+            .column("image", Shortest, |one| one.image as u64)
+            .column("row", Shortest, |one| one.pixel.row as u64)
+            .column("column", Shortest, |one| one.pixel.column as u64)
+            .column("depth_radial_m", Shortest, |one| one.radial_m())
+            .column("depth_perpendicular_m", Shortest, |one| one.perpendicular_m())
+            .column("sigma_m", Shortest, |one| one.sigma_m())
+            .column("valid", Shortest, |one| u64::from(one.frame.valid))
+            .column("status", Shortest, |one| u64::from(one.frame.status.bits()))
+            .column("hits", Shortest, |one| one.frame.hits)
+            .column("true_radial_m", Fixed(9), |one| one.pixel.measured.expected.radial_m)
+            .column("signal", Fixed(6), |one| one.pixel.measured.expected.signal_hits)
+            .column("ambient", Fixed(6), |one| one.pixel.measured.expected.ambient_hits);
+        vec![sheet.file("pixels.csv")]
+    }
+
+    fn plots(&self) -> Result<Vec<NamedText>> {
+        if !self.is_whole() {
+            return Ok(Vec::new());
+        }
+        Ok(vec![("image.svg".to_owned(), picture::svg(self)?)])
+    }
+
+    fn other_files(&self, record: &str) -> Result<Vec<NamedBytes>> {
+        if !self.is_whole() {
+            return Ok(Vec::new());
+        }
+        let arrays = arrays::all(self)?;
+        Ok(arrays
+            .into_iter()
+            .chain(cloud::all(self, record))
+            .chain(picture::pngs(self, record)?)
+            .collect())
+    }
+}

@@ -1,0 +1,84 @@
+//! Statistics of an image.
+
+use serde::Serialize;
+
+use tofsim_learn::evaluation::Spread;
+
+use crate::report::sheet::Digits::{Fixed, Shortest};
+use crate::report::sheet::Sheet;
+use crate::text::table::number_or_dash;
+
+use super::{Reading, SHOWN};
+
+/// Statistics of the pixels of an image.
+#[derive(Serialize)]
+pub struct ImageStatistics {
+    /// Pixels with a valid depth.
+    valid: u64,
+    /// Part of the pixels with a valid depth [1].
+    fill_rate: f64,
+    /// Median standard deviation that is stated of a valid depth [m].
+    median_sigma_m: Option<f64>,
+    /// Root mean square of the errors of valid depths [mm].
+    rms_error_mm: Option<f64>,
+    /// Errors of the valid depths, along the line of sight.
+    errors: Spread,
+}
+
+impl ImageStatistics {
+    /// Returns the statistics of an image's readings.
+    pub fn of<'a>(readings: impl Iterator<Item = Reading<'a>>) -> Self {
+        let readings: Vec<_> = readings.collect();
+        let valid = readings.iter().filter(|one| one.frame.valid).count();
+        let errors_m: Vec<_> = readings.iter().filter_map(Reading::error_m).collect();
+        let square = |error_m: &f64| (1e3 * error_m).powi(2);
+        let mean_square = errors_m.iter().map(square).sum::<f64>() / errors_m.len() as f64;
+        let sigmas = readings.iter().filter_map(Reading::sigma_m);
+        ImageStatistics {
+            valid: valid as u64,
+            fill_rate: valid as f64 / readings.len() as f64,
+            median_sigma_m: ends_and_median(sigmas).map(|[_, median, _]| median),
+            rms_error_mm: (!errors_m.is_empty()).then(|| mean_square.sqrt()),
+            errors: Spread::of(errors_m.into_iter().map(Some)),
+        }
+    }
+}
+
+/// Returns the table of images.
+pub fn table(images: &[ImageStatistics]) -> String {
+    let shown: Vec<_> = images.iter().enumerate().take(SHOWN).collect();
+    let quartile = |of: &ImageStatistics, k: usize| of.errors.quartiles_mm.map(|all| all[k]);
+    Sheet::of(&shown)
+        .both(("image", Shortest), ("image", Shortest), |(image, _)| *image as u64)
+        .words("valid", |(_, of)| format!("{} ({:.1} %)", of.valid, 100.0 * of.fill_rate))
+        .words("mean error [mm]", |(_, of)| number_or_dash(of.errors.mean_mm, 3))
+        .words("rms error [mm]", |(_, of)| number_or_dash(of.rms_error_mm, 3))
+        .words("median error [mm]", move |(_, of)| number_or_dash(quartile(of, 2), 3))
+        .both(("median_sigma_mm", Fixed(3)), ("median sigma [mm]", Fixed(3)), |(_, of)| {
+            of.median_sigma_m.map(|sigma_m| 1e3 * sigma_m)
+        })
+        .table()
+}
+
+/// Returns the least of some numbers, their median, and the largest.
+pub fn ends_and_median(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
+    let mut sorted: Vec<_> = values.collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (&least, &most) = (sorted.first()?, sorted.last()?);
+    let half = sorted.len() / 2;
+    let median = (sorted[half] + sorted[sorted.len() - 1 - half]) / 2.0;
+    Some([least, median, most])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_lies_between_the_two_in_the_middle() {
+        let of = |values: &[f64]| ends_and_median(values.iter().copied());
+        assert_eq!(of(&[3.0, 1.0, 2.0]), Some([1.0, 2.0, 3.0]));
+        assert_eq!(of(&[4.0, 1.0, 2.0, 3.0]), Some([1.0, 2.5, 4.0]));
+        assert_eq!(of(&[]), None);
+    }
+}

@@ -1,0 +1,93 @@
+//! `tofsim image`: depth images of an array of pixels.
+
+use tofsim::error::Result;
+use tofsim::sim::Stepping;
+use tofsim::sim::image::{ImageFidelity, simulate};
+use tofsim::sim::setup::ArraySetup;
+use tofsim_learn::estimation::notes::notes_of_firmware;
+
+use crate::choice::{Fidelity, seed, threads, words};
+use crate::report::image::{DepthImages, ImagePixel};
+use crate::report::link_budget::LinkBudget;
+use crate::report::writer::Report;
+
+use super::draws::{load, use_threads};
+use super::frames;
+use super::options::ResultArgs;
+use super::pixel::{PixelPlace, merged};
+use super::terminal::{Console, stop_signal};
+
+/// Simulate depth images of an array of pixels
+///
+/// Each pixel is simulated as an instrument of its own, with the light from its part of the scene. In docs/image.md are the
+/// formats of the files, and what pixels do not share yet.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim image -o out                          40 x 30 pixels\n  \
+    tofsim image -s array.rows=8 -s array.columns=6 --images 100\n  \
+    tofsim image --pixel 20,15                   one pixel of them, the same frames\n  \
+    tofsim image mine.toml --fidelity histogram -o out")]
+pub struct Args {
+    /// Built-in scenario, or the path of a scenario file (see `scenario list`)
+    #[arg(default_value = "array")]
+    scenario: String,
+    /// Set a scenario key, e.g. `array.rows=8`; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Seed of every random stream, instead of the scenario's
+    #[arg(long, value_name = "N", value_parser = seed())]
+    seed: Option<u64>,
+    /// Number of images
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    images: u64,
+    /// Simulation fidelity: cycle and shot give identical images, histogram images of the same distribution
+    #[arg(long, value_parser = words(&Fidelity::ALL), default_value = "shot")]
+    fidelity: Fidelity,
+    /// Simulate this pixel alone: its row from the top and its column from the left, from 0
+    #[arg(long, value_name = "ROW,COL")]
+    pixel: Option<PixelPlace>,
+    /// Threads; the results are the same for any number [default: one a core]
+    #[arg(long, value_name = "N", value_parser = threads())]
+    threads: Option<u16>,
+    #[command(flatten)]
+    result: ResultArgs,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, console: &Console) -> Result<()> {
+    let array = ArraySetup::new(load(&args.scenario, &args.set, args.seed)?)?;
+    let setup = array.common();
+    let fidelity = match args.fidelity {
+        Fidelity::Cycle => ImageFidelity::Shots(Stepping::SkipIdle),
+        Fidelity::Shot => ImageFidelity::Shots(Stepping::LeapShots),
+        Fidelity::Histogram => ImageFidelity::Histograms,
+    };
+    frames::check("--images", args.images, setup)?;
+    let place = args.pixel.map(|pixel| pixel.within(&array)).transpose()?;
+    use_threads(args.threads)?;
+
+    let stop = stop_signal();
+    let [rows, columns] = place.map_or(array.size(), |_| [1, 1]);
+    let progress = console.progress(args.images * (rows * columns) as u64, "frames");
+    let done = |frames| progress.inc(frames);
+    let simulated = match place {
+        None => array.images(fidelity, args.images, stop.as_deref(), &done)?,
+        Some([row, column]) => {
+            vec![simulate(&array.pixel(row, column), fidelity, args.images, stop.as_deref())?]
+        }
+    };
+    progress.finish_and_clear();
+
+    let mut notes = merged(simulated.iter().map(|pixel| &pixel.notes[..]));
+    notes.extend(notes_of_firmware(setup));
+    notes.extend(LinkBudget::of(setup.clone()).eye_safety_notes());
+    console.print_notes(&notes)?;
+    let pixel = |(k, measured)| {
+        let [row, column] = place.unwrap_or([k / columns, k % columns]);
+        ImagePixel { row, column, sight: array.sight(row, column), measured }
+    };
+    let pixels = simulated.into_iter().enumerate().map(pixel).collect();
+    let images =
+        DepthImages { array: &array, fidelity: args.fidelity.name(), images: args.images, pixels };
+    args.result.deliver(&Report::new(images, setup, &notes, console), console)
+}

@@ -1,0 +1,96 @@
+//! A pixel of an array, on the command line.
+
+use std::str::FromStr;
+
+use tofsim::Note;
+use tofsim::error::{Input, Result};
+use tofsim::scenario::Loaded;
+use tofsim::sim::setup::{ArraySetup, Setup};
+
+/// Row and column of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelPlace([usize; 2]);
+
+impl FromStr for PixelPlace {
+    type Err = &'static str;
+
+    fn from_str(given: &str) -> std::result::Result<Self, Self::Err> {
+        let numbers = given.split_once(',').and_then(|(row, column)| {
+            Some([row.trim().parse().ok()?, column.trim().parse().ok()?])
+        });
+        numbers.map(PixelPlace).ok_or("expected a row and a column from 0, such as 20,15")
+    }
+}
+
+impl PixelPlace {
+    /// Returns row and column.
+    ///
+    /// # Errors
+    /// When the array has no such pixel.
+    pub fn within(self, array: &ArraySetup) -> Result<[usize; 2]> {
+        let (PixelPlace([row, column]), [rows, columns]) = (self, array.size());
+        if row < rows && column < columns {
+            return Ok([row, column]);
+        }
+        let expected = format!(
+            "expected rows 0 to {} and columns 0 to {} (array.rows, array.columns)",
+            rows - 1,
+            columns - 1
+        );
+        Err(Input::new("--pixel", expected).value(format!("{row},{column}")).into())
+    }
+
+    /// Elaborates a scenario, and returns the setup of the pixel.
+    ///
+    /// # Errors
+    /// When the array has no such pixel, or the scenario cannot be elaborated.
+    pub fn setup(self, loaded: Loaded) -> Result<Setup> {
+        let array = ArraySetup::new(loaded)?;
+        let [row, column] = self.within(&array)?;
+        Ok(array.pixel(row, column))
+    }
+}
+
+/// Returns the notes of an array's pixels, each cause once, with the number of pixels that have it.
+///
+/// # Errors
+/// When the network's file has a domain that is none.
+pub fn notes_of_all(array: &ArraySetup) -> Result<Vec<Note>> {
+    let [rows, columns] = array.size();
+    let notes = |place| array.pixel(place / columns, place % columns).notes();
+    let notes = (0..rows * columns).map(notes).collect::<Result<Vec<_>>>()?;
+    Ok(merged(notes.iter().map(Vec::as_slice)))
+}
+
+/// Returns the notes of several pixels, each cause once, with the number of pixels that have it.
+pub fn merged<'a>(pixels: impl ExactSizeIterator<Item = &'a [Note]>) -> Vec<Note> {
+    let count = pixels.len();
+    let mut merged: Vec<(Note, usize)> = Vec::new();
+    for note in pixels.flatten() {
+        match merged.iter_mut().find(|(one, _)| one.code == note.code && one.key == note.key) {
+            Some((_, having)) => *having += 1,
+            None => merged.push((note.clone(), 1)),
+        }
+    }
+    let counted = |(note, having): (Note, usize)| match having == count {
+        true => note,
+        false => {
+            let text = format!("{}, and so at {having} of {count} pixels", note.text);
+            Note { text, ..note }
+        }
+    };
+    merged.into_iter().map(counted).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_is_a_row_and_a_column() {
+        assert_eq!("20,15".parse(), Ok(PixelPlace([20, 15])));
+        for wrong in ["", "3", "3,", "-1,0", "3,4,5", "a,b", "1.5,0"] {
+            assert!(wrong.parse::<PixelPlace>().is_err(), "{wrong}");
+        }
+    }
+}
