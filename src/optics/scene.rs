@@ -19,7 +19,6 @@ use crate::scenario::mesh::Mesh;
 
 use super::air::Air;
 use super::returned::{Haze, Returned};
-pub use array::PixelLight;
 use element::{Element, elements};
 use raster::Placed;
 use surface::{Kind, Surface, surfaces};
@@ -113,6 +112,15 @@ impl<'a> Scene<'a> {
         }
         returned
     }
+}
+
+/// Light on a pixel.
+#[derive(Clone, Debug)]
+pub struct PixelLight {
+    /// Ambient light.
+    pub ambient: Ambient,
+    /// Returned laser light.
+    pub returned: Returned,
 }
 
 /// Light returned by surfaces within a view.

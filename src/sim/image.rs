@@ -11,7 +11,8 @@ use crate::note::Note;
 use super::fast::histogram::Histograms;
 use super::frames::Frame;
 use super::run::{Observers, Run};
-use super::setup::{ArraySetup, Setup};
+use super::setup::Setup;
+use super::setup::array::ArraySetup;
 use super::stepping::Stepping;
 
 /// Simulation fidelity of an image.

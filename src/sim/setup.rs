@@ -1,5 +1,6 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
+pub mod array;
 mod converter;
 mod detector;
 mod effects;
@@ -9,7 +10,7 @@ mod fits;
 mod instrument;
 mod length;
 mod notes;
-mod pixel;
+mod pixel_files;
 mod recalibration;
 mod record;
 mod stimulus;
@@ -41,8 +42,7 @@ use super::jitter::Jitter;
 use super::timeline::Timeline;
 
 pub(super) use detector::effects;
-pub use pixel::ArraySetup;
-use pixel::PixelFiles;
+use pixel_files::PixelFiles;
 
 /// A scenario, ready to run.
 #[derive(Clone, Debug)]

@@ -1,23 +1,13 @@
 //! Light of all pixels of an array.
 
 use crate::optics::pixels::Pixels;
-use crate::optics::returned::Returned;
 
 use super::element::elements;
 use super::view::View;
-use super::{Ambient, Collected, Scene};
+use super::{Collected, PixelLight, Scene};
 
 /// Fewest rows of a pixel within a band, and cells of a row.
 const LEAST: u32 = 8;
-
-/// Light on a pixel.
-#[derive(Clone, Debug)]
-pub struct PixelLight {
-    /// Ambient light.
-    pub ambient: Ambient,
-    /// Returned laser light.
-    pub returned: Returned,
-}
 
 impl Scene<'_> {
     /// Computes the ambient light and the returned laser light of each pixel, by row, then column.

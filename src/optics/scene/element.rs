@@ -4,7 +4,7 @@ use crate::optics::air::Air;
 
 use super::outline::{Outline, Span, common, without};
 use super::surface::{Kind, Surface};
-use super::view::View;
+use super::view::{View, axis_cos};
 
 /// A visible surface element.
 #[derive(Clone, Copy, Debug)]
@@ -27,11 +27,6 @@ impl Element {
     pub fn seen_sr(&self, air: &Air) -> f64 {
         self.axis_cos * self.sr * air.passes(self.sight_m)
     }
-}
-
-/// Returns the cosine of the angle between the line of sight through (u, v, 1) and the axis.
-pub fn axis_cos(u: f64, v: f64) -> f64 {
-    1.0 / (1.0 + u * u + v * v).sqrt()
 }
 
 /// A cell in the plane one metre in front of the sensor.

@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-use super::element::axis_cos;
 use super::outline::{Outline, Span, common};
 
 /// A region in the plane one metre in front of the sensor.
@@ -22,6 +21,11 @@ pub struct SolidAngle {
     pub sr: f64,
     /// The same, projected along the axis [sr].
     pub projected_sr: f64,
+}
+
+/// Returns the cosine of the angle between the line of sight through (u, v, 1) and the axis.
+pub fn axis_cos(u: f64, v: f64) -> f64 {
+    1.0 / (1.0 + u * u + v * v).sqrt()
 }
 
 impl View {

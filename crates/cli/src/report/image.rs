@@ -3,14 +3,14 @@
 mod arrays;
 mod cloud;
 mod picture;
+mod readings;
 mod statistics;
 
 use serde_json::{Value, json};
 
 use tofsim::error::Result;
 use tofsim::optics::Pixels;
-use tofsim::sim::image::{Pixel, PixelFrame};
-use tofsim::sim::setup::ArraySetup;
+use tofsim::sim::image::Pixel;
 
 use crate::text::table::{facts, fixed, grouped, number_or_dash};
 
@@ -18,95 +18,11 @@ use super::sheet::Digits::{Fixed, Shortest};
 use super::sheet::{NamedBytes, NamedText, Sheet};
 use super::writer::Findings;
 
-use statistics::ImageStatistics;
+use statistics::{ImageStatistics, SHOWN};
 
-/// Most rows of the table that is printed.
-const SHOWN: usize = 20;
-
-/// Simulated images of an array, or the part of them that one pixel sees.
-pub struct DepthImages<'a> {
-    /// The array.
-    pub array: &'a ArraySetup,
-    /// Name of the simulation fidelity.
-    pub fidelity: &'static str,
-    /// Number of images.
-    pub images: u64,
-    /// All pixels by row, then column, or a single one.
-    pub pixels: Vec<ImagePixel>,
-}
-
-/// A pixel of the images.
-pub struct ImagePixel {
-    /// Row, from the top.
-    pub row: usize,
-    /// Column, from the left.
-    pub column: usize,
-    /// Direction that it looks at, as a unit vector: to the right, down and forward [1].
-    pub sight: [f64; 3],
-    /// What it expects and what it measured.
-    pub measured: Pixel,
-}
-
-/// A pixel in one image.
-#[derive(Clone, Copy)]
-struct Reading<'a> {
-    image: usize,
-    pixel: &'a ImagePixel,
-    frame: &'a PixelFrame,
-}
-
-impl Reading<'_> {
-    /// Distance along the line of sight, if it is valid [m].
-    fn radial_m(&self) -> Option<f64> {
-        self.frame.valid.then_some(self.frame.radial_m)
-    }
-
-    /// Distance from the sensor's plane, if it is valid [m].
-    fn perpendicular_m(&self) -> Option<f64> {
-        Some(self.radial_m()? * self.pixel.sight[2])
-    }
-
-    /// Standard deviation of the distance, if that is valid and its estimator states one [m].
-    fn sigma_m(&self) -> Option<f64> {
-        self.frame.sigma_m.filter(|_| self.frame.valid)
-    }
-
-    /// Difference from the true distance, if there are both [m].
-    fn error_m(&self) -> Option<f64> {
-        Some(self.radial_m()? - self.pixel.measured.expected.radial_m?)
-    }
-
-    /// Place of what is seen: to the right, down and forward of the sensor [m].
-    fn point(&self) -> Option<[f64; 3]> {
-        let radial_m = self.radial_m()?;
-        Some(self.pixel.sight.map(|part| radial_m * part))
-    }
-}
+pub use readings::{DepthImages, ImagePixel};
 
 impl DepthImages<'_> {
-    /// Returns whether there are all pixels, and not a single one of several.
-    fn is_whole(&self) -> bool {
-        let [rows, columns] = self.array.size();
-        self.pixels.len() == rows * columns
-    }
-
-    /// Returns the readings of an image, by row, then column.
-    fn image(&self, image: usize) -> impl Iterator<Item = Reading<'_>> {
-        self.pixels.iter().filter_map(move |pixel| {
-            Some(Reading { image, pixel, frame: pixel.measured.frames.get(image)? })
-        })
-    }
-
-    /// Returns a value of each pixel in the first image.
-    fn first(&self, value: impl Fn(&Reading) -> Option<f64>) -> Vec<Option<f64>> {
-        self.image(0).map(|one| value(&one)).collect()
-    }
-
-    /// Returns the readings of all images, one after the other.
-    fn readings(&self) -> Vec<Reading<'_>> {
-        (0..self.images as usize).flat_map(|image| self.image(image)).collect()
-    }
-
     fn statistics(&self) -> Vec<ImageStatistics> {
         (0..self.images as usize).map(|image| ImageStatistics::of(self.image(image))).collect()
     }

@@ -3,7 +3,7 @@
 use tofsim::error::Result;
 use tofsim::sim::Stepping;
 use tofsim::sim::image::{ImageFidelity, simulate};
-use tofsim::sim::setup::ArraySetup;
+use tofsim::sim::setup::array::ArraySetup;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
 use crate::choice::{Fidelity, seed, threads, words};

@@ -5,7 +5,8 @@ use std::str::FromStr;
 use tofsim::Note;
 use tofsim::error::{Input, Result};
 use tofsim::scenario::Loaded;
-use tofsim::sim::setup::{ArraySetup, Setup};
+use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
 
 /// Row and column of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use tofsim::error::Result;
 use tofsim::scenario::{self, builtin, keys, show};
-use tofsim::sim::setup::ArraySetup;
+use tofsim::sim::setup::array::ArraySetup;
 
 use crate::report::writer::print_list;
 

@@ -5,7 +5,7 @@ use tofsim_learn::dataset::npy::array_header;
 
 use crate::report::sheet::NamedBytes;
 
-use super::{DepthImages, ImagePixel, Reading};
+use super::readings::{DepthImages, ImagePixel, Reading};
 
 /// A value of a reading, and the array that it is in.
 type Measured = (&'static str, fn(&Reading) -> Option<f64>);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::report::sheet::NamedBytes;
 
-use super::{DepthImages, Reading};
+use super::readings::{DepthImages, Reading};
 
 /// Meaning of a point's numbers.
 const MEANING: &str =

@@ -9,7 +9,7 @@ use tofsim::error::{Input, Result};
 use crate::report::sheet::NamedBytes;
 use crate::text::svg::{Canvas, Drawn, picture_of};
 
-use super::{DepthImages, Reading};
+use super::readings::{DepthImages, Reading};
 
 /// Longest side of a panel [px].
 const PANEL: usize = 480;

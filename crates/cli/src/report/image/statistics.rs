@@ -8,7 +8,10 @@ use crate::report::sheet::Digits::{Fixed, Shortest};
 use crate::report::sheet::Sheet;
 use crate::text::table::number_or_dash;
 
-use super::{Reading, SHOWN};
+use super::readings::Reading;
+
+/// Most rows of a table that is printed.
+pub const SHOWN: usize = 20;
 
 /// Statistics of the pixels of an image.
 #[derive(Serialize)]

@@ -7,12 +7,12 @@ use rand_chacha::rand_core::Rng;
 use crate::error::Result;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Budget, PixelBudgets, Pixels};
-use crate::scenario::dark::Measured;
 use crate::scenario::{Loaded, MOST_SEED, Scenario, dark, offsets};
 use crate::sensor::streams::{Source, stream};
 
 use super::Setup;
 use super::detector::by_budget;
+use super::pixel_files::PixelFiles;
 
 /// Largest number of columns, by which pixels are numbered in random streams: a pixel's does not depend on the size of
 /// its array.
@@ -24,15 +24,6 @@ pub struct ArraySetup {
     common: Setup,
     /// The light on each pixel; `None` for a single one that sees a cone.
     budgets: Option<PixelBudgets>,
-}
-
-/// What files say of the pixels of an array.
-#[derive(Clone, Debug, Default)]
-pub(super) struct PixelFiles {
-    /// Additional delay of each pixel's signal path; empty if there is none [ps].
-    offsets_ps: Vec<f64>,
-    /// Dark count rates that were measured.
-    measured: Option<Measured>,
 }
 
 impl ArraySetup {
