@@ -49,11 +49,11 @@ impl DarkRates {
         DarkRates { parts, unit_hz, wiring, one_hz: rate(ON_TDC) * unit_hz }
     }
 
-    /// Computes the rate of the pixel at a place of an array: measured, or one of a log-normal distribution whose
-    /// quantiles lie scattered over the array, so that the rates are not random [1/s].
-    pub fn of_pixel(spad: &Spad, measured: Option<f64>, place: usize) -> Self {
+    /// Computes the rate of the pixel with such a number: measured, or one of a log-normal distribution whose
+    /// quantiles lie scattered over the numbers, so that the rates are not random [1/s].
+    pub fn of_pixel(spad: &Spad, measured: Option<f64>, number: usize) -> Self {
         let spread = || {
-            let part = ((place as f64 + 0.5) * GOLDEN).fract();
+            let part = ((number as f64 + 0.5) * GOLDEN).fract();
             let factor = if spad.dark_spread == 0.0 { 1.0 } else { spread(spad.dark_spread, part) };
             spad.dark_rate_hz * factor
         };

@@ -2,6 +2,9 @@
 
 use super::air::Air;
 
+/// Part of a beam that sums of solid angles leave over where surfaces end all of it [1].
+const ROUNDING: f64 = 1e-9;
+
 /// Light returned by surfaces.
 #[derive(Clone, Debug, Default)]
 pub struct Light {
@@ -76,7 +79,8 @@ impl Haze {
     fn open_sr(&self, at_m: f64) -> f64 {
         let before = self.hidden.partition_point(|[end_m, _]| *end_m < at_m);
         let hidden_sr = before.checked_sub(1).map_or(0.0, |last| self.hidden[last][1]);
-        (self.cone_sr - hidden_sr).max(0.0)
+        let open_sr = self.cone_sr - hidden_sr;
+        if open_sr > ROUNDING * self.cone_sr { open_sr } else { 0.0 }
     }
 
     /// Returns the backscatter from a section so short that the beam has the same width throughout [1/m^2].

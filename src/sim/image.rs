@@ -125,7 +125,10 @@ pub fn simulate(
     match fidelity {
         ImageFidelity::Histograms => {
             let histograms = Histograms::new(setup)?;
-            frames.extend((0..count).map(|index| PixelFrame::of(&histograms.frame(index))));
+            for index in 0..count {
+                poll_stop(stop)?;
+                frames.push(PixelFrame::of(&histograms.frame(index)));
+            }
         }
         ImageFidelity::Shots(stepping) => {
             let mut take = |frame: &Frame| {

@@ -14,8 +14,8 @@ use super::Setup;
 use super::detector::by_budget;
 use super::pixel_files::PixelFiles;
 
-/// Largest number of columns, by which pixels are numbered in random streams: a pixel's does not depend on the size of
-/// its array.
+/// Largest number of columns, by which pixels are numbered for random streams and dark rates: a pixel's number does not
+/// depend on the size of its array.
 const MOST_COLUMNS: usize = 64;
 
 /// An array of pixels, ready to run. Each pixel is simulated as an instrument of one pixel.
@@ -87,7 +87,7 @@ impl ArraySetup {
         } else {
             let measured = measured.as_ref().and_then(|rates| rates.rate(row, column));
             let number = row * MOST_COLUMNS + column;
-            let dark = DarkRates::of_pixel(&scenario.spad, measured, place);
+            let dark = DarkRates::of_pixel(&scenario.spad, measured, number);
             (dark, seed_of(scenario.seed, number as u64))
         };
         common.with_light(budget.with_dark_rates(&dark), dark, seed)
