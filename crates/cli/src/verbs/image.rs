@@ -23,9 +23,9 @@ use super::terminal::{Console, stop_signal};
 /// formats of the files, and what pixels do not share yet.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
-    tofsim image -o out                          40 x 30 pixels\n  \
+    tofsim image -o out             40 x 30 pixels\n  \
     tofsim image -s array.rows=8 -s array.columns=6 --images 100\n  \
-    tofsim image --pixel 20,15                   one pixel of them, the same frames\n  \
+    tofsim image --pixel 20,15      one pixel of them, the same frames\n  \
     tofsim image mine.toml --fidelity histogram -o out")]
 pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
