@@ -92,7 +92,7 @@ impl DepthImages<'_> {
             let pixel = |pixel: &ImagePixel| format!("row {}, column {}", pixel.row, pixel.column);
             facts.extend(self.pixels.first().map(|one| ("pixel", pixel(one))));
         }
-        facts.push(("estimator", setup.params.estimator.name().to_owned()));
+        facts.push(("estimator", setup.params.estimator.estimator().to_owned()));
         facts.push(("fidelity", self.fidelity.to_owned()));
         let range = |[least, median, most]: [f64; 3]| {
             let [least, median, most] = [least, median, most].map(|hits| fixed(hits, 1));
@@ -121,7 +121,7 @@ impl Findings for DepthImages<'_> {
         };
         let mut object = json!({
             "fidelity": self.fidelity,
-            "estimator": setup.params.estimator.name(),
+            "estimator": setup.params.estimator.estimator(),
             "rows": rows,
             "columns": columns,
             "geometry": self.geometry(),

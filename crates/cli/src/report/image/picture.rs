@@ -35,7 +35,8 @@ type Panel = (String, Vec<Option<f64>>);
 /// When the plotting library fails.
 pub fn svg(images: &DepthImages) -> Result<String> {
     let setup = images.array.common();
-    let of_depth = format!("depth along the line of sight [m], {}", setup.params.estimator.name());
+    let of_depth =
+        format!("depth along the line of sight [m], {}", setup.params.estimator.estimator());
     let mut panels: Vec<Panel> = vec![(of_depth, images.first(|one| one.radial_m()))];
     if setup.params.estimator.states_sigma() {
         let sigma_mm = |one: &Reading| one.sigma_m().map(|sigma_m| 1e3 * sigma_m);
