@@ -5,6 +5,9 @@
 module tof_top #(
     parameter integer BinBits = 8,               // see histogram_builder
     parameter integer CountBits = 16,
+    parameter integer Rows = 1,                  // see frame_ctrl
+    parameter integer Columns = 1,
+    parameter integer Banks = 1,
     parameter integer SumBits = 36,              // see forward1
     // Word formats and table of depth_estimator, see forward1, tansig and forward2
     parameter integer W1Bits = 16,
@@ -88,7 +91,9 @@ module tof_top #(
     parameter LogFile = "rtl_ref/log2.mem",
     parameter ProgramFile = "rtl_ref/solver.mem",
     parameter CodeFile = "rtl_ref/codes.mem",
-    parameter HistogramFile = "rtl_ref/histogram.mem"
+    parameter HistogramFile = "rtl_ref/histogram.mem",
+    // Highest number of column_stop, which has a bit more than it needs in a design of one column.
+    parameter integer LastStop = Columns > 1 ? Columns - 1 : 1
 ) (
     // Board
     input wire clk_in,                // oscillator
@@ -101,7 +106,10 @@ module tof_top #(
     output wire laser_on_lvds_p,      // positive pin
     output wire laser_on_lvds_n,      // negative pin
     // SPAD array
-    input wire tdc_stop,              // its output, asynchronous
+    input wire tdc_stop,              // output of the selected row's SPAD in column 0, asynchronous
+    // verilator lint_off UNUSEDSIGNAL
+    input wire [LastStop:1] column_stop,  // outputs of the others, by column, asynchronous
+    // verilator lint_on UNUSEDSIGNAL
     output wire ring_on,              // tdc_stop is to come from a ring oscillator, for a calibration
     output wire spad_rst,             // recharges the SPAD and keeps it off
     output wire [39:0] spad_sel,      // row, one-hot
@@ -125,7 +133,9 @@ module tof_top #(
     output wire hist_valid,           // a word of the histogram is being read
     output wire [BinBits-1:0] hist_bin,  // which word
     output wire [CountBits-1:0] hist_count,  // the word [hits]
-    output wire frame_done            // the frame has ended; one cycle
+    output wire frame_done,           // the frame has ended; one cycle
+    output wire [5:0] depth_row,      // row of the depth, while algo_done is high
+    output wire [5:0] depth_column    // its column
 );
     wire clk_sys, clk_laser;
     wire rst_sys, rst_laser;
@@ -147,6 +157,18 @@ module tof_top #(
     assign tdc_code = CodeSource ? preloaded_code : measured_code;
     assign tdc_valid = CodeSource ? preloaded_valid : measured_valid;
     assign count = HistogramSource ? preloaded_count : built_count;
+
+    // Each histogram shows zero but for the one that is read.
+    wire bank;
+    wire [5:0] row;
+    wire [2*CountBits*Columns-1:0] shown;
+    reg [CountBits-1:0] any_shown;
+    integer k;
+    always @* begin
+        any_shown = {CountBits{1'b0}};
+        for (k = 0; k < 2 * Columns; k = k + 1) any_shown = any_shown | shown[k*CountBits+:CountBits];
+    end
+    assign built_count = any_shown;
 
     wire signed [35:0] network_depth, centroid_depth, likelihood_depth;
     wire network_done, network_read_en, centroid_done, centroid_read_en, likelihood_done, likelihood_read_en;
@@ -244,7 +266,10 @@ module tof_top #(
         .ShotsPerFrame(ShotsPerFrame),
         .Preloaded(HistogramSource),
         .DrainCycles(DrainCycles),
-        .Calibrated(Calibrated)
+        .Calibrated(Calibrated),
+        .Rows(Rows),
+        .Columns(Columns),
+        .Banks(Banks)
     ) frame_ctrl (
         .clk_sys(clk_sys),
         .rst(rst_sys),
@@ -256,6 +281,10 @@ module tof_top #(
         .calibrating(calibrating),
         .clear(clear),
         .clear_addr(clear_addr),
+        .bank(bank),
+        .depth_column(depth_column),
+        .row(row),
+        .depth_row(depth_row),
         .algo_start(algo_start),
         .algo_done(algo_done)
     );
@@ -288,11 +317,14 @@ module tof_top #(
         .ob(laser_on_lvds_n)
     );
 
-    spad_control spad_control (
+    spad_control #(
+        .Rows(Rows)
+    ) spad_control (
         .clk_sys(clk_sys),
         .rst(rst_sys),
         .mode(mode_sync),
         .pre_start(pre_start),
+        .row(row),
         .spad_rst(spad_rst),
         .spad_sel(spad_sel)
     );
@@ -358,17 +390,102 @@ module tof_top #(
 
     histogram_builder #(
         .BinBits(BinBits),
-        .CountBits(CountBits)
+        .CountBits(CountBits),
+        .Columns(Columns),
+        .Banks(Banks)
     ) histogram_builder (
         .clk_sys(clk_sys),
         .clear(clear && !HistogramSource),
         .clear_addr(clear_addr),
+        .bank(bank),
+        .depth_column(depth_column),
         .tdc_valid(tdc_valid && !HistogramSource),
         .tdc_code(tdc_code),
         .read_en(read_en && !HistogramSource),
         .read_addr(read_addr),
-        .count(built_count)
+        .count(shown[0+:CountBits])
     );
+
+    // Nothing of it stays in a design of one bank.
+    localparam [0:0] Banked = Banks > 1;
+    histogram_builder #(
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .Columns(Columns),
+        .Banks(Banks),
+        .Bank(1'b1)
+    ) second_bank (
+        .clk_sys(clk_sys),
+        .clear(clear && Banked),
+        .clear_addr(clear_addr),
+        .bank(bank),
+        .depth_column(depth_column),
+        .tdc_valid(tdc_valid && Banked),
+        .tdc_code(tdc_code),
+        .read_en(read_en && Banked),
+        .read_addr(read_addr),
+        .count(shown[CountBits+:CountBits])
+    );
+
+    // The other columns of the array, each with a TDC of its own.
+    genvar c, b;
+    generate
+        for (c = 1; c < Columns; c = c + 1) begin : channel
+            wire code_valid;
+            wire [BinBits-1:0] code;
+            if (Banks == 1) assign shown[(2*c+1)*CountBits+:CountBits] = {CountBits{1'b0}};
+
+            tdc #(
+                .Taps(Taps),
+                .CoarseBits(CoarseBits),
+                .BinBits(BinBits),
+                .Cycle(Cycle),
+                .Digits(Digits),
+                .AgeBits(AgeBits),
+                .DelaysFile(DelaysFile),
+                .CountStages(CountStages),
+                .Decoder(Decoder),
+                .Order(Order),
+                .CalFile(CalFile)
+            ) tdc (
+                .clk_sys(clk_sys),
+                .rst(rst_dsp),
+                .start(start),
+                .tdc_stop(column_stop[c]),
+                .free(1'b0),
+                .calibrated_age({AgeBits{1'b0}}),
+                // Only a calibration looks at it.
+                // verilator lint_off PINCONNECTEMPTY
+                .n_valid(),
+                .n(),
+                // verilator lint_on PINCONNECTEMPTY
+                .tdc_code(code),
+                .tdc_valid(code_valid)
+            );
+
+            for (b = 0; b < Banks; b = b + 1) begin : banks
+                histogram_builder #(
+                    .BinBits(BinBits),
+                    .CountBits(CountBits),
+                    .Columns(Columns),
+                    .Banks(Banks),
+                    .Column(c),
+                    .Bank(b)
+                ) histogram_builder (
+                    .clk_sys(clk_sys),
+                    .clear(clear),
+                    .clear_addr(clear_addr),
+                    .bank(bank),
+                    .depth_column(depth_column),
+                    .tdc_valid(code_valid),
+                    .tdc_code(code),
+                    .read_en(read_en),
+                    .read_addr(read_addr),
+                    .count(shown[(2*c+b)*CountBits+:CountBits])
+                );
+            end
+        end
+    endgenerate
 
     histogram_preload #(
         .BinBits(BinBits),

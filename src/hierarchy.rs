@@ -7,7 +7,7 @@
 use crate::firmware::histogram_builder;
 use crate::firmware::tof_top::{FirmwareEstimator, Params};
 use crate::kernel::signals::{Signal, SignalFormat};
-use crate::kernel::sizes::Sizes;
+use crate::kernel::sizes::{Size, Sizes};
 
 mod build;
 mod entry;
@@ -22,8 +22,16 @@ pub use part::{Part, changes, copy};
 pub fn entries(params: &Params) -> Vec<Entry> {
     let absent: Vec<_> =
         params.left_out().into_iter().map(|module| format!("{TOP}.{module}")).collect();
-    let mut entries = fitted(Build::entries(params.estimator), &params.sizes());
+    let sizes = params.sizes();
+    let mut entries = fitted(Build::entries(params.estimator), &sizes);
     entries.retain(|entry| !absent.iter().any(|scope| within(&entry.scope, scope)));
+    if sizes.of(Size::Scanned) > 0 {
+        // What a histogram of several shows is in the word that all of them show, and nowhere else.
+        let builders = ["histogram_builder", "second_bank"].map(|name| format!("{TOP}.{name}"));
+        let is_own =
+            |entry: &Entry| entry.signal.name == "count" && builders.contains(&entry.scope);
+        entries.retain(|entry| !is_own(entry));
+    }
     entries
 }
 
@@ -45,6 +53,8 @@ fn fitted(entries: Vec<Entry>, sizes: &Sizes) -> Vec<Entry> {
     let fit = |entry: &Entry| {
         let kind = match entry.kind {
             kind if entry.signal.is_shared(sizes) => kind,
+            // Its registers stay what they are, and nobody reads them.
+            _ if entry.signal.only_if == Some(Size::Scanned) => return None,
             Kind::Output if !reads(entry) => Kind::Internal,
             _ => return None,
         };

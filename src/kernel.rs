@@ -6,6 +6,7 @@ mod clocked;
 pub mod connect;
 pub mod module;
 pub mod pulse;
+pub mod scan;
 pub mod signals;
 pub mod sizes;
 mod tap_groups;

@@ -1,5 +1,6 @@
 //! A run: the device, the light on it and the acquisition computer, stepped in time.
 
+pub mod array_device;
 pub(crate) mod callback;
 mod clockwork;
 pub(crate) mod cycles;

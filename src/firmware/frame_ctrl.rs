@@ -1,4 +1,5 @@
-//! Runs a frame: clear the histogram, acquire, let the TDC drain, estimate, again.
+//! Runs a frame: clear the histograms, acquire, let the TDCs drain, estimate column by column, again. In an array a
+//! frame is a row, and with two banks of histograms one is read while the other is filled.
 //!
 //! Mirrors `rtl_ref/frame_ctrl.v`. All outputs are registers that change with the state.
 //!
@@ -8,15 +9,22 @@
 //! pulses    clear      acquire        -         algo_start^   ^frame_done
 //! ```
 //!
-//! `P` is the laser period; the KC705 has 256 bins and a Drain of 16 cycles, and 268 are those of its network.
+//! `P` is the laser period; the KC705 has 256 bins and a Drain of 16 cycles, and 268 are those of its network. In an array
+//! Estimate lasts as long again for each further column. With two banks there is no Estimate: Clear follows Drain, and
+//! `frame_done` comes while the next row acquires. A row whose predecessor is still being estimated waits in the last
+//! cycle of Drain.
+//!
 //! `calibrating` holds the last cycle of Clear. `dsp_en` low holds the machine before the estimator's start (in the
 //! last cycle of Drain) and keeps the histogram. With a preloaded histogram Acquire and Drain are skipped (thesis 6.7.4), and `dsp_en` low holds
 //! the last cycle of Clear.
 
+use crate::kernel::scan::{Place, Scan};
 use crate::kernel::{AWAKE, Clocked, U, asleep_if};
 use crate::{signals, states};
 
 use super::histogram_builder::{self, Bin};
+
+pub mod timing;
 
 /// Length of Drain unless elaboration says otherwise: longer than what a photon of the last shot takes to
 /// its word of the histogram [cycles of clk_sys].
@@ -47,6 +55,8 @@ pub struct Params {
     pub preloaded: bool,
     /// Length of Drain, 1 to 65,536 [cycles of clk_sys].
     pub drain_cycles: u64,
+    /// Rows, columns and banks.
+    pub scan: Scan,
 }
 
 impl Params {
@@ -100,6 +110,24 @@ signals! {
         /// Cycles spent in Drain.
         #[size(DrainBits)]
         pub(crate) drain: U<16>,
+        /// Bank that is filled.
+        #[only_if(Scanned)]
+        pub bank: bool,
+        /// Column that is read.
+        #[only_if(Scanned)]
+        #[view(heading = "Control")]
+        pub depth_column: Place,
+        /// Row that acquires.
+        #[only_if(Scanned)]
+        #[view(heading = "Control")]
+        pub row: Place,
+        /// Row whose depths are estimated.
+        #[only_if(Scanned)]
+        #[view(heading = "Control")]
+        pub depth_row: Place,
+        /// The other bank is being read.
+        #[only_if(Scanned)]
+        estimating: bool,
     }
 }
 
@@ -112,6 +140,23 @@ impl FrameCtrl {
     /// Shots begun in this frame.
     pub fn shots(&self) -> u64 {
         self.shots.get()
+    }
+
+    /// Returns whether the estimator works.
+    #[inline(always)]
+    pub fn is_estimating(&self) -> bool {
+        self.estimating || self.state == State::Estimate
+    }
+
+    /// Hands the histograms of a row over to the estimator, and turns to the next row.
+    #[inline(always)]
+    fn hand_over(&mut self, scan: &Scan) {
+        self.depth_row = self.row;
+        self.row = if self.row == scan.last_row() { U::new(0) } else { self.row + 1 };
+        if scan.is_banked() {
+            (self.state, self.clear) = (State::Clear, true);
+            (self.bank, self.estimating) = (!self.bank, true);
+        }
     }
 }
 
@@ -146,12 +191,22 @@ impl Clocked for FrameCtrl {
             }
             State::Acquire => {}
             State::Drain if q.drain != p.last_drain() => d.drain = q.drain + 1,
-            State::Drain if i.dsp_en => (d.state, d.algo_start) = (State::Estimate, true),
+            State::Drain if i.dsp_en && !q.estimating => {
+                (d.state, d.algo_start) = (State::Estimate, true);
+                d.hand_over(&p.scan);
+            }
             State::Drain => {}
-            State::Estimate if i.algo_done => {
-                (d.state, d.clear, d.frame_done) = (State::Clear, true, true);
+            State::Estimate if i.algo_done && q.depth_column == p.scan.last_column() => {
+                (d.state, d.clear) = (State::Clear, true);
             }
             State::Estimate => {}
+        }
+        if i.algo_done && q.is_estimating() {
+            if q.depth_column != p.scan.last_column() {
+                (d.depth_column, d.algo_start) = (q.depth_column + 1, true);
+            } else {
+                (d.depth_column, d.estimating, d.frame_done) = (U::new(0), false, true);
+            }
         }
         if i.rst || i.dsp_rst {
             *d = Self::default();
@@ -161,14 +216,15 @@ impl Clocked for FrameCtrl {
     /// Nobody looks at how far Drain has come.
     #[inline(always)]
     fn quiet(&self, i: &In, p: &Params) -> u64 {
-        if i.rst || i.dsp_rst || self.algo_start || self.frame_done {
+        let ends = i.algo_done && self.estimating;
+        if i.rst || i.dsp_rst || self.algo_start || self.frame_done || ends {
             return AWAKE;
         }
         match self.state {
             State::Clear => AWAKE,
             State::Acquire => asleep_if(!i.start),
             State::Drain if self.drain != p.last_drain() => p.last_drain() - self.drain.get(),
-            State::Drain => asleep_if(!i.dsp_en),
+            State::Drain => asleep_if(!i.dsp_en || self.estimating),
             State::Estimate => asleep_if(!i.algo_done),
         }
     }
@@ -190,6 +246,7 @@ mod tests {
         histogram: histogram_builder::Params { bins: 256, count_bits: 16 },
         preloaded: false,
         drain_cycles: DRAIN_CYCLES,
+        scan: Scan { rows: 1, columns: 1, banks: 1 },
     };
     const ENABLED: In = In {
         rst: false,
@@ -249,6 +306,74 @@ mod tests {
     fn dsp_rst_returns_to_clear_from_anywhere() {
         let reset = In { dsp_rst: true, ..ENABLED };
         assert_eq!(draining().next(&reset, &SHORT), FrameCtrl::default());
+    }
+
+    /// Runs 40,000 cycles with a shot in every third cycle and an estimator of `cycles`. Returns row and column of each
+    /// depth, with the bank that is filled meanwhile, the cycles from frame to frame, and those from the fall of
+    /// `acquire` to the last depth of each row.
+    fn scanned(p: &Params, cycles: u64) -> (Vec<[u64; 3]>, Vec<u64>, Vec<u64>) {
+        let (mut ctrl, mut due, mut since, mut ended, mut handed) =
+            (FrameCtrl::default(), None, 0, 0, 0);
+        let (mut depths, mut frames, mut latencies) = (Vec::new(), Vec::new(), Vec::new());
+        for cycle in 0..40_000 {
+            if ctrl.algo_start {
+                due = Some(cycle + 1 + cycles);
+                handed = if ctrl.depth_column == 0 { ended } else { handed };
+            }
+            let algo_done = due == Some(cycle);
+            if algo_done {
+                let place = [ctrl.depth_row, ctrl.depth_column].map(|place| place.get());
+                depths.push([place[0], place[1], ctrl.bank.into()]);
+                if place[1] == p.scan.last_column() {
+                    latencies.push(cycle - handed);
+                }
+            }
+            if ctrl.frame_done {
+                frames.push(cycle);
+            }
+            let (start, acquired) = (ctrl.acquire && since == 3, ctrl.acquire);
+            since = if start || !acquired { 1 } else { since + 1 };
+            ctrl = ctrl.next(&In { start, algo_done, ..ENABLED }, p);
+            if ctrl.acquire != acquired {
+                (since, ended) = (0, cycle + 1);
+            }
+        }
+        let periods = frames.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        (depths, periods, latencies)
+    }
+
+    #[test]
+    fn an_array_is_estimated_row_by_row_in_as_many_cycles_as_it_promises() {
+        for (banks, columns, cycles) in
+            [(1, 1, 267), (1, 2, 50), (2, 1, 20), (2, 4, 50), (2, 4, 500)]
+        {
+            let p = Params { scan: Scan { rows: 3, columns, banks }, ..SHORT };
+            let (depths, periods, latencies) = scanned(&p, cycles);
+            let (columns, banks) = (u64::from(columns), u64::from(banks));
+            let place = |k: u64| [k / columns % 3, k % columns, (k / columns + 1) % banks];
+            assert_eq!(depths, (0..depths.len() as u64).map(place).collect::<Vec<_>>());
+            let timing::RowTiming { row, latency, .. } = p.timing(3, cycles);
+            let (first, others) = latencies.split_first().unwrap();
+            assert!(*first <= latency && others.len() > 15, "{p:?}");
+            assert!(others.iter().all(|&cycles| cycles == latency), "{p:?}: {others:?}");
+            assert!(periods.iter().all(|&cycles| cycles == row), "{p:?}: {periods:?}");
+        }
+    }
+
+    #[test]
+    fn an_image_of_40_rows_takes_57_7_ms() {
+        let scan = Scan { rows: 40, columns: 30, banks: 2 };
+        let p = Params { shots_per_frame: 30_000, scan, ..SHORT };
+        // The network and the likelihood estimator at 125 MHz, with a shot in six cycles.
+        for (cycles, estimation) in [(267, 8_070), (3_779, 113_430)] {
+            let timing = p.timing(6, cycles);
+            assert_eq!(
+                [timing.estimation, timing.row, timing.image],
+                [estimation, 180_273, 7_210_920]
+            );
+        }
+        let p = Params { scan: Scan { banks: 1, ..scan }, ..p };
+        assert_eq!(p.timing(6, 267).row, 180_273 + 8_070);
     }
 
     #[test]

@@ -4,9 +4,11 @@
 //! before hit, hit before read. A hit takes the two cycles after that of `tdc_valid`: its word is read in
 //! the first, and written back, one more, in the second. So `tdc_valid` has to stay low and `tdc_code` to
 //! hold for two cycles: codes are a shot apart, six cycles or more, or four where one is late and the next
-//! early. A hit that meets `clear` in any of its three cycles is lost. Nothing has a reset.
+//! early. A hit that meets `clear` in any of its three cycles is lost. Nothing has a reset. In an array there is one for
+//! each column and bank, which is filled or read when it is the turn of both ([`In::at`]).
 
 use crate::kernel::U;
+use crate::kernel::scan::{self, Scan};
 use crate::{module_of_registers, signals};
 
 /// Words of the histogram unless elaboration says otherwise.
@@ -57,6 +59,17 @@ impl Params {
     }
 }
 
+/// Place of a histogram in an array: Verilog parameters too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// How the array is scanned.
+    pub scan: Scan,
+    /// Column of this histogram.
+    pub column: u64,
+    /// Its bank.
+    pub bank: bool,
+}
+
 signals! {
     /// Input ports.
     pub struct In {
@@ -65,6 +78,12 @@ signals! {
         /// Word to clear.
         #[size(BinBits)]
         pub clear_addr: Bin,
+        /// Bank that is filled.
+        #[only_if(Scanned)]
+        pub bank: bool,
+        /// Column that is read.
+        #[only_if(Scanned)]
+        pub depth_column: scan::Place,
         /// Counts a hit; low for the next two cycles.
         pub tdc_valid: bool,
         /// Word of the hit; holds for the next two cycles.
@@ -75,6 +94,24 @@ signals! {
         /// Word to show.
         #[size(BinBits)]
         pub read_addr: Bin,
+    }
+}
+
+impl In {
+    /// Returns what a histogram at `place` takes of it: `clear` and hits while its bank is filled, reads while the other
+    /// one is and its column is read.
+    #[inline(always)]
+    pub fn at(self, place: &Place) -> Self {
+        let Place { scan, column, bank } = *place;
+        let fills = scan.banks == 1 || self.bank == bank;
+        let shows = scan.banks == 1 || self.bank != bank;
+        let shows = shows && (scan.columns == 1 || self.depth_column == column);
+        In {
+            clear: self.clear && fills,
+            tdc_valid: self.tdc_valid && fills,
+            read_en: self.read_en && shows,
+            ..self
+        }
     }
 }
 
@@ -176,6 +213,8 @@ mod tests {
     const READ_9: In = In {
         clear: false,
         clear_addr: U::new(3),
+        bank: false,
+        depth_column: U::new(0),
         tdc_valid: false,
         tdc_code: U::new(9),
         read_en: true,
@@ -221,6 +260,19 @@ mod tests {
             histogram.tick(&In { tdc_valid: cycle == 0, ..READ_9 }, &p);
         }
         assert_eq!((histogram.ram.len(), histogram.ram[9].get()), (16, 0));
+    }
+
+    #[test]
+    fn a_histogram_of_an_array_waits_for_its_turn() {
+        let scan = Scan { rows: 4, columns: 3, banks: 2 };
+        let all = In { clear: true, tdc_valid: true, read_en: true, ..READ_9 };
+        for (bank, column) in [(false, 0), (false, 2), (true, 0), (true, 2)] {
+            let i = In { bank, depth_column: U::new(column), ..all };
+            let own = i.at(&Place { scan, column: 2, bank: true });
+            assert_eq!([own.clear, own.tdc_valid], [bank; 2]);
+            assert_eq!(own.read_en, !bank && column == 2);
+            assert_eq!(i.at(&Place { scan: Scan::default(), column: 0, bank: false }), i);
+        }
     }
 
     #[test]

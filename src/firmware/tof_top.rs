@@ -26,16 +26,19 @@ use super::uart_bridge::{self, UartBridge};
 use super::vcsel_driver::{self, VcselDriver};
 use super::{lvds_output, pll};
 
+pub mod channel;
 pub mod estimator_params;
 mod estimators;
 mod nets;
 mod ports;
+mod scanned;
 mod sizes;
 pub mod slot;
 pub mod slot_inputs;
 pub mod slotted;
 pub mod status;
 
+use channel::Channel;
 pub use estimators::FirmwareEstimator;
 pub use ports::{Clocks, CodeSource, HistogramSource, Nets, Params, Pins};
 use slot::SlotOut;
@@ -74,6 +77,10 @@ pub struct TofTop {
     pub code_preload: CodePreload,
     /// Histogram.
     pub histogram_builder: HistogramBuilder,
+    /// The histogram that is read while that one is filled, and the other way round.
+    pub second_bank: HistogramBuilder,
+    /// The other columns of an array.
+    pub channels: Vec<Channel>,
     /// Its stand-in.
     pub histogram_preload: HistogramPreload,
     /// Neural estimator.
@@ -106,6 +113,7 @@ connect! {
         wire [mode_sync, laser_freq_sync, laser_en_sync] <- this.control_sync;
         wire [dsp_en_sync, dsp_rst_sync] <- this.control_sync;
         wire [clear, clear_addr, acquire, algo_start] <- this.frame_ctrl;
+        wire [bank, row] <- this.frame_ctrl;
         wire [pre_start, start] <- this.vcsel_driver.registers;
         wire [read_en, read_addr] <- this.slot;
         output laser_on_lvds_p <- this.lvds_output.o;
@@ -117,7 +125,7 @@ connect! {
         output hist_valid <- this.slot.read_en;
         output hist_bin <- this.slot.read_addr;
         output hist_count <- this.nets.count;
-        output frame_done <- this.frame_ctrl.frame_done;
+        output [frame_done, depth_row, depth_column] <- this.frame_ctrl;
         output locked <- this.pll.locked;
         output uart_tx <- this.uart_bridge.uart_tx;
         output armed <- this.laser_guard.registers.armed;
@@ -158,6 +166,7 @@ connect! {
         rst <- this.reset_sync_sys.rst_sync;
         mode <- this.control_sync.mode_sync;
         pre_start <- this.vcsel_driver.registers.pre_start;
+        row <- this.frame_ctrl.row;
     }
     tdc(clk_sys): tdc::In {
         rst <- this.nets.rst_dsp;
@@ -176,7 +185,12 @@ connect! {
         start <- this.vcsel_driver.registers.start;
     }
     histogram_builder(clk_sys): histogram_builder::In {
-        [clear, clear_addr] <- this.frame_ctrl;
+        [clear, clear_addr, bank, depth_column] <- this.frame_ctrl;
+        [tdc_valid, tdc_code] <- this.nets;
+        [read_en, read_addr] <- this.slot;
+    } -> { count: this.nets.count, }
+    second_bank(clk_sys): histogram_builder::In {
+        [clear, clear_addr, bank, depth_column] <- this.frame_ctrl;
         [tdc_valid, tdc_code] <- this.nets;
         [read_en, read_addr] <- this.slot;
     } -> { count: this.nets.count, }
@@ -237,7 +251,15 @@ impl TofTop {
         let histogram_builder = HistogramBuilder::new(&p.histogram);
         let tdc_calibration = p.tdc_calibration.as_ref().map(TdcCalibration::new);
         let tdc_calibration = tdc_calibration.unwrap_or_default();
-        let mut top = TofTop { pins, histogram_builder, tdc_calibration, ..TofTop::default() };
+        let (second_bank, channels) = channel::beside(&p.histogram, &p.frame_ctrl.scan);
+        let mut top = TofTop {
+            pins,
+            histogram_builder,
+            second_bank,
+            channels,
+            tdc_calibration,
+            ..TofTop::default()
+        };
         top.settle(p);
         top
     }
@@ -256,6 +278,9 @@ impl TofTop {
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let tdc_calibration = p.tdc_calibration.as_ref().map(|p| (Wires::tdc_calibration(self), p));
         let histogram_builder = Wires::histogram_builder(self);
+        if !p.frame_ctrl.scan.is_single() {
+            self.scan(p, &tdc, &histogram_builder);
+        }
         let estimator = self.slot_inputs(p);
 
         self.reset_sync_sys.tick(&reset_sync_sys, &());
@@ -268,7 +293,7 @@ impl TofTop {
         if let Some((inputs, p)) = tdc_calibration {
             self.tdc_calibration.tick(&inputs, p);
         }
-        self.histogram_builder.tick(&histogram_builder, &p.histogram);
+        self.histogram_builder.tick(&p.first_bank(histogram_builder), &p.histogram);
         if let Some(inputs) = estimator {
             self.estimate(p, inputs);
         }

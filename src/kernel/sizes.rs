@@ -72,6 +72,16 @@ sizes! { s:
     Calibrated = s.calibrates.into();
     /// 1 if a host controls the firmware through registers.
     Hosted = s.hosted.into();
+    /// Rows of the array.
+    Rows = s.rows;
+    /// Columns of the array.
+    Columns = s.columns;
+    /// Number of the last column.
+    LastColumn = s.columns - 1;
+    /// Banks of histograms.
+    Banks = s.banks;
+    /// 1 if there is more than one row, column or bank.
+    Scanned = u32::from(s.rows * s.columns * s.banks > 1);
     /// Bits of a number of hits of a calibration.
     HitsBits = s.hits_log2 + 1;
     /// Bits of a sum over the hits of a calibration.

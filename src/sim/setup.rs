@@ -83,7 +83,7 @@ pub struct Setup {
     pub(super) light: Light,
     /// Light on all SPADs that are simulated, if these are more.
     row_light: Option<Light>,
-    pins: Pins,
+    pub(super) pins: Pins,
     /// Seed of the random streams: the scenario's, or one of a pixel.
     pub(super) seed: u64,
     /// What files say of an array's pixels.

@@ -63,9 +63,11 @@ fn vector(output: bool, width: u32) -> PortShape {
     PortShape { output, width, words: None }
 }
 
-/// Ports for the most neurons, with a calibration and a host; all else is as large as by default.
+/// Ports for the most neurons, with a calibration, a host, a second column and a second bank; all else is as large as by default.
 fn sizes() -> Sizes {
-    Sizes { neurons: MOST_NEURONS as u32, calibrates: true, hosted: true, ..Sizes::default() }
+    let (columns, banks) = (2, 2);
+    let with_all = Sizes { calibrates: true, hosted: true, columns, banks, ..Sizes::default() };
+    Sizes { neurons: MOST_NEURONS as u32, ..with_all }
 }
 
 /// Ports of each module as Rust has them; a module with several instances has one name for all.
@@ -74,7 +76,11 @@ fn rust_ports() -> BTreeMap<String, Ports> {
     let entries = every_entry_of(&sizes()).into_iter();
     for entry in entries.filter(|entry| entry.kind != Kind::Internal) {
         let instance = entry.scope.rsplit('.').next().unwrap();
-        let module = if instance.starts_with("reset_sync_") { "reset_sync" } else { instance };
+        let module = match instance {
+            _ if instance.starts_with("reset_sync_") => "reset_sync",
+            "second_bank" => "histogram_builder",
+            _ => instance,
+        };
         let port = vector(entry.kind == Kind::Output, entry.signal.width);
         let known = modules.entry(module.to_owned()).or_default();
         let before = known.insert(entry.signal.name.clone(), port);

@@ -43,7 +43,12 @@ impl TofTop {
         self.nets.rst_dsp = self.reset_sync_sys.rst_sync | self.control_sync.dsp_rst_sync;
         self.nets.count = match &p.histogram_source {
             HistogramSource::Builder => {
-                self.histogram_builder.count(&Wires::histogram_builder(self))
+                let histogram = Wires::histogram_builder(self);
+                if p.frame_ctrl.scan.is_single() {
+                    self.histogram_builder.count(&histogram)
+                } else {
+                    self.shown(p, &histogram)
+                }
             }
             HistogramSource::Preload(rom) => {
                 histogram_preload::count(&Wires::histogram_preload(self), rom)

@@ -3,6 +3,7 @@
 use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::firmware::vcsel_driver::{self, Rate};
 use crate::firmware::{control_sync, frame_ctrl, histogram_preload, tdc, tdc_calibration};
+use crate::kernel::U;
 use crate::signals;
 
 use super::estimator_params::EstimatorParams;
@@ -13,8 +14,12 @@ signals! {
     pub struct Pins {
         /// Reset button of the board, asynchronous.
         pub rst: bool,
-        /// Output of the SPAD, asynchronous.
+        /// Output of the selected row's SPAD in column 0, asynchronous.
         pub tdc_stop: bool,
+        /// Outputs of the others, from column 1 on, asynchronous.
+        #[only_if(Scanned)]
+        #[size(LastColumn)]
+        pub column_stop: U<63>,
         /// SPAD quench mode (Table 6.2), asynchronous.
         pub mode: bool,
         /// Laser repetition rate (Table 6.1), asynchronous.
@@ -136,10 +141,12 @@ impl Params {
             },
         ];
         let calibration = self.tdc_calibration.is_none().then_some("tdc_calibration");
+        let bank = (self.frame_ctrl.scan.banks == 1).then_some("second_bank");
         let host = OF_HOST.into_iter().filter(|_| !self.is_hosted);
         sources
             .into_iter()
             .chain(calibration)
+            .chain(bank)
             .chain(host)
             .chain(others.map(FirmwareEstimator::module))
             .collect()

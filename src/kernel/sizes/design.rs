@@ -23,6 +23,12 @@ pub struct Sizes {
     pub hosted: bool,
     /// True if the firmware calibrates its TDC.
     pub calibrates: bool,
+    /// Rows of the array.
+    pub rows: u32,
+    /// Columns of the array.
+    pub columns: u32,
+    /// Banks of histograms.
+    pub banks: u32,
     /// Hits of a calibration, as a power of two.
     pub hits_log2: u32,
     /// Laser rates to choose from.

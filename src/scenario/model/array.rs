@@ -13,6 +13,9 @@ table! {
         /// Number of columns. Column 0 is on the left, as seen from the sensor.
         #[schemars(range(min = 1, max = 64), extend("unit" = "columns", "source" = "choice: a pixel"))]
         pub columns: u32 = 1,
+        /// Banks of histograms in the firmware. With two, a row acquires while the one before is estimated.
+        #[schemars(range(min = 1, max = 2), extend("unit" = "banks", "source" = "choice: one, as the thesis's firmware"))]
+        pub banks: u32 = 1,
         /// Full angles of the field of view across the middle row and the middle column. Without it, a single pixel
         /// sees the cone of `spad.field_of_view_deg`, and several see the largest rectangle of square pixels inside
         /// the illuminated cone.

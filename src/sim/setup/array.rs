@@ -14,6 +14,8 @@ use super::Setup;
 use super::detector::by_budget;
 use super::pixel_files::PixelFiles;
 
+mod firmware;
+
 /// Largest number of columns, by which pixels are numbered for random streams and dark rates: a pixel's number does not
 /// depend on the size of its array.
 const MOST_COLUMNS: usize = 64;

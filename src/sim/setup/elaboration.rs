@@ -8,6 +8,7 @@ use crate::firmware::tof_top::estimator_params::EstimatorParams;
 use crate::firmware::tof_top::{FirmwareEstimator, HistogramSource, Params};
 use crate::firmware::{centroid_estimator, frame_ctrl, histogram_builder, vcsel_driver};
 use crate::kernel::pulse::Pulse;
+use crate::kernel::scan::Scan;
 use crate::kernel::{S, Time, U};
 use crate::network::Network;
 use crate::optics::Budget;
@@ -31,8 +32,10 @@ impl Setup {
     /// # Errors
     /// When one of the files cannot be read or used, or the scenario has an array of several pixels.
     pub fn of_counts(loaded: Loaded) -> Result<Self> {
-        let Array { rows, columns, .. } = loaded.scenario.array;
-        for (key, count) in [("array.rows", rows), ("array.columns", columns)] {
+        let Array { rows, columns, banks, .. } = loaded.scenario.array;
+        for (key, count) in
+            [("array.rows", rows), ("array.columns", columns), ("array.banks", banks)]
+        {
             if count > 1 {
                 let expected = "expected 1 here: `tofsim image` simulates arrays, `tofsim run --pixel` one of the \
                                 pixels";
@@ -167,7 +170,8 @@ fn frame_ctrl(
 ) -> frame_ctrl::Params {
     let shots_per_frame = keys.shots_of_a_frame() as u32;
     let drain_cycles = keys.drain_cycles;
-    frame_ctrl::Params { shots_per_frame, histogram, preloaded, drain_cycles }
+    let scan = Scan::default();
+    frame_ctrl::Params { shots_per_frame, histogram, preloaded, drain_cycles, scan }
 }
 
 fn vcsel_driver(keys: &scenario::Firmware) -> vcsel_driver::Params {

@@ -12,6 +12,7 @@ use crate::firmware::tof_top::{
 use crate::firmware::{
     depth_estimator, forward1, forward2, frame_ctrl, histogram_builder, tansig, tdc, vcsel_driver,
 };
+use crate::kernel::scan::Scan;
 use crate::kernel::{S, Time, U};
 
 use super::super::writer::Waves;
@@ -57,6 +58,7 @@ pub fn with_delays(taps: &[i64]) -> Params {
             histogram,
             preloaded: false,
             drain_cycles: frame_ctrl::DRAIN_CYCLES,
+            scan: Scan::default(),
         },
         vcsel_driver: vcsel_driver::Params::default(),
         tdc: tdc::Params::of_chain(delays),

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod cloud;
+mod firmware;
 mod picture;
 mod readings;
 mod statistics;
@@ -18,6 +19,7 @@ use super::sheet::Digits::{Fixed, Shortest};
 use super::sheet::{NamedBytes, NamedText, Sheet};
 use super::writer::Findings;
 
+use firmware::FirmwareTiming;
 use statistics::{ImageStatistics, SHOWN};
 
 pub use readings::{DepthImages, ImagePixel};
@@ -44,6 +46,11 @@ impl DepthImages<'_> {
             "cy": middle(rows),
             "distortion": [k1, k2, 0.0, 0.0],
         }))
+    }
+
+    /// Returns the image rate of the firmware, if it can scan the array.
+    fn firmware(&self) -> Option<FirmwareTiming> {
+        FirmwareTiming::of(self.array)
     }
 
     /// Returns the least, the median and the largest number of hits that pixels can expect, where shots do not depend
@@ -94,6 +101,7 @@ impl DepthImages<'_> {
         }
         facts.push(("estimator", setup.params.estimator.estimator().to_owned()));
         facts.push(("fidelity", self.fidelity.to_owned()));
+        facts.extend(self.firmware().map(|firmware| ("firmware", firmware.to_string())));
         let range = |[least, median, most]: [f64; 3]| {
             let [least, median, most] = [least, median, most].map(|hits| fixed(hits, 1));
             if self.is_whole() {
@@ -125,6 +133,7 @@ impl Findings for DepthImages<'_> {
             "rows": rows,
             "columns": columns,
             "geometry": self.geometry(),
+            "firmware": self.firmware(),
             "signal_hits": ends(self.signal_hits()),
             "ambient_hits": ends(self.ambient_hits()),
             "images": self.statistics(),

@@ -9,7 +9,6 @@ use tofsim::error::{Input, Result, nearest};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::staged::{ScratchFolder, StagedFolder};
 use tofsim::scenario;
-use tofsim::sim::setup::Setup;
 use tofsim_rtl::golden::bench::{Bench, Language};
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
 use tofsim_rtl::verify::process::Limits;
@@ -90,11 +89,11 @@ impl From {
     /// When the scenario cannot be loaded.
     pub fn setting(&self) -> Result<Setting> {
         let name = self.scenario.as_deref().unwrap_or(scenario::DEFAULT);
-        let setup = Setup::new(scenario::load(name, &self.set)?)?;
-        let seed = self.seed.unwrap_or(setup.scenario.seed);
+        let setting = Setting::of(scenario::load(name, &self.set)?)?;
+        let seed = self.seed.unwrap_or(setting.seed);
         let cycles = self.cycles.map(|cycles| cycles as usize);
         let as_configured = self.scenario.is_some() || !self.set.is_empty() || self.frames > 1;
-        Ok(Setting { as_configured, seed, cycles, frames: self.frames, ..Setting::new(setup) })
+        Ok(Setting { as_configured, seed, cycles, frames: self.frames, ..setting })
     }
 }
 

@@ -32,6 +32,9 @@ use super::verilog::{parameter_list, range};
 /// With `+progress`, a bench says after so many cycles how far it is.
 const BEAT: usize = 100;
 
+/// Bits of the instant of a change of `column_stop`; above them is the number of its bit.
+const TIME_BITS: u32 = 56;
+
 /// Language of a bench.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Language {
@@ -103,6 +106,10 @@ impl<'a> Bench<'a> {
         }
         if !vectors.stops.is_empty() {
             text("tdc_stop.mem", &lines(vectors.stops.iter().map(|at| at.fs()), 16))?;
+        }
+        if !vectors.column_stops.is_empty() {
+            let word = |(at, bit): &(Time, u32)| u64::from(*bit) << TIME_BITS | at.fs();
+            text("column_stop.mem", &lines(vectors.column_stops.iter().map(word), 16))?;
         }
         for (name, table) in
             [("stimulus.mem", &vectors.stimulus), ("expected.mem", &vectors.expected)]
@@ -220,7 +227,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
         let is_column = inputs.iter().any(|column| column.name == *name);
         if *output {
             text += &format!("  wire {}{name};\n", range(*width));
-        } else if is_column || name.starts_with("clk") || name == "tdc_stop" {
+        } else if is_column || name.starts_with("clk") || name.ends_with("_stop") {
             text += &format!("  reg {}{name} = {width}'d0;\n", range(*width));
         }
     }
@@ -236,6 +243,9 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
     // Long waits are taken in steps of 1 us.
     if let Some(last) = vectors.stops.len().checked_sub(1) {
         text += &format!(include_str!("bench/stops.v"), last = last);
+    }
+    if let Some(last) = vectors.column_stops.len().checked_sub(1) {
+        text += &format!(include_str!("bench/column_stops.v"), last = last);
     }
     text
 }

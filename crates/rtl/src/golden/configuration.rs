@@ -5,7 +5,6 @@ use std::sync::Arc;
 use tofsim::error::Result;
 use tofsim::network::Fixed;
 use tofsim::scenario::{self, DEFAULT};
-use tofsim::sim::setup::Setup;
 
 use super::setting::Setting;
 
@@ -98,6 +97,15 @@ pub const HOSTED: Configuration = Configuration {
 pub const HOSTED_LONG_PULSE: Configuration =
     Configuration { name: "hosted_long_pulse", set: LONG_PULSE.set, ..HOSTED };
 
+/// An array of pixels with two banks of histograms.
+pub const ARRAY: Configuration = Configuration {
+    name: "array",
+    scenario: "array",
+    set: &["array.rows=4", "array.columns=3", "estimator.kind=centroid"],
+    parameters: &["Banks"],
+    ..DEFAULTS
+};
+
 /// Nothing else than usual.
 pub(super) const DEFAULTS: Configuration = Configuration {
     name: "",
@@ -116,14 +124,14 @@ impl Configuration {
     /// When its scenario cannot be loaded.
     pub fn setting(&self, base: &Setting) -> Result<Setting> {
         let set: Vec<_> = self.set.iter().map(|line| (*line).to_owned()).collect();
-        let mut setup = Setup::new(scenario::load(self.scenario, &set)?)?;
+        let Setting { mut setup, array, .. } = Setting::of(scenario::load(self.scenario, &set)?)?;
         if let Some(neurons) = self.neurons {
             widen(&mut setup.network.fixed, neurons);
             let network = setup.network.params(&setup.params.histogram);
             setup.params.estimators.depth_estimator = Arc::new(network);
         }
         setup.params.is_hosted = self.is_hosted;
-        Ok(Setting { setup, ..base.clone() })
+        Ok(Setting { setup, array, ..base.clone() })
     }
 }
 

@@ -93,6 +93,7 @@ impl<'a> Lines<'a> {
             pll: setting.setup.pll().clone(),
             first_edge: spec.timing.period(setting.setup.cycle()),
             stops: Vec::new(),
+            column_stops: Vec::new(),
             bench_memory: None,
             settles: 0,
             coverage: Vec::new(),

@@ -9,7 +9,7 @@ pub use tofsim::network::mem;
 pub use tofsim::signals;
 
 pub use super::configuration::{
-    CALIBRATED, CLOCKS, COUNT_STAGES_2, Configuration, HOSTED, HOSTED_LONG_PULSE, LEADING,
+    ARRAY, CALIBRATED, CLOCKS, COUNT_STAGES_2, Configuration, HOSTED, HOSTED_LONG_PULSE, LEADING,
     LONG_PULSE, NEURONS_16, NEURONS_31, REORDERED,
 };
 pub use super::cover::{Cover, bits, ends};

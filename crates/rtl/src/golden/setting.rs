@@ -1,12 +1,15 @@
 //! Settings of golden vectors.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
-use tofsim::error::{Error, Input};
+use tofsim::error::{Error, Input, Result};
 use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::firmware::histogram_builder;
+use tofsim::scenario::Loaded;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
 
 /// Parameters of ours that are constants inside a design. Its constant is what the scenario says, so
 /// the stimulus keeps to that, where it would try other values.
@@ -33,6 +36,8 @@ impl Constants {
 pub struct Setting {
     /// Network, chain, frame length and, for the top, light and control signals.
     pub setup: Setup,
+    /// The pixels, if the firmware scans an array.
+    pub array: Option<Arc<ArraySetup>>,
     /// True if the top runs the scenario as it is, and not under random control.
     pub as_configured: bool,
     /// Seed of the stimulus.
@@ -84,12 +89,28 @@ impl Setting {
         self.setup.params.estimators.depth_estimator.neurons()
     }
 
+    /// The setting of a scenario, which may have an array.
+    ///
+    /// # Errors
+    /// When it cannot be elaborated, or the firmware has no such array.
+    pub fn of(loaded: Loaded) -> Result<Self> {
+        let array = &loaded.scenario.array;
+        if array.count() == 1 && array.banks == 1 {
+            return Ok(Setting::new(Setup::new(loaded)?));
+        }
+        let array = ArraySetup::new(loaded)?;
+        let mut setup = array.common().clone();
+        setup.params = array.firmware()?;
+        Ok(Setting { array: Some(Arc::new(array)), ..Setting::new(setup) })
+    }
+
     /// Full-size chain and histogram, random control, the scenario's own seed.
     pub fn new(setup: Setup) -> Self {
         let seed = setup.scenario.seed;
         let (taps, bins) = (setup.params.tdc.delays.taps(), setup.params.histogram.bins as u64);
         Setting {
             setup,
+            array: None,
             as_configured: false,
             seed,
             cycles: None,

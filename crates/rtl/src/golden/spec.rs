@@ -139,6 +139,8 @@ pub struct Vectors {
     pub first_edge: Time,
     /// When `tdc_stop` changes; it starts low.
     pub stops: Vec<Time>,
+    /// When which bit of `column_stop` changes; all start low.
+    pub column_stops: Vec<(Time, u32)>,
     /// A memory that the bench reads.
     pub bench_memory: Option<Mem>,
     /// Of a block without reset: lines from power-up until its registers have all taken a value.

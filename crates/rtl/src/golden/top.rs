@@ -9,9 +9,11 @@ use tofsim::kernel::signals::Signals;
 use tofsim::scenario::effects::Method;
 use tofsim::signals;
 use tofsim::sim::Device;
+use tofsim::sim::array_device::ArrayDevice;
 use tofsim::sim::device::{Off, SignalProbe};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
 
 use super::lines::Lines;
 use super::parameters;
@@ -67,14 +69,34 @@ pub(super) fn record(
         spacing,
         early_rst: false,
         stops: Vec::new(),
+        column_stops: Vec::new(),
         every_cycle,
     };
-    let mut device = setup.device();
-    let first_edge = device.next_edge();
-    run(setting, &mut device, &mut sampler)?;
-    let Sampler { lines, stops, .. } = sampler;
+    let first_edge = setup.device().next_edge();
+    match &setting.array {
+        None => run(setting, &mut setup.device(), &mut sampler)?,
+        Some(array) => scan(setting, array, &mut sampler)?,
+    }
+    let Sampler { lines, stops, column_stops, .. } = sampler;
     let parameters = parameters::whole::tof_top(setup);
-    Ok(Vectors { parameters, first_edge, stops, settles: SETTLES, ..lines.vectors() })
+    let settles = SETTLES;
+    Ok(Vectors { parameters, first_edge, stops, column_stops, settles, ..lines.vectors() })
+}
+
+/// Runs whole images, or so many cycles.
+fn scan(setting: &Setting, array: &ArraySetup, sampler: &mut Sampler) -> Result<()> {
+    let mut device = ArrayDevice::new(array, &setting.setup.params)?;
+    let [rows, columns] = array.size();
+    let mut left = setting.frames as usize * rows * columns;
+    device.power_up(sampler);
+    let whole_images = setting.cycles.is_none();
+    while if whole_images { left > 0 } else { device.cycle() < setting.cycles() as u64 } {
+        left = left.saturating_sub(device.step(sampler).map_or(0, |_| 1));
+    }
+    if whole_images {
+        device.step(sampler);
+    }
+    Ok(())
 }
 
 fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<()> {
@@ -126,6 +148,7 @@ struct Sampler<'a> {
     /// The reset at the edge in the middle of the cycle.
     early_rst: bool,
     stops: Vec<Time>,
+    column_stops: Vec<(Time, u32)>,
     every_cycle: EveryCycle<'a>,
 }
 
@@ -157,6 +180,11 @@ impl SignalProbe for Sampler<'_> {
         }
         if top.pins.tdc_stop != self.current.pins.tdc_stop {
             self.stops.push(now);
+        }
+        let mut changed = top.pins.column_stop.get() ^ self.current.pins.column_stop.get();
+        while changed != 0 {
+            self.column_stops.push((now, changed.trailing_zeros()));
+            changed &= changed - 1;
         }
         hierarchy::copy(top, &mut self.current);
     }

@@ -137,7 +137,8 @@ fn past(found: &Interface, task: &Task, sizes: &Sizes) -> Vec<Port> {
         found.ports.get(&port.name).is_some_and(fits) && !has(&used, &port.name)
     };
     let most = Sizes { neurons: MOST_NEURONS as u32, ..*sizes };
-    let with_all = Sizes { calibrates: true, hosted: true, ..*sizes };
+    let with_all =
+        Sizes { calibrates: true, hosted: true, columns: sizes.columns.max(2), banks: 2, ..*sizes };
     let inputs = task.spec.ports(&with_all).into_iter().filter(|port| !port.output);
     task.spec.ports(&most).into_iter().chain(inputs).filter(is_past).collect()
 }

@@ -10,6 +10,7 @@ mod measured;
 mod model;
 mod promises;
 mod prove;
+mod scan;
 mod simulate;
 #[cfg(test)]
 mod tests;

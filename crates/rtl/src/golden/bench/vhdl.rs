@@ -17,6 +17,10 @@ use crate::golden::timing::{ASIDE, BenchStep, of_quarters};
 /// When a generic is larger than VHDL's integers.
 pub fn text(vectors: &Vectors) -> Result<String> {
     let spec = vectors.spec;
+    if !vectors.column_stops.is_empty() {
+        let expected = "expected Verilog for an array: benches in VHDL have one detector";
+        return Err(Input::new(spec.name, expected).field("language").value("vhdl").into());
+    }
     let ports = spec.ports(&vectors.sizes);
     let inputs = vectors.stimulus.columns();
     let generics: Vec<_> = vectors.parameters.iter().map(generic).collect::<Result<_>>()?;

@@ -22,7 +22,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "dsp_en", to: "algo_start", cycles: |_| 0 },
         Latency { from: "algo_done", to: "frame_done", cycles: |_| 0 },
     ],
-    configurations: &[PRELOADED, CALIBRATED],
+    configurations: &[PRELOADED, CALIBRATED, ARRAY, ONE_BANK],
     model: Some(Model::new::<In>(|at| at.top.frame_ctrl.tick(&at.input(), &at.params.frame_ctrl))),
     ..Spec::new("frame_ctrl", "frame_ctrl", record)
 };
@@ -35,9 +35,23 @@ const PRELOADED: Configuration = Configuration {
     ..configuration::DEFAULTS
 };
 
+/// An array whose rows are estimated before the next one acquires.
+const ONE_BANK: Configuration = Configuration {
+    name: "one_bank",
+    set: &["array.rows=4", "array.columns=3", "array.banks=1", "estimator.kind=centroid"],
+    parameters: &["Rows", "Columns"],
+    ..ARRAY
+};
+
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let preloaded = setting.setup.params.frame_ctrl.preloaded;
-    let is_state = |state| !preloaded || matches!(state, State::Clear | State::Estimate);
+    let scan = setting.setup.params.frame_ctrl.scan;
+    let is_banked = scan.banks > 1;
+    let is_state = |state| match state {
+        State::Clear => true,
+        State::Acquire | State::Drain => !preloaded,
+        State::Estimate => !is_banked,
+    };
     // Where to leave, state and place in it; `turn` counts them.
     let bins = setting.setup.params.histogram.bins;
     let clear = (0..bins as u64).step_by(51.min(bins / 4)).map(|word| (State::Clear, word));
@@ -53,7 +67,11 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let states = [State::Clear, State::Acquire, State::Drain, State::Estimate];
     let states = states.into_iter().filter(|&state| is_state(state));
     let each = |n: u64| states.clone().flat_map(move |s| (0..n).map(move |k| s.bits() * n + k));
-    let steps: &[u64] = if preloaded { &[3, 12] } else { &[1, 6, 11, 12] };
+    let steps: &[u64] = match (preloaded, is_banked) {
+        (true, _) => &[3, 12],
+        (false, false) => &[1, 6, 11, 12],
+        (false, true) => &[1, 6, 8],
+    };
     let mut transitions = Cover::new("state from x 4 + to", steps.iter().copied());
     let mut resets = Cover::new(
         "reset in state x 2^25 + place (word, shots, cycle)",
@@ -62,10 +80,16 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut kinds = Cover::new("state x 4 + rst x 2 + dsp_rst", each(4));
     let mut inputs = Cover::new("state x 8 + start, dsp_en, algo_done as bits", each(8));
 
+    let (rows, columns) = (u64::from(scan.rows), u64::from(scan.columns));
+    let places = (0..rows * columns).map(|place| place / columns * 64 + place % columns);
+    let mut places = Cover::new("row x 64 + column of an estimate", places);
+    let waits = if is_banked { 0..8 } else { 0..0 };
+    let mut waits = Cover::new("end of Drain: bank, the other one is read, dsp_en as bits", waits);
+
     // Most calibrations last into the last cycle of Clear, and a few cycles longer.
     let calibrates = setting.setup.params.tdc_calibration.is_some();
     let histogram = setting.histogram();
-    let params = Params { shots_per_frame: shots, histogram, preloaded, drain_cycles: length };
+    let params = Params { shots_per_frame: shots, histogram, preloaded, drain_cycles: length, scan };
     let mut run = Recorder::new(spec, setting, In::list());
     // The state, cycles in it, whether this run is to be left at the exit of this turn, frames finished.
     let (mut last, mut phase, mut leaves, mut turn, mut frames) = (State::Clear, 0, false, 0, 0u64);
@@ -75,7 +99,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let lines = if is_long { Setting::CYCLES.max(2 * lines) } else { Setting::CYCLES };
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let (ctrl, draw) = (run.top.frame_ctrl, &mut run.draw);
-        let state = ctrl.state();
+        let (state, is_read) = (ctrl.state(), ctrl.is_estimating());
         phase = if state == last { phase + 1 } else { 0 };
         let place = match state {
             State::Clear => ctrl.clear_addr.get(),
@@ -99,12 +123,15 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             dsp_rst: kind % 2 == 1,
             start,
             dsp_en: dsp_en && !held,
-            algo_done: draw.one_in(4),
+            // Rows wait for the estimates of others that are long.
+            algo_done: draw.one_in(if is_banked && is_read && frames.is_multiple_of(2) { 200 } else { 4 }),
             calibrating: calibrates && state == State::Clear && draw.one_in(2),
         };
         resets.see_if(leave, (state.bits() << 25) + place);
         kinds.see(state.bits() * 4 + kind);
         inputs.see(state.bits() * 8 + bits([i.start, i.dsp_en, i.algo_done]));
+        places.see_if(is_read && i.algo_done && kind == 0, ctrl.depth_row.get() * 64 + ctrl.depth_column.get());
+        waits.see_if((state, place) == (State::Drain, length), bits([ctrl.bank, is_read, i.dsp_en]));
         turn += usize::from(leave);
         frames += u64::from(ctrl.frame_done);
         if ctrl.frame_done || leave {
@@ -118,5 +145,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         ("ShotsPerFrame", Parameter::Number(shots.into())),
         ("Preloaded", Parameter::Number(preloaded.into())),
     ];
-    Ok(run.vectors([transitions, resets, kinds, inputs]).with(own))
+    Ok(run.vectors([transitions, resets, kinds, inputs, places, waits]).with(own))
 }

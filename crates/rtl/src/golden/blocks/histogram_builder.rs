@@ -2,7 +2,7 @@
 //! and different addresses; and then hits of one word until it wraps. After a hit there is none for two
 //! lines, and its code holds: that is what the TDC promises.
 
-use tofsim::firmware::histogram_builder::{Bin, In};
+use tofsim::firmware::histogram_builder::{Bin, In, Place};
 
 use crate::golden::prelude::*;
 
@@ -25,11 +25,19 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "clear", to: "count", cycles: |_| 0 },
         Latency { from: "tdc_valid", to: "count", cycles: |_| 2 },
     ],
+    configurations: &[SECOND],
     model: Some(Model {
         settle: |at| at.top.nets.count = at.top.histogram_builder.count(&at.input()),
         ..Model::new::<In>(|at| at.top.histogram_builder.tick(&at.input(), &at.params.histogram))
     }),
     ..Spec::new("histogram_builder", "histogram_builder", record)
+};
+
+/// The second bank of the third column of an array.
+const SECOND: Configuration = Configuration {
+    name: "second_bank",
+    parameters: &["Columns", "Banks", "Column", "Bank"],
+    ..ARRAY
 };
 
 /// Returns which of the three addresses are equal: none, two of them, all.
@@ -50,7 +58,50 @@ fn phases(reads_apart: bool) -> Vec<u64> {
     if reads_apart { vec![0, 2, 4, 8] } else { (0..4 * HIT as u64).collect() }
 }
 
+/// Clears, hits and reads at random, while the banks change their roles and columns are read in turn.
+fn in_array(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let (size, bins) = (setting.histogram(), setting.bins);
+    let place = Place { scan: setting.setup.params.frame_ctrl.scan, column: 2, bank: true };
+    let mut shown = Cover::new("own bank filled, own column read, read_en as bits, word is not 0", 0..16);
+    let mut taken = Cover::new("own bank filled, clear, tdc_valid as bits", 0..8);
+    let mut run = Recorder::new(spec, setting, In::list());
+    let (mut since, mut i) = (HIT, In::default());
+    // Every word is cleared first, as its bank is filled.
+    let cleared = bins as usize;
+    for cycle in 0..setting.cycles() + cleared {
+        let draw = &mut run.draw;
+        let is_clearing = cycle < cleared;
+        let hit = since + 1 >= HIT && draw.one_in(3) && !is_clearing;
+        since = if hit { 0 } else { since + 1 };
+        let any = |draw: &mut Draw| U::new(draw.below(bins.min(16)));
+        i = In {
+            clear: is_clearing || draw.one_in(8),
+            clear_addr: if is_clearing { U::new(cycle as u64) } else { any(draw) },
+            bank: is_clearing || i.bank ^ (since >= HIT && draw.one_in(16)),
+            depth_column: U::new(draw.below(place.scan.columns.into())),
+            tdc_valid: hit,
+            tdc_code: if hit { any(draw) } else { i.tdc_code },
+            read_en: draw.one_in(2),
+            read_addr: any(draw),
+        };
+        let histogram = &mut run.top.histogram_builder;
+        let own = i.at(&place);
+        let (fills, is_own) = (i.bank == place.bank, i.depth_column == place.column);
+        let word = histogram.ram[i.read_addr.index()] != 0;
+        shown.see(bits([fills, is_own, i.read_en, word]));
+        taken.see_if(!is_clearing, bits([fills, i.clear, i.tdc_valid]));
+        run.top.nets.count = histogram.count(&own);
+        run.line(&i);
+        run.top.histogram_builder.tick(&own, &size);
+    }
+    let own = vec![("Column", Parameter::Number(place.column)), ("Bank", Parameter::Number(1))];
+    Ok(Vectors { settles: cleared, ..run.vectors([shown, taken]).with(own) })
+}
+
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    if !setting.setup.params.frame_ctrl.scan.is_single() {
+        return in_array(spec, setting);
+    }
     let size = setting.histogram();
     let (bins, words) = (setting.bins, 0..setting.bins);
     let mixed = MIXED.max(MIXED_A_BIN * bins as usize);
@@ -91,6 +142,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             clear: draw.one_in(2),
             tdc_valid: draw.one_in(3),
             read_en: draw.one_in(2),
+            ..In::default()
         };
         let count = |address: Bin| histogram.ram[address.index()].get();
         // A count of each length, but not before every word has been cleared.

@@ -32,7 +32,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM, ARRAY, ONE_BANK],
     model: Some(Model {
         // It is looked at once its clocks run.
         settle: |at| at.top.pll.locked = true,
@@ -85,6 +85,14 @@ const HISTOGRAM: Configuration = Configuration {
     ..configuration::DEFAULTS
 };
 
+/// An array with one bank of histograms and the network.
+const ONE_BANK: Configuration = Configuration {
+    name: "one_bank",
+    set: &["array.rows=2", "array.columns=3", "array.banks=1", "estimator.kind=network"],
+    parameters: &["Columns"],
+    ..ARRAY
+};
+
 /// Shots of a frame under random control.
 const SHOTS: u32 = 8;
 
@@ -94,6 +102,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     }
     if setting.setup.params.tdc_calibration.is_some() {
         return calibrated(spec, setting);
+    }
+    if setting.array.is_some() {
+        return images(spec, setting);
     }
     let mut setting = setting.clone();
     setting.cycles = setting.cycles.or(Some(RANDOM + PLANTED));
@@ -180,6 +191,42 @@ fn calibrated(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     })?;
     Ok(Vectors { coverage: vec![states, calibrations, codes], ..vectors })
 }
+
+/// Two images of an array and a row more, with few shots.
+fn images(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let mut setting = setting.clone();
+    let shots = setting.shots(SHOTS_OF_A_ROW);
+    (setting.frames, setting.setup.params.frame_ctrl.shots_per_frame) = (2, shots);
+    let scan = setting.setup.params.frame_ctrl.scan;
+    let places = |times: u64| {
+        let columns = u64::from(scan.columns);
+        (0..u64::from(scan.rows) * columns).flat_map(move |place| {
+            (0..times).map(move |k| (place / columns * 64 + place % columns) * 2 + k)
+        })
+    };
+    let mut depths = Cover::new("(row x 64 + column of an estimate) x 2 + image", places(2));
+    let mut rows = Cover::new("rows selected as a shot begins", 0..scan.rows.into());
+    let mut banks = Cover::new("bank filled x 2 + the estimator works", 0..2 * u64::from(scan.banks));
+    let mut lit = Cover::new("columns other than 0 whose output rises in a window", 1..scan.columns.into());
+    let (mut begun, mut before) = (0, 0);
+    let vectors = top::record(spec, &setting, &mut |top| {
+        let (ctrl, outputs) = (&top.frame_ctrl, top.pins.column_stop.get());
+        let place = ctrl.depth_row.get() * 64 + ctrl.depth_column.get();
+        depths.see_if(ctrl.algo_start, place * 2 + begun / places(1).count() as u64);
+        begun += u64::from(ctrl.algo_start);
+        rows.see_if(top.vcsel_driver.registers.start, top.spad_control.spad_sel.get().trailing_zeros().into());
+        banks.see(bits([ctrl.bank, ctrl.is_estimating()]));
+        for column in 1..u64::from(scan.columns) {
+            let rises = (outputs & !before) >> (column - 1) & 1 == 1;
+            lit.see_if(rises && top.tdc.coarse_counter.window, column);
+        }
+        before = outputs;
+    })?;
+    Ok(Vectors { coverage: vec![depths, rows, banks, lit], ..vectors })
+}
+
+/// Shots of a row of an array.
+const SHOTS_OF_A_ROW: u32 = 60;
 
 /// Cycles between calibrations: two of some 9,000 and the frames after them.
 const CALIBRATED_CYCLES: usize = 26_000;

@@ -9,6 +9,8 @@ use tofsim::sim::setup::Setup;
 
 use crate::golden::parameters::{Parameter, sized};
 
+use super::scan::CountedScan;
+
 /// The laser's Verilog.
 const VCSEL_DRIVER: &str = include_str!("../../../../../rtl_ref/vcsel_driver.v");
 
@@ -30,6 +32,8 @@ pub struct CountedDesign {
     pub laser: vcsel_driver::Params,
     /// Half a cycle of `clk_laser`, rounded down [ps].
     pub half_ps: u64,
+    /// Rows, columns and banks, if there are any.
+    pub scan: Option<CountedScan>,
     /// Parameters of the laser that are not the default, as an instance sets them.
     parameters: String,
     /// Bits of `laser_freq`, and of a count in the longest period.
@@ -47,6 +51,7 @@ impl CountedDesign {
             estimator: setup.params.estimators.depth_estimator.ctrl(),
             likelihood: setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).ok(),
             half_ps: setup.pll().cycle.fs() / 4000,
+            scan: CountedScan::of(setup),
             parameters: set(own.collect()),
             rate_bits: sizes.of(Size::RateBits),
             period_bits: sizes.of(Size::PeriodBits),
@@ -110,7 +115,8 @@ impl CountedDesign {
 
     /// All macros.
     pub fn defines(&self) -> Vec<Define> {
-        [self.of_estimator(), self.of_likelihood(), self.of_laser()].concat()
+        let of_scan = self.scan.map_or_else(Vec::new, |scan| scan.defines());
+        [self.of_estimator(), self.of_likelihood(), self.of_laser(), of_scan].concat()
     }
 }
 

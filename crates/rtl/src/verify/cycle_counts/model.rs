@@ -27,6 +27,9 @@ pub fn measure(design: &CountedDesign) -> Measured {
     if let Some(params) = &design.likelihood {
         latency::<LikelihoodEstimator>("likelihood_latency", params, most_hits, &mut measured);
     }
+    if let Some(scan) = &design.scan {
+        scan.measure(&mut measured);
+    }
     for mode in [false, true] {
         let codes = 0..design.laser.periods.len() as u64;
         codes.for_each(|code| shots(design, mode, code, &mut measured));
@@ -127,7 +130,7 @@ fn shots(design: &CountedDesign, mode: bool, code: u64, measured: &mut Measured)
     let (mut spad_rst_cycles, mut was_on, mut laser_on_at) = (0, false, 0);
     for k in 1..design.patience() {
         let pre_start = driver.registers.pre_start;
-        spad = spad.next(&spad_control::In { rst: false, mode, pre_start }, &());
+        spad = spad.next(&spad_control::In { mode, pre_start, ..Default::default() }, &());
         driver.rise(&i, p);
         if driver.registers.pre_start {
             pre_start_at = k;

@@ -7,6 +7,7 @@ use crate::golden::blocks::{CENTROID as CENTROID_MODULE, LIKELIHOOD as LIKELIHOO
 use crate::verify::rtl::Rtl;
 
 use super::design::{CountedDesign, Define};
+use super::scan::CountedScan;
 
 /// A Verilog module with properties of some modules of the design.
 #[derive(Debug)]
@@ -97,6 +98,15 @@ static SHOT: Properties = Properties {
     )
 };
 
+static SCAN: Properties = Properties {
+    registers: &["state", "shots", "drain", "estimating"],
+    ..Properties::new(
+        "check_scan",
+        "bench_scan",
+        concat!(include_str!("check_scan.sv"), include_str!("check_tail.sv")),
+    )
+};
+
 static PULSE: Properties = Properties {
     unit: "ps",
     step: "clk2fflogic",
@@ -179,11 +189,27 @@ pub fn likelihood(design: &CountedDesign) -> Option<Promise> {
     })
 }
 
+/// Returns what is promised of an array.
+pub fn of_scan(scan: &CountedScan) -> [Promise; 3] {
+    let timing = scan.timing();
+    [
+        ("row_cycles", "RowCycles", timing.row, "row: Clear to Clear"),
+        ("image_cycles", "ImageCycles", timing.image, "image: first row to first row"),
+        ("depth_latency", "Latency", timing.latency, "row: acquire low to its last depth"),
+    ]
+    .map(|(property, parameter, cycles, what)| Promise {
+        parameter,
+        defines: scan.defines(),
+        ..Promise::new(&SCAN, property, cycles, what)
+    })
+}
+
 /// Returns what is promised of a design with those modules.
 pub fn of(rtl: &Rtl, design: &CountedDesign) -> Vec<Promise> {
+    let scan = design.scan.iter().flat_map(of_scan);
     let centroid = rtl.has(CENTROID_MODULE).then(|| centroid(design));
     let likelihood = rtl.has(LIKELIHOOD_MODULE).then(|| likelihood(design)).flatten();
-    promises(design).into_iter().chain(centroid).chain(likelihood).collect()
+    promises(design).into_iter().chain(centroid).chain(likelihood).chain(scan).collect()
 }
 
 /// Everything else that is promised of a design.

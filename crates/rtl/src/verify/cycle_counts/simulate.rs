@@ -21,9 +21,10 @@ macro_rules! of_estimator {
 }
 
 /// The benches: name of the module, which is the file's stem, and text.
-const BENCHES: [(&str, &str); 4] = [
+const BENCHES: [(&str, &str); 5] = [
     ("bench_estimator", of_estimator!("bench_estimator.v")),
     ("bench_shot", include_str!("bench_shot.v")),
+    ("bench_scan", include_str!("bench_scan.v")),
     ("bench_centroid", of_estimator!("bench_centroid.v")),
     ("bench_likelihood", of_estimator!("bench_likelihood.v")),
 ];

@@ -6,9 +6,11 @@ use std::fs;
 use std::time::Duration;
 
 use tofsim::firmware::estimator_ctrl::Params;
+use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 
 use crate::golden::blocks::CENTROID;
+use crate::golden::setting::Setting;
 
 use super::*;
 
@@ -29,6 +31,11 @@ fn of(set: &[&str]) -> CountedDesign {
 
 /// The count of `key` in our Verilog after some edits.
 fn with_fault(key: &str, edits: &[Edit]) -> Count {
+    with_fault_in(&kc705(), key, edits)
+}
+
+/// The count of `key` in our Verilog of such a design after some edits.
+fn with_fault_in(design: &CountedDesign, key: &str, edits: &[Edit]) -> Count {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
     for [file, from, to] in edits {
@@ -37,11 +44,12 @@ fn with_fault(key: &str, edits: &[Edit]) -> Count {
         assert!(text.contains(from), "{file} has no `{from}`");
         fs::write(&path, text.replace(from, to)).unwrap();
     }
-    let mut promises = promises::promises(&kc705());
-    promises.push(promises::centroid(&kc705()));
-    promises.extend(promises::likelihood(&kc705()));
+    let mut promises = promises::promises(design);
+    promises.push(promises::centroid(design));
+    promises.extend(promises::likelihood(design));
+    promises.extend(design.scan.iter().flat_map(promises::of_scan));
     promises.retain(|promise| promise.key() == key);
-    count(&promises, &kc705(), &rtl, &limits(), |_| {}).unwrap().remove(0)
+    count(&promises, design, &rtl, &limits(), |_| {}).unwrap().remove(0)
 }
 
 /// Proves the promises of either estimator with so many bins and neurons; returns the numbers.
@@ -121,6 +129,51 @@ fn a_likelihood_estimation_takes_as_long_as_bins_box_and_fit_say() {
         likelihood(&[&bins, &pulse, "estimator.kind=likelihood"])
     });
     assert_eq!(cycles, [2023, 2103, 2643, 4883, 8495]);
+}
+
+/// Returns the design of an array with so many rows, columns and banks, and other keys.
+fn array(set: &[&str]) -> CountedDesign {
+    let set: Vec<_> = set.iter().map(|line| (*line).to_owned()).collect();
+    CountedDesign::of(&Setting::of(scenario::load("array", &set).unwrap()).unwrap().setup)
+}
+
+/// Proves the promises of such an array; returns the numbers.
+fn scanned(set: &[&str]) -> Vec<u64> {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let design = array(set);
+    let promises = promises::of_scan(&design.scan.unwrap());
+    let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
+    counts.iter().for_each(|count| assert!(count.holds(), "{set:?}: {count:?}"));
+    counts.iter().map(|count| count.expected).collect()
+}
+
+#[test]
+fn rows_and_images_take_as_long_as_shots_and_estimates_say() {
+    let shots = "firmware.shots_per_frame=300";
+    let size = |rows, columns, banks| {
+        [
+            format!("array.rows={rows}"),
+            format!("array.columns={columns}"),
+            format!("array.banks={banks}"),
+        ]
+    };
+    for (size, estimator, expected) in [
+        // Estimates are hidden, or last longer than shots, or come after them.
+        (size(4, 3, 2), "centroid", [2073, 8292, 957]),
+        (size(3, 2, 2), "likelihood", [7563, 22689, 13067]),
+        (size(2, 3, 1), "network", [2880, 5760, 822]),
+    ] {
+        let estimator = format!("estimator.kind={estimator}");
+        let set: Vec<_> = size.iter().map(String::as_str).chain([shots, &estimator]).collect();
+        assert_eq!(scanned(&set), expected, "{set:?}");
+    }
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn an_image_of_40_rows_of_30_takes_57_7_ms() {
+    assert_eq!(scanned(&[]), [180_273, 7_210_920, 113_445]);
 }
 
 /// Counts and proves the promises of other lasers, each with its numbers.

@@ -1,10 +1,16 @@
 //! Faults planted in our own Verilog are counted, and what they break is not proven.
 
-use super::{Edit, with_fault};
+use super::{Edit, array, kc705, with_fault_in};
+use crate::verify::cycle_counts::CountedDesign;
 
 /// A fault, what it is found by, and what is counted then.
 fn fault(key: &str, edits: &[Edit], measured: u64) {
-    let count = with_fault(key, edits);
+    fault_in(&kc705(), key, edits, measured);
+}
+
+/// A fault of such a design.
+fn fault_in(design: &CountedDesign, key: &str, edits: &[Edit], measured: u64) {
+    let count = with_fault_in(design, key, edits);
     assert_eq!(count.rtl, Some(measured), "{key}");
     assert_eq!(count.model, Some(count.expected), "{key}");
     assert!(!count.proven && !count.holds(), "{key}");
@@ -38,6 +44,19 @@ fn a_fault_of_the_likelihood_estimator_is_counted_and_not_proven() {
     // What only one operand in a billion does is not counted, but neither is it proven.
     let rare = solver("pause == 6'd0;", "pause == 6'd0 && a !== 987654321;");
     fault("likelihood_latency", &rare, 3779);
+}
+
+#[test]
+fn a_fault_of_the_scan_is_counted_and_not_proven() {
+    let control = |from, to| [["frame_ctrl.v", from, to]];
+    let few = ["firmware.shots_per_frame=300", "array.rows=3", "array.columns=2"];
+    let design = array(&few);
+    let lost = control("row == LastRow[5:0] ? 6'd0", "row == LastRow[5:0] ? 6'd1");
+    fault_in(&design, "image_cycles", &lost, 0);
+    let early = control("dsp_en && !estimating", "dsp_en");
+    fault_in(&design, "row_cycles", &early, 2073);
+    let longer = control("LastDrain = DrainCycles - 17'd1", "LastDrain = DrainCycles - 17'd2");
+    fault_in(&array(&[&few[..], &["array.banks=1"]].concat()), "depth_latency", &longer, 7576);
 }
 
 #[test]

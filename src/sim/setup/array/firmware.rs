@@ -1,0 +1,57 @@
+//! The firmware that scans an array.
+
+use std::fmt::Display;
+
+use crate::error::{Input, Result};
+use crate::firmware::frame_ctrl::timing::RowTiming;
+use crate::firmware::tof_top::{CodeSource, HistogramSource, Params};
+use crate::kernel::scan::{MOST_ROWS, Scan};
+
+use super::ArraySetup;
+
+impl ArraySetup {
+    /// Returns the parameters of the firmware that scans the array.
+    ///
+    /// # Errors
+    /// When it has more rows than `spad_sel` selects, or the scenario has what a firmware of several pixels has not.
+    pub fn firmware(&self) -> Result<Params> {
+        let setup = self.common();
+        let fault = |field: &str, value: &dyn Display, expected: &str| {
+            Input::new(format!("scenario {}", setup.name), expected)
+                .field(field)
+                .value(value)
+                .into()
+        };
+        let [rows, columns] = self.size().map(|count| count as u32);
+        if rows > MOST_ROWS {
+            let expected = "expected at most 40 for the firmware: spad_sel has 40 bits";
+            return Err(fault("array.rows", &rows, expected));
+        }
+        let scan = Scan { rows, columns, banks: setup.scenario.array.banks };
+        let mut params = setup.params.clone();
+        if !scan.is_single() {
+            if let HistogramSource::Preload(_) = params.histogram_source {
+                return Err(fault("stimulus.histogram", &"set", "expected none with an array"));
+            }
+            if let CodeSource::Preload(_) = params.code_source {
+                return Err(fault("stimulus.codes", &"set", "expected none with an array"));
+            }
+            if params.tdc_calibration.is_some() {
+                let frames = setup.scenario.tdc.recalibrate_frames;
+                let expected = "expected 0 with an array: its TDCs take their ages from a ROM";
+                return Err(fault("tdc.recalibrate_frames", &frames, expected));
+            }
+        }
+        params.frame_ctrl.scan = scan;
+        Ok(params)
+    }
+
+    /// Returns how long rows and images take.
+    ///
+    /// # Errors
+    /// As [`ArraySetup::firmware`].
+    pub fn timing(&self) -> Result<RowTiming> {
+        let (params, setup) = (self.firmware()?, self.common());
+        Ok(params.frame_ctrl.timing(setup.laser_period(), params.estimator_cycles()))
+    }
+}
