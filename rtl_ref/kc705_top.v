@@ -8,7 +8,7 @@ module kc705_top #(
     parameter [0:0] Calibrated = 1'b1,
     parameter [15:0] CalibrationFrames = 16'd64,
     // Of the scenario kc705 with tdc.recalibrate_frames=64
-    parameter [63:0] ParametersHash = 64'hd6478d01de27911b
+    parameter [63:0] ParametersHash = 64'h44280bd99df9bae2
 ) (
     // Board
     input wire sysclk_p,              // 200 MHz oscillator

@@ -45,7 +45,7 @@ fn with_fault(folder: &Path, name: &str, [old, new]: [&str; 2]) -> Vec<PathBuf> 
 fn renamed(folder: &Path) -> Vec<PathBuf> {
     let [own, top] = [
         ["module spad_control", "module other"],
-        ["    spad_control spad_control (", "    other spad_control ("],
+        ["    spad_control #(", "    other #("],
     ];
     let other = with_fault(folder, "spad_control.v", own);
     let top = with_fault(folder, "tof_top.v", top);

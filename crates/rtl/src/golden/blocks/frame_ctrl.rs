@@ -93,10 +93,16 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, In::list());
     // The state, cycles in it, whether this run is to be left at the exit of this turn, frames finished.
     let (mut last, mut phase, mut leaves, mut turn, mut frames) = (State::Clear, 0, false, 0, 0u64);
+    // Frames since the last exit.
+    let mut whole = 0;
     // So that each exit comes up whatever the draws.
     let lines = exits.len() * (344 + bins + shots as usize + length as usize);
     let is_long = shots > FEW || length > FRAME || bins > BINS;
-    let lines = if is_long { Setting::CYCLES.max(2 * lines) } else { Setting::CYCLES };
+    let lines = match scan.is_single() {
+        true if is_long => Setting::CYCLES.max(2 * lines),
+        true => Setting::CYCLES,
+        false => Setting::CYCLES.max((scan.rows as usize + 2) * lines),
+    };
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let (ctrl, draw) = (run.top.frame_ctrl, &mut run.draw);
         let (state, is_read) = (ctrl.state(), ctrl.is_estimating());
@@ -134,8 +140,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         waits.see_if((state, place) == (State::Drain, length), bits([ctrl.bank, is_read, i.dsp_en]));
         turn += usize::from(leave);
         frames += u64::from(ctrl.frame_done);
+        // Every row of an array comes up between two exits.
+        whole = if leave { 0 } else { whole + u64::from(ctrl.frame_done) };
         if ctrl.frame_done || leave {
-            leaves = !draw.one_in(4);
+            leaves = !draw.one_in(4) && (scan.is_single() || whole > rows);
         }
         last = if leave { State::Clear } else { state };
         run.line(&i);
