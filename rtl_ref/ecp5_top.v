@@ -10,7 +10,7 @@ module ecp5_top #(
     parameter [0:0] Calibrated = 1'b1,
     parameter [15:0] CalibrationFrames = 16'd64,
     // Of the scenario kc705 with tdc.recalibrate_frames=64, pll.part=ecp5, pll.divide=2 and pll.output_divide=4
-    parameter [63:0] ParametersHash = 64'h3516f451f3e7272e
+    parameter [63:0] ParametersHash = 64'hf4c05bf7c788278d
 ) (
     // Board
     input wire clk_in,                // oscillator, 200 MHz

@@ -233,3 +233,36 @@ fn pixels_without_an_echo_are_counted() {
     let strict = output(folder.path(), &[&words[..], &["--strict"]].concat());
     assert_eq!(strict.status.code(), Some(2));
 }
+
+#[test]
+fn an_image_states_the_image_rate_of_the_firmware() {
+    let folder = empty();
+    let few = image(&["--fidelity", "histogram", "-s", "estimator.kind=centroid", "--json"]);
+    let json = json(folder.path(), &few);
+    // 256 bins, 2000 shots of 6 cycles, 1 and 16 cycles of Drain; eight estimates of 312 + 2 cycles meanwhile.
+    let firmware = &json["firmware"];
+    assert_eq!(firmware["row_cycles"], 256 + 2000 * 6 + 1 + 16);
+    assert_eq!(firmware["image_cycles"], 6 * 12_273);
+    assert_eq!(firmware["depth_latency_cycles"], 16 + 8 * 314 - 1);
+    assert_eq!(firmware["images_per_s"], 1.0 / (6.0 * 12_273.0 * 8e-9));
+    let rows = ["image", "array", "-s", "array.rows=41", "-s", "array.columns=1", "--json"];
+    let json = self::json(folder.path(), &[&rows[..], &["--fidelity", "histogram"]].concat());
+    assert!(json["firmware"].is_null(), "{json}");
+}
+
+#[test]
+fn an_array_that_no_firmware_scans_is_refused_by_what_needs_one() {
+    let vectors = ["vectors", "tof_top", "-o", "out", "--scenario", "array"];
+    for (set, said) in [
+        (&["-s", "array.rows=41"][..], "array.rows = 41: expected at most 40 for the firmware"),
+        (&["-s", "tdc.recalibrate_frames=3"], "expected 0 with an array"),
+        (&["-s", "array.banks=3"], "array.banks = 3: expected a whole number from 1 to 2"),
+        (&["-s", "array.rows=1", "--language", "vhdl"], "benches in VHDL have one detector"),
+        (&["-s", "pll.jitter_rms_ps=5"], "pll.jitter_rms_ps"),
+    ] {
+        let folder = empty();
+        let few = &["-s", "firmware.shots_per_frame=20"][..];
+        let error = refused(folder.path(), &[&vectors[..], few, set].concat());
+        assert!(error.contains(said) && !folder.path().join("out").exists(), "{set:?}: {error}");
+    }
+}

@@ -83,6 +83,20 @@ fn every_slow_configuration_passes_in_icarus() {
     pass_in_icarus(&SLOW.map(str::to_owned));
 }
 
+/// Of an array with two banks. Those of the other estimators are configurations of `tof_top`.
+#[test]
+#[ignore = "long: ./check --full"]
+fn whole_images_of_the_likelihood_estimator_pass_in_both_simulators() {
+    let keys = ["array.rows=4", "array.columns=3", "firmware.shots_per_frame=300"];
+    let set = keys.iter().flat_map(|key| ["-s", *key]);
+    let image: Vec<_> = ["--top", "--scenario", "array"].into_iter().chain(set).collect();
+    for simulator in ["icarus", "verilator"] {
+        let blocks = verified(&[&image[..], &["--simulator", simulator]].concat());
+        // Four rows whose estimates last longer than their shots.
+        assert!(blocks[0]["cycles"].as_u64().unwrap() > 4 * 3 * 3781, "{blocks:?}");
+    }
+}
+
 /// With another seed, so that it also sees what Icarus is not given.
 #[test]
 #[ignore = "long: ./check --full"]

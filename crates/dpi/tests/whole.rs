@@ -43,10 +43,8 @@ fn with_fault(folder: &Path, name: &str, [old, new]: [&str; 2]) -> Vec<PathBuf> 
 
 /// Returns the design with a module under another name, to which no checker is bound.
 fn renamed(folder: &Path) -> Vec<PathBuf> {
-    let [own, top] = [
-        ["module spad_control", "module other"],
-        ["    spad_control #(", "    other #("],
-    ];
+    let [own, top] =
+        [["module spad_control", "module other"], ["    spad_control #(", "    other #("]];
     let other = with_fault(folder, "spad_control.v", own);
     let top = with_fault(folder, "tof_top.v", top);
     let both =

@@ -20,6 +20,7 @@ use steps::{steps, wait};
 use tofsim::error::Result;
 use tofsim::files::output::{create_directory, write_bytes, write_file};
 use tofsim::kernel::Time;
+use tofsim::kernel::sizes::Size;
 use tofsim::network::mem::{Mem, lines};
 
 use super::parameters::Parameter;
@@ -245,7 +246,8 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
         text += &format!(include_str!("bench/stops.v"), last = last);
     }
     if let Some(last) = vectors.column_stops.len().checked_sub(1) {
-        text += &format!(include_str!("bench/column_stops.v"), last = last);
+        let width = vectors.sizes.of(Size::LastColumn);
+        text += &format!(include_str!("bench/column_stops.v"), last = last, width = width);
     }
     text
 }

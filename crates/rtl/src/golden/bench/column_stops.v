@@ -10,7 +10,8 @@
         #1000000 column_now = column_now + 64'd1000000000;
       end
       #((column_stop_at[column_change][55:0] - column_now + 0.2) / 1000.0)
-      column_stop[column_stop_at[column_change][61:56]] = !column_stop[column_stop_at[column_change][61:56]];
+      // As a whole, because Verilator 5.006 does not see that a bit of it changes here.
+      column_stop = column_stop ^ ({width}'d1 << column_stop_at[column_change][61:56]);
       column_now = {{8'd0, column_stop_at[column_change][55:0]}};
     end
   end
