@@ -117,7 +117,7 @@ module frame_ctrl #(
                 end else if (dsp_en && !estimating) begin
                     algo_start_next = 1'b1;
                     depth_row_next = row;
-                    row_next = row == LastRow[5:0] ? 6'd0 : row + 6'd1;
+                    row_next = Rows == 1 || row == LastRow[5:0] ? 6'd0 : row + 6'd1;
                     estimating_next = Banked;
                     bank_next = Banked && !bank;
                     clear_next = Banked;
@@ -125,14 +125,14 @@ module frame_ctrl #(
                 end
             end
             Estimate: begin
-                if (algo_done && depth_column == LastColumn[5:0]) begin
+                if (algo_done && (Columns == 1 || depth_column == LastColumn[5:0])) begin
                     clear_next = 1'b1;
                     state_next = Clear;
                 end
             end
         endcase
         if (algo_done && (estimating || state == Estimate)) begin
-            if (depth_column != LastColumn[5:0]) begin
+            if (Columns > 1 && depth_column != LastColumn[5:0]) begin
                 depth_column_next = depth_column + 6'd1;
                 algo_start_next = 1'b1;
             end else begin

@@ -4,6 +4,7 @@ mod any_histogram;
 mod detector;
 mod effects;
 mod likelihood_estimator;
+mod pixels;
 mod scipy;
 mod subtraction;
 
