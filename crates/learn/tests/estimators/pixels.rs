@@ -27,7 +27,8 @@ fn pixels_reach_their_own_bounds_and_state_standard_deviations_that_hold() {
     let (mut over_bound, mut over_sigma, mut count) = (0.0, 0.0, 0);
     for (place, pixel) in pixels.iter().enumerate() {
         let setup = array.pixel(place / 6, place % 6);
-        let acquisition = Acquisition::of(&setup, &setup.bins(), setup.shots(1));
+        let bins = setup.bins();
+        let acquisition = Acquisition::of(&setup, &bins, setup.shots(1));
         let bound_m = Model::new(&acquisition).unwrap().cramer_rao_m(&(&setup.budget).into());
         let true_m = pixel.expected.radial_m.unwrap();
         assert!(pixel.expected.signal_hits.unwrap() > 500.0, "{place}: {:?}", pixel.expected);

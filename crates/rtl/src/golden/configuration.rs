@@ -101,7 +101,7 @@ pub const HOSTED_LONG_PULSE: Configuration =
 pub const ARRAY: Configuration = Configuration {
     name: "array",
     scenario: "array",
-    set: &["array.rows=4", "array.columns=3", "estimator.kind=centroid"],
+    set: &["array.rows=4", "array.columns=3", "estimator.kind=network"],
     parameters: &["Banks"],
     ..DEFAULTS
 };

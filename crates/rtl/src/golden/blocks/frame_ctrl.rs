@@ -38,7 +38,7 @@ const PRELOADED: Configuration = Configuration {
 /// An array whose rows are estimated before the next one acquires.
 const ONE_BANK: Configuration = Configuration {
     name: "one_bank",
-    set: &["array.rows=4", "array.columns=3", "array.banks=1", "estimator.kind=centroid"],
+    set: &["array.rows=4", "array.columns=3", "array.banks=1", "estimator.kind=network"],
     parameters: &["Rows", "Columns"],
     ..ARRAY
 };

@@ -15,7 +15,7 @@ pub(super) const SPEC: Spec = Spec {
 
 /// As many rows as `spad_sel` can select.
 const ARRAY_OF_40: Configuration = Configuration {
-    set: &["array.rows=40", "array.columns=3", "estimator.kind=centroid"],
+    set: &["array.rows=40", "array.columns=3", "estimator.kind=network"],
     parameters: &["Rows"],
     ..ARRAY
 };

@@ -32,7 +32,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM, ARRAY, ONE_BANK],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK],
     model: Some(Model {
         // It is looked at once its clocks run.
         settle: |at| at.top.pll.locked = true,
@@ -85,7 +85,14 @@ const HISTOGRAM: Configuration = Configuration {
     ..configuration::DEFAULTS
 };
 
-/// An array with one bank of histograms and the network.
+/// An array with two banks and the centroid estimator.
+const TWO_BANKS: Configuration = Configuration {
+    set: &["array.rows=4", "array.columns=3", "estimator.kind=centroid"],
+    module: Some(super::CENTROID),
+    ..ARRAY
+};
+
+/// An array with one bank and the network.
 const ONE_BANK: Configuration = Configuration {
     name: "one_bank",
     set: &["array.rows=2", "array.columns=3", "array.banks=1", "estimator.kind=network"],
