@@ -5,7 +5,6 @@ use tofsim::firmware::frame_ctrl::{FrameCtrl, In, Params};
 use tofsim::kernel::Clocked;
 use tofsim::sim::setup::Setup;
 
-use super::design::Define;
 use super::measured::Measured;
 
 /// An array under shots and estimates that take as long as promised.
@@ -36,7 +35,7 @@ impl CountedScan {
     }
 
     /// The macros that say how large the array is and how long its parts take.
-    pub fn defines(&self) -> Vec<Define> {
+    pub fn defines(&self) -> Vec<(&'static str, String)> {
         let (Params { histogram, scan, .. }, timing) = (self.frame_ctrl, self.timing());
         let numbers = [
             ("BINS", histogram.bins as u64),
