@@ -166,8 +166,6 @@ fn rows_and_images_take_as_long_as_shots_say_where_estimates_are_hidden() {
 fn rows_and_images_take_as_long_as_estimates_say_where_those_last_longer_or_come_after() {
     assert_eq!(small_array([3, 2, 2], "likelihood"), [7563, 22689, 13067]);
     assert_eq!(small_array([2, 3, 1], "network"), [2880, 5760, 822]);
-    // The image of the thesis's chip, 17.3 a second.
-    assert_eq!(scanned(&[]), [180_273, 7_210_920, 113_445]);
 }
 
 /// Counts and proves the promises of other lasers, each with its numbers.
