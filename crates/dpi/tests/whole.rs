@@ -112,7 +112,7 @@ fn icarus_has_the_same_over_vpi() {
     let said = "spad_sel: expected 0000000001, got xxxxxxxxxx";
     assert!(!run.is_fine && run.text.contains(said), "{}", run.text);
     // Without a reset nothing is compared.
-    let reset = "spad_control spad_control (\n        .clk_sys(clk_sys),\n        .rst(";
+    let reset = ") spad_control (\n        .clk_sys(clk_sys),\n        .rst(";
     let [wired, open] = ["rst_sys)", "1'b0)"].map(|rst| [reset, rst].concat());
     let never = with_fault(folder.path(), "tof_top.v", [&wired, &open]);
     let run = make(folder.path(), "icarus", &never, "");
