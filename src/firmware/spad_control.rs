@@ -40,13 +40,27 @@ impl In {
     }
 }
 
+impl SpadControl {
+    /// Stands for an edge without reset after which the same row acquires.
+    #[inline(always)]
+    pub fn recharge(&mut self, i: &In) {
+        self.spad_rst = i.pre_start & !i.mode;
+    }
+
+    /// Returns whether [`SpadControl::recharge`] changes nothing.
+    #[inline(always)]
+    pub fn is_recharged(&self, i: &In) -> bool {
+        self.spad_rst == (i.pre_start && !i.mode)
+    }
+}
+
 impl Clocked for SpadControl {
     type In = In;
     type Params = ();
 
     #[inline(always)]
     fn tick(&mut self, i: &In, (): &()) {
-        self.spad_rst = i.pre_start & !i.mode;
+        self.recharge(i);
         self.spad_sel = i.selected();
         if i.rst {
             *self = Self::default();
@@ -55,8 +69,7 @@ impl Clocked for SpadControl {
 
     #[inline(always)]
     fn quiet(&self, i: &In, (): &()) -> u64 {
-        let is_reset = self.spad_rst == (i.pre_start && !i.mode);
-        asleep_if(!i.rst && is_reset && self.spad_sel == i.selected())
+        asleep_if(!i.rst && self.is_recharged(i) && self.spad_sel == i.selected())
     }
 }
 

@@ -278,8 +278,9 @@ impl TofTop {
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let tdc_calibration = p.tdc_calibration.as_ref().map(|p| (Wires::tdc_calibration(self), p));
         let histogram_builder = Wires::histogram_builder(self);
-        if !p.frame_ctrl.scan.is_single() {
-            self.scan(p, &tdc, &histogram_builder);
+        let has_one_histogram = p.frame_ctrl.scan.has_one_histogram();
+        if !has_one_histogram {
+            self.scan(p);
         }
         let estimator = self.slot_inputs(p);
 
@@ -293,7 +294,9 @@ impl TofTop {
         if let Some((inputs, p)) = tdc_calibration {
             self.tdc_calibration.tick(&inputs, p);
         }
-        self.histogram_builder.tick(&p.first_bank(histogram_builder), &p.histogram);
+        if has_one_histogram {
+            self.histogram_builder.tick(&histogram_builder, &p.histogram);
+        }
         if let Some(inputs) = estimator {
             self.estimate(p, inputs);
         }

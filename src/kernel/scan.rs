@@ -29,10 +29,15 @@ impl Default for Scan {
 }
 
 impl Scan {
-    /// Returns whether there is one histogram only.
-    #[inline(always)]
+    /// Returns whether it is a single pixel with one bank.
     pub fn is_single(&self) -> bool {
         *self == Scan::default()
+    }
+
+    /// Returns whether there is one histogram only, whose turn it always is.
+    #[inline(always)]
+    pub fn has_one_histogram(&self) -> bool {
+        self.columns == 1 && self.banks == 1
     }
 
     /// Returns whether one bank is read while the other one is filled.

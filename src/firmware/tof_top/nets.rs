@@ -43,11 +43,10 @@ impl TofTop {
         self.nets.rst_dsp = self.reset_sync_sys.rst_sync | self.control_sync.dsp_rst_sync;
         self.nets.count = match &p.histogram_source {
             HistogramSource::Builder => {
-                let histogram = Wires::histogram_builder(self);
-                if p.frame_ctrl.scan.is_single() {
-                    self.histogram_builder.count(&histogram)
+                if p.frame_ctrl.scan.has_one_histogram() {
+                    self.histogram_builder.count(&Wires::histogram_builder(self))
                 } else {
-                    self.shown(p, &histogram)
+                    self.shown(p)
                 }
             }
             HistogramSource::Preload(rom) => {

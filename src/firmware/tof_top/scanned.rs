@@ -1,10 +1,9 @@
 //! The histograms and converters of an array beside those of a single pixel.
 
 use crate::firmware::histogram_builder::{self, Count, HistogramBuilder, Place};
-use crate::firmware::tdc;
 use crate::kernel::U;
 
-use super::{Params, TofTop};
+use super::{Params, TofTop, Wires};
 
 impl Params {
     /// Returns the place of a histogram.
@@ -12,33 +11,32 @@ impl Params {
     fn place(&self, column: usize, bank: usize) -> Place {
         Place { scan: self.frame_ctrl.scan, column: column as u64, bank: bank == 1 }
     }
-
-    /// Returns what the first bank of the first column takes of the input ports that all histograms have.
-    #[inline(always)]
-    pub(super) fn first_bank(&self, i: histogram_builder::In) -> histogram_builder::In {
-        if self.frame_ctrl.scan.is_single() { i } else { i.at(&self.place(0, 0)) }
-    }
 }
 
 impl TofTop {
-    /// Takes the edge's part of every histogram and converter but those of a single pixel.
-    pub(super) fn scan(&mut self, p: &Params, tdc: &tdc::In, histogram: &histogram_builder::In) {
+    /// Takes the edge's part of the histograms of an array, and of the converters of all columns but the first.
+    #[inline(never)]
+    pub(super) fn scan(&mut self, p: &Params) {
+        let (tdc, histogram) = (Wires::tdc(self), Wires::histogram_builder(self));
+        self.histogram_builder.tick(&histogram.at(&p.place(0, 0)), &p.histogram);
         if p.frame_ctrl.scan.banks > 1 {
             self.second_bank.tick(&histogram.at(&p.place(0, 1)), &p.histogram);
         }
         for (column, channel) in (1..).zip(&mut self.channels) {
             let decoder = &channel.tdc.tdc_decoder;
             let (tdc_valid, tdc_code) = (decoder.tdc_valid, decoder.tdc_code);
-            let own = histogram_builder::In { tdc_valid, tdc_code, ..*histogram };
+            let own = histogram_builder::In { tdc_valid, tdc_code, ..histogram };
             for (bank, histogram) in channel.banks.iter_mut().enumerate() {
                 histogram.tick(&own.at(&p.place(column, bank)), &p.histogram);
             }
-            channel.tdc.rise(tdc, &p.tdc, channel.sampled);
+            channel.tdc.rise(&tdc, &p.tdc, channel.sampled);
         }
     }
 
     /// Returns the word that is read, of whichever histogram it is.
-    pub(super) fn shown(&self, p: &Params, i: &histogram_builder::In) -> Count {
+    #[inline(never)]
+    pub(super) fn shown(&self, p: &Params) -> Count {
+        let i = Wires::histogram_builder(self);
         let count = |column: usize, bank: usize, histogram: &HistogramBuilder| {
             histogram.count(&i.at(&p.place(column, bank))).get()
         };

@@ -7,10 +7,8 @@
 
 use crate::firmware::carry_chain::Taps;
 use crate::firmware::tof_top::{CodeSource, Params, TofTop, Wires};
-use crate::firmware::{
-    code_preload, frame_ctrl, histogram_builder, spad_control, tdc, vcsel_driver,
-};
-use crate::kernel::{AWAKE, Clocked};
+use crate::firmware::{code_preload, frame_ctrl, histogram_builder, tdc, vcsel_driver};
+use crate::kernel::{AWAKE, Clocked, asleep_if};
 use crate::sim::device::Device;
 
 /// Returns the number of next cycles in which only the laser's count moves in the emitter.
@@ -30,7 +28,7 @@ fn emitter_quiet_if(top: &TofTop, laser_quiet: u64) -> u64 {
     if laser_quiet == AWAKE {
         return AWAKE;
     }
-    laser_quiet.min(top.spad_control.quiet(&spad_inputs(top), &()))
+    laser_quiet.min(asleep_if(top.spad_control.is_recharged(&Wires::spad_control(top))))
 }
 
 /// Returns the number of next cycles in which only the coarse count and hits on their way to their words move in the
@@ -78,9 +76,9 @@ pub(super) fn emit(top: &mut TofTop, p: &Params) {
     if top.vcsel_driver.registers.start {
         let (rst, dsp_rst, algo_done) = (false, false, false);
         let i = frame_ctrl::In { rst, dsp_rst, algo_done, ..Wires::frame_ctrl(top) };
-        top.frame_ctrl = top.frame_ctrl.next(&i, &p.frame_ctrl);
+        top.frame_ctrl.tick(&i, &p.frame_ctrl);
     }
-    top.spad_control = top.spad_control.next(&spad_inputs(top), &());
+    top.spad_control.recharge(&Wires::spad_control(top));
     top.vcsel_driver.registers.tick(&laser, &p.vcsel_driver);
 }
 
@@ -147,11 +145,6 @@ pub(super) fn count(top: &mut TofTop, p: &Params) {
 #[inline(always)]
 fn laser_inputs(top: &TofTop) -> vcsel_driver::In {
     vcsel_driver::In { rst: false, rst_laser: false, ..Wires::vcsel_driver(top) }
-}
-
-#[inline(always)]
-fn spad_inputs(top: &TofTop) -> spad_control::In {
-    spad_control::In { rst: false, ..Wires::spad_control(top) }
 }
 
 #[inline(always)]

@@ -199,11 +199,11 @@ fn calibrated(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     Ok(Vectors { coverage: vec![states, calibrations, codes], ..vectors })
 }
 
-/// Two images of an array and a row more, with few shots.
+/// Images of an array, with few shots.
 fn images(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut setting = setting.clone();
-    let shots = setting.shots(SHOTS_OF_A_ROW);
-    (setting.frames, setting.setup.params.frame_ctrl.shots_per_frame) = (2, shots);
+    setting.cycles = setting.cycles.or(Some(RANDOM));
+    setting.setup.params.frame_ctrl.shots_per_frame = setting.shots(SHOTS_OF_A_ROW);
     let scan = setting.setup.params.frame_ctrl.scan;
     let places = |times: u64| {
         let columns = u64::from(scan.columns);
@@ -211,7 +211,7 @@ fn images(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             (0..times).map(move |k| (place / columns * 64 + place % columns) * 2 + k)
         })
     };
-    let mut depths = Cover::new("(row x 64 + column of an estimate) x 2 + image", places(2));
+    let mut depths = Cover::new("(row x 64 + column of an estimate) x 2 + image, modulo 2", places(2));
     let mut rows = Cover::new("rows selected as a shot begins", 0..scan.rows.into());
     let mut banks = Cover::new("bank filled x 2 + the estimator works", 0..2 * u64::from(scan.banks));
     let mut lit = Cover::new("columns other than 0 whose output rises in a window", 1..scan.columns.into());
@@ -219,7 +219,7 @@ fn images(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let vectors = top::record(spec, &setting, &mut |top| {
         let (ctrl, outputs) = (&top.frame_ctrl, top.pins.column_stop.get());
         let place = ctrl.depth_row.get() * 64 + ctrl.depth_column.get();
-        depths.see_if(ctrl.algo_start, place * 2 + begun / places(1).count() as u64);
+        depths.see_if(ctrl.algo_start, place * 2 + begun / places(1).count() as u64 % 2);
         begun += u64::from(ctrl.algo_start);
         rows.see_if(top.vcsel_driver.registers.start, top.spad_control.spad_sel.get().trailing_zeros().into());
         banks.see(bits([ctrl.bank, ctrl.is_estimating()]));
