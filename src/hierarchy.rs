@@ -10,15 +10,19 @@ use crate::kernel::signals::{Signal, SignalFormat};
 use crate::kernel::sizes::{Size, Sizes};
 
 mod build;
+mod channels;
 mod entry;
 mod part;
 
 use build::Build;
-pub use entry::{Entry, IDS, Kind, ROW, TOP, below_top};
+pub use channels::CHANNEL;
+use channels::channel_entries;
+pub use entry::{Entry, IDS, Kind, ROW, TOP, below_top, within};
 use entry::{MOST_OUTPUTS, RAM};
 pub use part::{Part, changes, copy};
 
-/// Lists every name in every scope of a design with these parameters, without the RAM's words.
+/// Lists every name in every scope of a design with these parameters, without the RAM's words and the other columns of
+/// an array.
 pub fn entries(params: &Params) -> Vec<Entry> {
     let absent: Vec<_> =
         params.left_out().into_iter().map(|module| format!("{TOP}.{module}")).collect();
@@ -33,6 +37,11 @@ pub fn entries(params: &Params) -> Vec<Entry> {
         entries.retain(|entry| !is_own(entry));
     }
     entries
+}
+
+/// Lists every name of the other columns of an array, without the words of their RAM.
+pub fn column_entries(params: &Params) -> Vec<Entry> {
+    channel_entries(params, &entries(params))
 }
 
 /// Lists every name in every scope of a design of these sizes, without the RAM's words.
@@ -102,9 +111,4 @@ pub fn row_entries(outputs: usize) -> Vec<Entry> {
         id: ROW + place,
     };
     (0..outputs.min(MOST_OUTPUTS)).map(output).collect()
-}
-
-/// Returns whether a dotted path equals `parent` or lies within it.
-pub fn within(scope: &str, parent: &str) -> bool {
-    scope.strip_prefix(parent).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }

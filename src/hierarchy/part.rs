@@ -1,10 +1,12 @@
 //! Change detection for a subset of the signals.
 
 use crate::firmware::histogram_builder::MOST_BINS;
-use crate::firmware::tof_top::{FirmwareEstimator, TofTop};
+use crate::firmware::tof_top::{Clocks, FirmwareEstimator, TofTop};
 use crate::kernel::module::{Instance, Module, Visitor};
+use crate::kernel::scan::MOST_COLUMNS;
 use crate::kernel::signals::{Signals, Sink};
 
+use super::channels::ChannelIds;
 use super::entry::{IDS, RAM};
 
 /// A subset of the signals, with their last reported values.
@@ -12,6 +14,8 @@ use super::entry::{IDS, RAM};
 pub struct Part {
     /// Whether each id belongs to the subset. A struct of signals is compared as a whole.
     wanted: Box<[bool; IDS]>,
+    /// Whether a clock, which have the first ids, belongs to the subset.
+    wants_clocks: bool,
     /// Number of ids to skip at the first id of a module that has none in the subset; the largest number where
     /// modules share a first id.
     unwanted: Box<[usize; IDS]>,
@@ -19,6 +23,8 @@ pub struct Part {
     unwanted_if_still: Box<[usize; IDS]>,
     /// Whether the top counts the changes of its estimators.
     is_counted: bool,
+    /// Other columns of an array with a signal in the subset. The array may have fewer.
+    columns: Vec<usize>,
     /// RAM words in the subset, sorted and unique. The RAM may be smaller.
     words: Vec<usize>,
     /// Whether the next edge of `clk_sys` may write a RAM word.
@@ -40,8 +46,19 @@ impl Part {
         };
         TofTop::default().visit(None, &mut unwanted);
         let Unwanted { counts: unwanted, if_still: unwanted_if_still, .. } = unwanted;
-        let (is_counted, writes, kept) = (false, true, None);
-        Part { wanted, unwanted, unwanted_if_still, is_counted, words, writes, kept }
+        let columns =
+            (1..MOST_COLUMNS as usize).filter(|column| ChannelIds::of(*column).any(&wanted[..]));
+        Part {
+            columns: columns.collect(),
+            wants_clocks: wanted[..<Clocks as Signals>::COUNT].contains(&true),
+            wanted,
+            unwanted,
+            unwanted_if_still,
+            is_counted: false,
+            words,
+            writes: true,
+            kept: None,
+        }
     }
 
     /// Compares an estimator only if the top has counted a change: for a top in which only its own edges change
@@ -53,8 +70,15 @@ impl Part {
     /// Reports every signal of the design as if it had changed.
     pub fn show(&mut self, top: &TofTop, sink: &mut impl Sink) {
         changes(top, None, sink);
+        for &column in &self.columns {
+            let look = &mut Look { wanted: None, between: false, id: 0, sink };
+            follow_channel(column, top, None, look);
+        }
         match &mut self.kept {
-            Some(kept) => copy(top, kept),
+            Some(kept) => {
+                copy(top, kept);
+                kept.channels.clone_from(&top.channels);
+            }
             None => self.kept = Some(top.clone()),
         }
         self.writes = true;
@@ -69,6 +93,11 @@ impl Part {
         let still = self.is_counted && kept.estimator_changes == top.estimator_changes;
         let unwanted = if still { &self.unwanted_if_still } else { &self.unwanted };
         let wanted = Some((&*self.wanted, &**unwanted));
+        if !top.channels.is_empty() {
+            for &column in &self.columns {
+                follow_channel(column, top, Some(kept), &mut Look { wanted, between, id: 0, sink });
+            }
+        }
         top.visit(Some(kept), &mut Look { wanted, between, id: 0, sink });
         kept.estimator_changes = top.estimator_changes;
         let writes = top.histogram_builder.has_hit() || top.frame_ctrl.clear;
@@ -83,11 +112,13 @@ impl Part {
         }
     }
 
-    /// Reports changes at an instant when only clock levels, which have the first ids, can change.
+    /// Reports changes at an instant when only clock levels can change.
     #[inline(always)]
     pub fn tick(&mut self, top: &TofTop, sink: &mut impl Sink) {
         if let Some(kept) = &mut self.kept {
-            top.clocks.changes(Some(&kept.clocks), 0, sink);
+            if self.wants_clocks {
+                top.clocks.changes(Some(&kept.clocks), 0, sink);
+            }
             kept.clocks = top.clocks;
         }
     }
@@ -101,6 +132,32 @@ pub fn changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
         if before.is_none_or(|before| before.histogram_builder.ram[bin] != *now) {
             sink.word(RAM + bin, now.get());
         }
+    }
+}
+
+/// Reports the signals of a column from 1 on that differ from those before, or all. The pins before have to be those
+/// of the same instant.
+fn follow_channel<K: Sink>(
+    column: usize,
+    top: &TofTop,
+    then: Option<&mut TofTop>,
+    look: &mut Look<K>,
+) {
+    let (place, ids) = (column - 1, ChannelIds::of(column));
+    let Some(now) = top.channels.get(place) else { return };
+    let stop = |top: &TofTop| top.pins.column_stop.get() >> place & 1;
+    if then.as_ref().is_none_or(|then| stop(then) != stop(top)) {
+        look.sink.word(ids.stop, stop(top));
+    }
+    let (tdc, mut banks) = match then.map(|then| &mut then.channels[place]) {
+        Some(then) => (Some(&mut then.tdc), Some(&mut then.banks)),
+        None => (None, None),
+    };
+    look.id = ids.tdc();
+    now.tdc.visit(tdc, look);
+    for (bank, now) in now.banks.iter().enumerate() {
+        look.id = ids.bank(bank);
+        now.visit(banks.as_mut().map(|banks| &mut banks[bank]), look);
     }
 }
 

@@ -9,8 +9,11 @@ use crate::kernel::{Time, U};
 use crate::scenario::effects::Method;
 
 use super::device::SignalProbe;
+use super::oscillator::Oscillator;
 use super::photons::{Photons, Shown};
 use super::setup::array::ArraySetup;
+
+mod trace;
 
 /// A depth of an image, as the firmware outputs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +41,8 @@ pub struct ArrayDevice {
     /// Wires from the selected row.
     wires: Vec<Wire>,
     row: usize,
+    /// The board's oscillator, advanced for a probe only.
+    oscillator: Oscillator,
     /// Edges of `clk_sys` so far.
     cycle: u64,
 }
@@ -62,6 +67,7 @@ impl ArrayDevice {
         Ok(ArrayDevice {
             top: TofTop::new(common.pins, params),
             pll: common.pll().clone(),
+            oscillator: Oscillator::new(common.pll().clk_in.clone()),
             pixels: places.map(|(row, column)| Photons::new(&setup.pixel(row, column))).collect(),
             wires: vec![Wire::default(); columns],
             row: 0,
@@ -73,6 +79,11 @@ impl ArrayDevice {
     /// Returns the number of rising edges of `clk_sys` so far.
     pub fn cycle(&self) -> u64 {
         self.cycle
+    }
+
+    /// Returns begin and end of the coming cycle of `clk_sys`.
+    pub fn coming_cycle(&self) -> (Time, Time) {
+        (self.pll.clk_sys.rise(self.cycle), self.pll.clk_sys.rise(self.cycle + 1))
     }
 
     /// Returns the parameters of the firmware.
@@ -87,6 +98,7 @@ impl ArrayDevice {
         for (at, column) in changes {
             self.change(at, column, probe);
         }
+        self.show_oscillator(self.pll.locked_at, probe);
         self.top.pll.locked = true;
         self.sample(self.pll.locked_at, probe);
     }
@@ -108,6 +120,7 @@ impl ArrayDevice {
             while let Some((when, column)) = changes.next_if(|change| change.0 <= at) {
                 self.change(when, column, probe);
             }
+            self.show_oscillator(at, probe);
             match act {
                 Some(act) => act(&mut self.top),
                 None => self.top.rise_laser(&self.params),
@@ -130,6 +143,7 @@ impl ArrayDevice {
 
     /// Takes the edge at `now` at which both clocks rise; returns whether it selects another row.
     fn rise<T: SignalProbe>(&mut self, now: Time, probe: &mut T) -> bool {
+        self.show_oscillator(now, probe);
         let (delays, lit) = (&self.params.tdc.delays, self.top.nets.laser_on);
         let mut taps =
             self.wires.iter_mut().map(|wire| wire.transitions.sample(wire.level, now, delays));
@@ -192,6 +206,7 @@ impl ArrayDevice {
 
     /// Changes the level of a wire, and shows it.
     fn change<T: SignalProbe>(&mut self, now: Time, column: usize, probe: &mut T) {
+        self.show_oscillator(now, probe);
         self.toggle(now, column);
         self.sample(now, probe);
     }
@@ -204,6 +219,15 @@ impl ArrayDevice {
         match column.checked_sub(1) {
             None => pins.tdc_stop = wire.level,
             Some(bit) => pins.column_stop = U::new(pins.column_stop.get() ^ 1 << bit),
+        }
+    }
+
+    /// Shows the edges of `clk_in` up to `now`, before anything else changes then.
+    fn show_oscillator<T: SignalProbe>(&mut self, now: Time, probe: &mut T) {
+        while T::ON && self.oscillator.next_edge() <= now {
+            let at = self.oscillator.next_edge();
+            self.top.clocks.clk_in = self.oscillator.edge();
+            probe.sample(at, &self.top);
         }
     }
 

@@ -41,6 +41,14 @@ enum State {
     Writing,
 }
 
+/// A cycle that is to come.
+pub(super) struct Turn {
+    /// Whether a window has it.
+    wanted: bool,
+    /// Whether a window has it, and none has the one before.
+    opens: bool,
+}
+
 /// Waveform file that is written while a window is open.
 pub(super) struct WaveTracer {
     waves: Waves,
@@ -73,7 +81,7 @@ impl WaveTracer {
     }
 
     /// Opens a window.
-    fn begin(&mut self, now: Time, top: &TofTop) {
+    pub(super) fn begin(&mut self, now: Time, top: &TofTop) {
         self.state = State::Writing;
         self.waves.begin(now, top);
         self.began.get_or_insert(now);
@@ -99,13 +107,67 @@ impl WaveTracer {
         }
     }
 
-    fn follow_shot(&mut self, device: &Device, frames: &Frames) {
-        let top = &device.top;
+    fn follow_shot(&mut self, top: &TofTop, shots: u64) {
         if shot_is_near(top) {
-            self.shot = Some(frames.shots());
+            self.shot = Some(shots);
         } else if top.frame_ctrl.clear {
             self.shot = None;
         }
+    }
+
+    /// Returns whether a window has the time from power-up to the first edge of `clk_sys`.
+    pub(super) fn wants_power_up(&self, first_edge: Time) -> bool {
+        let moment = Moment { cycle: (Time::ZERO, first_edge), shot: None, estimating: false };
+        self.windows.iter().any(|window| window.wants(&moment))
+    }
+
+    /// Takes the coming cycle, after so many shots of the run; returns whether a window has it, and whether it is the
+    /// first of those.
+    ///
+    /// # Errors
+    /// When the waveform could not be written.
+    pub(super) fn turn(
+        &mut self,
+        cycle: (Time, Time),
+        top: &TofTop,
+        shots: u64,
+        p: &frame_ctrl::Params,
+    ) -> Result<Turn> {
+        self.waves.check()?;
+        if cycle.1 <= self.wanting_until {
+            return Ok(Turn { wanted: self.wanting > 0, opens: false });
+        }
+        self.follow_shot(top, shots);
+        let estimating = is_estimating(&top.frame_ctrl, p);
+        let moment = Moment { cycle, shot: self.shot, estimating };
+        let wanting = self.windows.iter().filter(|window| window.wants(&moment)).count();
+        let wanted = wanting > 0;
+        let changes = self.wanting > 0 && wanting != self.wanting;
+        if self.state == State::Writing && changes && self.marks.to == Time::ZERO {
+            self.marks.to = cycle.0;
+        }
+        self.wanting = wanting;
+        let held = self.windows.iter().map(|window| window.holds_until(cycle.0));
+        self.wanting_until = held.min().unwrap_or(Time::ZERO);
+        let opens = self.state == State::Waiting && wanted;
+        match (self.state, wanted) {
+            (State::Waiting, true) => self.state = State::Opening,
+            (State::Writing, false) => {
+                self.state = State::Waiting;
+                self.close(cycle.0);
+            }
+            _ => {}
+        }
+        Ok(Turn { wanted, opens })
+    }
+
+    /// Returns whether no window has the cycle that begins at `now` or a later one.
+    pub(super) fn is_over(&self, now: Time) -> bool {
+        self.windows.iter().all(|window| match *window {
+            Window::Shots { to, .. } => self.shot.is_some_and(|shot| shot >= to),
+            Window::Span { to, .. } => to <= now,
+            Window::Estimation => false,
+        })
     }
 
     /// Puts the waveform in place; `end` and `shots` are the run's.
@@ -150,9 +212,7 @@ impl SignalProbe for WaveTracer {
 
 impl WindowedProbe for WaveTracer {
     fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
-        let cycle = (Time::ZERO, device.next_edge());
-        let moment = Moment { cycle, shot: None, estimating: false };
-        let begins = self.windows.iter().any(|window| window.wants(&moment));
+        let begins = self.wants_power_up(device.next_edge());
         if begins {
             device.resume_clocks(Time::ZERO);
             self.begin(Time::ZERO, &device.top);
@@ -161,35 +221,12 @@ impl WindowedProbe for WaveTracer {
     }
 
     fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool> {
-        self.waves.check()?;
         let cycle = device.coming_cycle();
-        if cycle.1 <= self.wanting_until {
-            return Ok(self.wanting > 0);
+        let turn = self.turn(cycle, &device.top, frames.shots(), &p.frame_ctrl)?;
+        if turn.opens {
+            device.resume_clocks(cycle.0);
         }
-        self.follow_shot(device, frames);
-        let estimating = is_estimating(&device.top.frame_ctrl, &p.frame_ctrl);
-        let moment = Moment { cycle, shot: self.shot, estimating };
-        let wanting = self.windows.iter().filter(|window| window.wants(&moment)).count();
-        let wanted = wanting > 0;
-        let changes = self.wanting > 0 && wanting != self.wanting;
-        if self.state == State::Writing && changes && self.marks.to == Time::ZERO {
-            self.marks.to = cycle.0;
-        }
-        self.wanting = wanting;
-        let held = self.windows.iter().map(|window| window.holds_until(cycle.0));
-        self.wanting_until = held.min().unwrap_or(Time::ZERO);
-        match (self.state, wanted) {
-            (State::Waiting, true) => {
-                self.state = State::Opening;
-                device.resume_clocks(cycle.0);
-            }
-            (State::Writing, false) => {
-                self.state = State::Waiting;
-                self.close(cycle.0);
-            }
-            _ => {}
-        }
-        Ok(wanted)
+        Ok(turn.wanted)
     }
 }
 
@@ -202,8 +239,10 @@ fn shot_is_near(top: &TofTop) -> bool {
 /// Returns whether the estimator works, is about to, or has just finished.
 fn is_estimating(ctrl: &FrameCtrl, p: &frame_ctrl::Params) -> bool {
     const NEAR: u64 = 2;
+    if ctrl.frame_done || ctrl.is_estimating() {
+        return true;
+    }
     match ctrl.state {
-        FrameState::Clear if ctrl.frame_done => true,
         FrameState::Clear => p.preloaded && ctrl.clear_addr.get() + NEAR >= p.histogram.last_bin(),
         FrameState::Acquire => false,
         FrameState::Drain => ctrl.drain.get() + NEAR >= p.last_drain(),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::hierarchy::Entry;
+use crate::hierarchy::{CHANNEL, Entry};
 use crate::kernel::signals::SignalFormat;
 
 use super::layout::{Group, ShownSignal};
@@ -137,8 +137,10 @@ impl Lines<'_> {
 
     fn named(&mut self, row: &ShownSignal<'_>, note: &str) {
         // GTKWave would show a name with dots from the last dot on.
-        let parts: Vec<_> = row.name.rsplit('.').take(2).collect();
-        let shown = parts.into_iter().rev().collect::<Vec<_>>().join("/");
+        let parts: Vec<_> = row.name.split('.').collect();
+        let (outer, last) = parts.split_at(parts.len().saturating_sub(2));
+        let channel = outer.first().filter(|scope| scope.starts_with(CHANNEL));
+        let shown = channel.into_iter().chain(last).copied().collect::<Vec<_>>().join("/");
         self.line(format_args!("+{{{shown}{note}}} {}", full_name(row.entry)));
     }
 }

@@ -40,6 +40,7 @@ pub mod train;
 mod usage;
 pub mod vectors;
 pub mod verify;
+mod wave_plan;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

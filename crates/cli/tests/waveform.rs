@@ -9,6 +9,8 @@ use wellen::simple::{Waveform, read};
 
 use crate::common;
 
+mod channels;
+
 /// Changes of a signal: time [ps] and value as bits, most significant first.
 type Changes = Vec<(u64, String)>;
 

@@ -22,7 +22,17 @@ impl Setup {
     /// # Errors
     /// When one lies past the end of the run, as far as that is known before.
     pub fn windows(&self, given: &[Window], frames: u64) -> Result<Vec<Window>> {
-        let shots = self.shots(frames);
+        let end = self.end(frames).unwrap_or(Time::NEVER);
+        self.windows_within(given, self.shots(frames), end)
+    }
+
+    /// The windows of a run of so many shots that ends at `end`, as far as that is known before.
+    pub(super) fn windows_within(
+        &self,
+        given: &[Window],
+        shots: u64,
+        end: Time,
+    ) -> Result<Vec<Window>> {
         let own = &self.scenario.report.windows;
         let (source, windows) = match (given, own.as_slice()) {
             ([], []) => {
@@ -36,7 +46,6 @@ impl Setup {
             ([], own) => ("report.windows", own.to_vec()),
             (given, _) => ("--window", given.to_vec()),
         };
-        let end = self.end(frames).unwrap_or(Time::NEVER);
         for window in &windows {
             window
                 .check(shots, end)
@@ -64,6 +73,7 @@ impl Setup {
     #[doc(hidden)]
     pub fn entries(&self, globs: &[String]) -> Result<Vec<hierarchy::Entry>> {
         let mut entries = hierarchy::entries(&self.params);
+        entries.extend(hierarchy::column_entries(&self.params));
         entries.extend(hierarchy::row_entries(self.scenario.spad.row_outputs as usize));
         waves::select(entries, hierarchy::ram_entries(&self.params.histogram), globs)
     }

@@ -102,6 +102,7 @@ impl DepthImages<'_> {
         facts.push(("estimator", setup.params.estimator.estimator().to_owned()));
         facts.push(("fidelity", self.fidelity.to_owned()));
         facts.extend(self.firmware().map(|firmware| ("firmware", firmware.to_string())));
+        facts.extend(self.waves.clone().map(|path| ("waveform", path)));
         let range = |[least, median, most]: [f64; 3]| {
             let [least, median, most] = [least, median, most].map(|hits| fixed(hits, 1));
             if self.is_whole() {
@@ -134,6 +135,7 @@ impl Findings for DepthImages<'_> {
             "columns": columns,
             "geometry": self.geometry(),
             "firmware": self.firmware(),
+            "waves": self.waves,
             "signal_hits": ends(self.signal_hits()),
             "ambient_hits": ends(self.ambient_hits()),
             "images": self.statistics(),

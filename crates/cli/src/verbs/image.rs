@@ -1,12 +1,16 @@
 //! `tofsim image`: depth images of an array of pixels.
 
-use tofsim::error::Result;
+use std::sync::atomic::AtomicBool;
+
+use tofsim::error::{Input, Result};
+use tofsim::files::folder::FolderLock;
 use tofsim::sim::Stepping;
 use tofsim::sim::image::{ImageFidelity, simulate};
 use tofsim::sim::setup::array::ArraySetup;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
-use crate::choice::{Fidelity, seed, threads, words};
+use crate::choice::{self, Fidelity, WaveformChoice, seed, threads, words};
+use crate::record::Record;
 use crate::report::image::{DepthImages, ImagePixel};
 use crate::report::link_budget::LinkBudget;
 use crate::report::writer::Report;
@@ -16,6 +20,7 @@ use super::frames;
 use super::options::ResultArgs;
 use super::pixel::{PixelPlace, merged};
 use super::terminal::{Console, stop_signal};
+use super::wave_plan::{SignalArgs, WavePlan};
 
 /// Simulate depth images of an array of pixels
 ///
@@ -26,6 +31,7 @@ use super::terminal::{Console, stop_signal};
     tofsim image -o out             40 x 30 pixels\n  \
     tofsim image -s array.rows=8 -s array.columns=6 --images 100\n  \
     tofsim image --pixel 20,15      one pixel of them, the same frames\n  \
+    tofsim image --waves fst --window shot:0..8 --signals 'channel_7.*'\n  \
     tofsim image mine.toml --fidelity histogram -o out")]
 pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
@@ -43,6 +49,11 @@ pub struct Args {
     /// Simulation fidelity: cycle and shot give identical images, histogram images of the same distribution
     #[arg(long, value_parser = words(&Fidelity::ALL), default_value = "shot")]
     fidelity: Fidelity,
+    /// Write the waveform of the firmware that scans the array
+    #[arg(long, value_parser = words(choice::WAVEFORM), default_value = "none")]
+    waves: WaveformChoice,
+    #[command(flatten)]
+    shown: SignalArgs,
     /// Simulate this pixel alone: its row from the top and its column from the left, from 0
     #[arg(long, value_name = "ROW,COL")]
     pixel: Option<PixelPlace>,
@@ -67,6 +78,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     use_threads(args.threads)?;
 
     let stop = stop_signal();
+    let waves = args.trace(&array, stop.as_deref(), console)?;
     let [rows, columns] = place.map_or(array.size(), |_| [1, 1]);
     let progress = console.progress(args.images * (rows * columns) as u64, "frames");
     let done = |frames| progress.inc(frames);
@@ -87,7 +99,38 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
         ImagePixel { row, column, sight: array.sight(row, column), measured }
     };
     let pixels = simulated.into_iter().enumerate().map(pixel).collect();
-    let images =
-        DepthImages { array: &array, fidelity: args.fidelity.name(), images: args.images, pixels };
+    let (fidelity, images) = (args.fidelity.name(), args.images);
+    let images = DepthImages { array: &array, fidelity, images, waves, pixels };
     args.result.deliver(&Report::new(images, setup, &notes, console), console)
+}
+
+impl Args {
+    /// Writes the waveform of the firmware, if it is wanted, and returns its path.
+    fn trace(
+        &self,
+        array: &ArraySetup,
+        stop: Option<&AtomicBool>,
+        console: &Console,
+    ) -> Result<Option<String>> {
+        let Some(format) = self.waves else {
+            return match self.shown.given().iter().find(|(_, given)| *given) {
+                Some((option, _)) => Err(Input::new(*option, "expected --waves vcd or fst").into()),
+                None => Ok(None),
+            };
+        };
+        if self.pixel.is_some() {
+            let expected =
+                "expected none with --pixel: the waveform of a pixel is that of `run --pixel`";
+            return Err(Input::new("--waves", expected).into());
+        }
+        let setup = array.with_firmware()?;
+        let windows = array.windows(&self.shown.window, self.images)?;
+        let folder = (self.result.output.as_deref(), format);
+        let plan = WavePlan::new(folder, &setup, &self.shown.signals, windows)?;
+        let _held = plan.path.parent().map(FolderLock::take).transpose()?;
+        let record = Record::new(&setup, &console.command);
+        let marks = array.trace(plan.open(&record, &setup)?, self.images, stop)?;
+        plan.finish(&marks)?;
+        Ok(Some(plan.path.display().to_string()))
+    }
 }

@@ -1,12 +1,11 @@
 //! `tofsim run`: photons to depth.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
-use tofsim::hierarchy;
 use tofsim::scenario;
 use tofsim::scenario::window::Window;
 use tofsim::sim::fast::histogram::Histograms;
@@ -15,7 +14,7 @@ use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Outcome, Run, Stepping};
-use tofsim::waves::{Marks, WaveFormat, Waves, write_views};
+use tofsim::waves::{WaveFormat, Waves};
 use tofsim_learn::estimation::notes::notes_of_firmware;
 use tofsim_learn::estimation::{EstimatorKind, Needs, Panel};
 
@@ -31,6 +30,7 @@ use super::draws::{load, use_threads};
 use super::frames;
 use super::pixel::PixelPlace;
 use super::terminal::{Console, print_with, stop_signal};
+use super::wave_plan::{SignalArgs, WavePlan};
 
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]
@@ -64,14 +64,8 @@ pub struct Args {
     /// Format of the waveform [default: vcd; none for fidelities without signals]
     #[arg(long, value_parser = words(choice::WAVEFORM))]
     waves: Option<WaveformChoice>,
-    /// Part of the run to record in the waveform: shot:0..8, shot:100, 10us..12us or estimation; may be repeated [default: the
-    /// scenario's, or shot:0..16 and estimation]
-    #[arg(long, value_name = "W", value_parser = str::parse::<Window>)]
-    window: Vec<Window>,
-    /// Signals to record in the waveform, by name or path with * and ?; may be repeated [default: all but the
-    /// histogram's RAM]
-    #[arg(long, value_name = "GLOB")]
-    signals: Vec<String>,
+    #[command(flatten)]
+    shown: SignalArgs,
     /// Additional estimators for each frame's histogram, separated by commas; with subtraction, frames are pairs of a
     /// dark and a lit one (firmware.dark_frames) for all estimators
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',')]
@@ -116,7 +110,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;
     let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
-    let plan = waves.map(|format| WavePlan::new(args, format, &setup, frames)).transpose()?;
+    let plan = waves.map(|format| args.wave_plan(format, &setup, frames)).transpose()?;
     let home = plan.as_ref().and_then(|plan| plan.path.parent()).or(args.output.as_deref());
     let _held = home.map(FolderLock::take).transpose()?;
     let record = Record::lazy(&setup, &console.command);
@@ -198,6 +192,11 @@ impl Args {
         }
     }
 
+    fn wave_plan(&self, format: WaveFormat, setup: &Setup, frames: u64) -> Result<WavePlan> {
+        let windows = setup.windows(&self.shown.window, frames)?;
+        WavePlan::new((self.output.as_deref(), format), setup, &self.shown.signals, windows)
+    }
+
     /// The format of the waveform, if there is one.
     fn waves_format(&self) -> Result<WaveformChoice> {
         match (self.fidelity, self.waves) {
@@ -238,13 +237,9 @@ impl Args {
         if self.fidelity == Fidelity::Cycle {
             return Ok(());
         }
-        let asked = [
-            ("--window", !self.window.is_empty()),
-            ("--signals", !self.signals.is_empty()),
-            ("--events", self.events.is_some()),
-            ("report.tdc", setup.scenario.report.tdc),
-        ];
-        match asked.iter().find(|(_, asked)| *asked) {
+        let asked =
+            [("--events", self.events.is_some()), ("report.tdc", setup.scenario.report.tdc)];
+        match self.shown.given().iter().chain(&asked).find(|(_, asked)| *asked) {
             Some((option, _)) => Err(self.without_signals(option)),
             None => Ok(()),
         }
@@ -256,39 +251,5 @@ impl Args {
             "--fidelity {fidelity} has neither signals nor single shots: expected --fidelity cycle"
         );
         Input::new(option, expected).into()
-    }
-}
-
-/// The waveform: what goes into it, and where.
-struct WavePlan {
-    path: PathBuf,
-    format: WaveFormat,
-    entries: Vec<hierarchy::Entry>,
-    windows: Vec<Window>,
-}
-
-impl WavePlan {
-    fn new(args: &Args, format: WaveFormat, setup: &Setup, frames: u64) -> Result<Self> {
-        let ending = match format {
-            WaveFormat::Vcd => "vcd",
-            WaveFormat::Fst => "fst",
-        };
-        let entries = setup.entries(&args.signals)?;
-        let windows = setup.windows(&args.window, frames)?;
-        let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
-        let path = folder.join(format!("{}.{ending}", setup.name));
-        Ok(WavePlan { path, format, entries, windows })
-    }
-
-    fn open(&self, record: &Record, setup: &Setup) -> Result<(Waves, Vec<Window>)> {
-        let (encoder, provenance) = (&setup.params.tdc.decoder.encoder, record.lines(setup));
-        let waves = Waves::create(&self.path, self.format, &self.entries, encoder, &provenance)?;
-        Ok((waves, self.windows.clone()))
-    }
-
-    /// Writes what viewers need beside the waveform; all their paths.
-    fn finish(&self, marks: &Marks) -> Result<Vec<PathBuf>> {
-        let views = write_views(&self.path, self.format, &self.entries, marks)?;
-        Ok([self.path.clone()].into_iter().chain(views).collect())
     }
 }

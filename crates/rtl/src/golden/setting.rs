@@ -99,8 +99,7 @@ impl Setting {
             return Ok(Setting::new(Setup::new(loaded)?));
         }
         let array = ArraySetup::new(loaded)?;
-        let mut setup = array.common().clone();
-        setup.params = array.firmware()?;
+        let setup = array.with_firmware()?;
         Ok(Setting { array: Some(Arc::new(array)), ..Setting::new(setup) })
     }
 

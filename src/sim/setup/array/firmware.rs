@@ -5,7 +5,11 @@ use std::fmt::Display;
 use crate::error::{Input, Result};
 use crate::firmware::frame_ctrl::timing::RowTiming;
 use crate::firmware::tof_top::{CodeSource, HistogramSource, Params};
+use crate::kernel::Time;
 use crate::kernel::scan::{MOST_ROWS, Scan};
+
+use crate::scenario::window::Window;
+use crate::sim::setup::Setup;
 
 use super::ArraySetup;
 
@@ -44,6 +48,27 @@ impl ArraySetup {
         }
         params.frame_ctrl.scan = scan;
         Ok(params)
+    }
+
+    /// Returns the part that all pixels have in common, with that firmware.
+    ///
+    /// # Errors
+    /// As [`ArraySetup::firmware`].
+    pub fn with_firmware(&self) -> Result<Setup> {
+        Ok(Setup { params: self.firmware()?, ..self.common().clone() })
+    }
+
+    /// Returns the windows of the waveform of so many images: those given, or the scenario's, or a first look. Shots are
+    /// those of all rows.
+    ///
+    /// # Errors
+    /// As [`ArraySetup::firmware`], and when a window lies past the end of the run.
+    pub fn windows(&self, given: &[Window], images: u64) -> Result<Vec<Window>> {
+        let (common, timing, [rows, _]) = (self.common(), self.timing()?, self.size());
+        let cycles = images.saturating_mul(timing.image).saturating_add(timing.latency);
+        let longest = Time::NEVER.fs() / common.cycle().fs();
+        let end = common.pll().clk_sys.rise(cycles.min(longest));
+        common.windows_within(given, common.shots(images.saturating_mul(rows as u64)), end)
     }
 
     /// Returns how long rows and images take.

@@ -11,6 +11,8 @@ pub struct DepthImages<'a> {
     pub fidelity: &'static str,
     /// Number of images.
     pub images: u64,
+    /// Path of the waveform.
+    pub waves: Option<String>,
     /// All pixels by row, then column, or a single one.
     pub pixels: Vec<ImagePixel>,
 }
