@@ -3,11 +3,13 @@
 //! A channel has the output of its column's SPAD, a converter and a histogram for each bank. Each of those has the signals
 //! that it has in the first column, with ids of the channel's own.
 
+use std::ops::Range;
+
 use crate::firmware::histogram_builder::HistogramBuilder;
 use crate::firmware::tdc::Tdc;
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::module::{Instance, Module, Visitor};
-use crate::kernel::signals::{Signal, SignalFormat, Signals};
+use crate::kernel::signals::{Signal, SignalFormat, Signals, View};
 
 use super::entry::{CHANNELS, Entry, IN_CHANNEL, Kind, TOP, within};
 
@@ -51,49 +53,63 @@ pub(super) fn channel_entries(params: &Params, first: &[Entry]) -> Vec<Entry> {
 
 fn one(column: usize, banks: usize, first: &[Entry]) -> Vec<Entry> {
     let (scope, ids) = (format!("{TOP}.{CHANNEL}{column}"), ChannelIds::of(column));
-    let tdc = first_id("tdc");
-    let of_tdc =
-        |id: usize| id.checked_sub(tdc).filter(|id| *id < Tdc::COUNT).map(|id| ids.tdc() + id);
-    let id = |path: &str| first.iter().find(|entry| entry.path() == path).map(|entry| entry.id);
-    let decoded = |name: &str| id(&format!("{TOP}.tdc.tdc_decoder.{name}")).and_then(of_tdc);
-    // What reaches the modules of the first column alone.
-    let sources = [
-        (id(&format!("{TOP}.tdc_stop")), Some(ids.stop)),
-        (id(&format!("{TOP}.tdc_code")), decoded("tdc_code")),
-        (id(&format!("{TOP}.tdc_valid")), decoded("tdc_valid")),
-    ];
+    let (tdc, histogram) = (first_id("tdc"), first_id("histogram_builder"));
+    let of_tdc = |id| moved(id, tdc..tdc + Tdc::COUNT, ids.tdc());
+    let find = |path: &str| first.iter().find(|entry| entry.below_top() == path);
+    // What reaches the first column alone, and what reaches this one in its place.
+    let own = ["tdc_valid", "tdc_code"].map(|name| {
+        let decoded = find(&format!("tdc.tdc_decoder.{name}"));
+        (find(name), decoded, decoded.and_then(|entry| of_tdc(entry.id)))
+    });
     let shared = |id: usize| {
-        let own = sources.iter().find(|(of_first, _)| *of_first == Some(id));
-        own.and_then(|(_, own)| *own).unwrap_or(id)
+        let is_it = |entry: &Option<&Entry>| entry.is_some_and(|entry| entry.id == id);
+        if is_it(&find("tdc_stop")) {
+            return ids.stop;
+        }
+        let sources = own.iter().filter(|(of_first, ..)| is_it(of_first));
+        sources.filter_map(|(.., own)| *own).next().unwrap_or(id)
     };
-    let copied = |module: &str, own: String, id: &dyn Fn(usize) -> Option<usize>| {
-        let module = format!("{TOP}.{module}");
-        let entries = first.iter().filter(|entry| within(&entry.scope, &module));
-        let copy = |entry: &Entry| Entry {
-            scope: entry.scope.replacen(&module, &own, 1),
-            id: id(entry.id).unwrap_or(shared(entry.id)),
-            ..entry.clone()
-        };
-        entries.map(copy).collect::<Vec<_>>()
+    let wire = |name: &str, heading, signal: Signal, id| Entry {
+        scope: scope.clone(),
+        signal: Signal {
+            name: name.to_owned(),
+            output: false,
+            view: View { heading, ..View::NONE },
+            ..signal
+        },
+        kind: Kind::Internal,
+        id,
     };
     let doc = "Output of the selected row's SPAD in this column, asynchronous.";
-    let stop = Entry {
-        scope: scope.clone(),
-        signal: Signal::plain("tdc_stop".to_owned(), 1, SignalFormat::Bits, doc),
-        kind: Kind::Internal,
-        id: ids.stop,
+    let stop = Signal::plain(String::new(), 1, SignalFormat::Bits, doc);
+    let mut entries = vec![wire("tdc_stop", "SPAD", stop, ids.stop)];
+    for (name, (_, decoded, id)) in ["code_valid", "code"].into_iter().zip(&own) {
+        entries.extend(
+            decoded.zip(*id).map(|(entry, id)| wire(name, "TDC", entry.signal.clone(), id)),
+        );
+    }
+    let mut copy = |module: &str, name: String, of_own: &dyn Fn(usize) -> Option<usize>| {
+        let (module, name) = (format!("{TOP}.{module}"), format!("{scope}.{name}"));
+        let entries_of = first.iter().filter(|entry| within(&entry.scope, &module));
+        entries.extend(entries_of.map(|entry| Entry {
+            scope: entry.scope.replacen(&module, &name, 1),
+            id: of_own(entry.id).unwrap_or(shared(entry.id)),
+            ..entry.clone()
+        }));
     };
-    let mut entries = vec![stop];
-    entries.extend(copied("tdc", format!("{scope}.tdc"), &of_tdc));
-    let histogram = first_id("histogram_builder");
+    copy("tdc", "tdc".to_owned(), &of_tdc);
     for bank in 0..banks {
-        let of_bank = |id: usize| {
-            let place = id.checked_sub(histogram).filter(|id| *id < HistogramBuilder::COUNT);
-            place.map(|place| ids.bank(bank) + place)
-        };
-        entries.extend(copied("histogram_builder", format!("{scope}.bank_{bank}"), &of_bank));
+        let words = histogram..histogram + HistogramBuilder::COUNT;
+        copy("histogram_builder", format!("bank_{bank}"), &|id| {
+            moved(id, words.clone(), ids.bank(bank))
+        });
     }
     entries
+}
+
+/// Returns the id of a signal whose module has its ids elsewhere, if it is one of the module.
+fn moved(id: usize, from: Range<usize>, to: usize) -> Option<usize> {
+    from.contains(&id).then(|| to + id - from.start)
 }
 
 /// Returns the first id of a module of the top.
@@ -130,7 +146,7 @@ mod tests {
 
     use crate::hierarchy::{column_entries, entries};
     use crate::kernel::scan::Scan;
-    use crate::sim::Setup;
+    use crate::sim::setup::Setup;
 
     use super::*;
 
@@ -177,6 +193,7 @@ mod tests {
             assert_eq!(id(&format!("{scope}.tdc.tdc_stop")), id(&format!("{scope}.tdc_stop")));
             let code = id(&format!("{scope}.tdc.tdc_decoder.tdc_code"));
             assert_eq!(id(&format!("{scope}.bank_1.tdc_code")), code);
+            assert_eq!(id(&format!("{scope}.code")), code);
             assert!(of_first.contains(&id(&format!("{scope}.bank_0.read_addr"))));
             assert!(of_first.contains(&id(&format!("{scope}.tdc.start"))));
         }

@@ -31,7 +31,7 @@ const FLOW: &[(&str, &[&str])] = &[
         "Laser",
         &["vcsel_driver.count", "pre_start", "vcsel_driver.laser_pulse", "laser_on", "start"],
     ),
-    ("SPAD", &["spad_rst", "tdc_stop"]),
+    ("SPAD", &["spad_rst", "tdc_stop", VIEWED]),
     ("Row of SPADs", &["spad_row.spad_out_*"]),
     ("TDC", &[VIEWED, "tdc_valid", "tdc_code"]),
     ("Histogram", &["hist_valid", "hist_bin", "hist_count"]),

@@ -87,7 +87,7 @@ fn what_no_waveform_of_an_array_has_is_refused() {
     for (options, said) in [
         (&["--signals", "channel_4.*"][..], "channel_4.*: matches no signal; near it: channel_"),
         (&["--window", "shot:0..401"], "shot:0..401: past the end: the run has 400 shots"),
-        (&["--window", "0us..1s"], "0us..1s: past the end"),
+        (&["--window", "0us..1s"], "0us..1000000us: past the end: the run ends at"),
         (&["-s", "array.rows=41"], "array.rows = 41: expected at most 40 for the firmware"),
         (&["-s", "pll.jitter_rms_ps=5"], "pll.jitter_rms_ps"),
         (&["--pixel", "0,0"], "the waveform of a pixel is that of `run --pixel`"),

@@ -115,8 +115,8 @@ fn ends(values: &[Option<f64>]) -> Option<[f64; 2]> {
 
 /// Returns the colour of a value: dark where it is low, light where it is high, so that it is read without colours too.
 fn colour(value: f64, [low, high]: [f64; 2]) -> RGBColor {
-    let high = if high > low { high } else { low + f64::EPSILON };
-    ViridisRGB.get_color_normalized(value, low, high)
+    let part = if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
+    ViridisRGB.get_color(part)
 }
 
 /// Returns the depths as grey pictures of 16 bits, in millimetres; 0 is invalid.
@@ -150,4 +150,19 @@ fn png(
         .and_then(|mut writer| writer.write_image_data(&data));
     encoded.map_err(|error| Input::new(name, error))?;
     Ok((name.to_owned(), bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_have_colours_also_where_all_are_the_same_or_beyond_the_scale() {
+        let [dark, middle, light] = [0.0, 0.5, 1.0].map(|part| ViridisRGB.get_color(part));
+        assert_eq!(colour(8.0, [8.0, 8.0]), middle);
+        assert_eq!([0.1, 0.9].map(|value| colour(value, [0.2, 0.8])), [dark, light]);
+        assert_eq!(colour(0.3, [0.2, 0.4]), middle);
+        assert_eq!(ends(&[None, Some(3.0), None]), Some([3.0, 3.0]));
+        assert_eq!(ends(&[None]), None);
+    }
 }
