@@ -6,6 +6,8 @@ use clap::builder::{
 };
 
 use tofsim::scenario::MOST_SEED;
+use tofsim::sim::Stepping;
+use tofsim::sim::image::ImageFidelity;
 use tofsim::waves::WaveFormat;
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
@@ -131,6 +133,22 @@ impl Fidelity {
     /// Its word.
     pub fn name(self) -> &'static str {
         Fidelity::ALL[self as usize].0
+    }
+
+    /// How shots are simulated, if they are.
+    pub fn stepping(self) -> Stepping {
+        match self {
+            Fidelity::Shot => Stepping::LeapShots,
+            Fidelity::Cycle | Fidelity::Histogram => Stepping::SkipIdle,
+        }
+    }
+
+    /// How images are simulated.
+    pub fn of_images(self) -> ImageFidelity {
+        match self {
+            Fidelity::Histogram => ImageFidelity::Histograms,
+            Fidelity::Cycle | Fidelity::Shot => ImageFidelity::Shots(self.stepping()),
+        }
     }
 }
 

@@ -11,6 +11,7 @@ mod estimates;
 mod frame;
 mod frames;
 mod ila;
+mod image;
 mod network;
 mod objects;
 mod pictures;
@@ -43,6 +44,8 @@ mod _tofsim {
     use crate::frames::Frames;
     #[pymodule_export]
     use crate::ila::read_ila;
+    #[pymodule_export]
+    use crate::image::image;
     #[pymodule_export]
     use crate::network::Network;
     #[pymodule_export]

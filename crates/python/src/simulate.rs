@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 
 use tofsim::error::Input;
-use tofsim::{Frame, HistogramRun, Observers, Outcome, Run, Setup, Shot, Stepping};
+use tofsim::{Frame, HistogramRun, Observers, Outcome, Run, Setup, Shot};
 use tofsim_cli::choice::Fidelity;
 use tofsim_cli::report::causes;
 use tofsim_cli::verbs::frames::{check, check_streams};
@@ -17,7 +17,10 @@ use crate::running::{self, Terms, Watch};
 use crate::scenario::Scenario;
 
 /// The fidelity of that name.
-fn fidelity_of(name: &str) -> Result<Fidelity> {
+///
+/// # Errors
+/// When there is none.
+pub fn fidelity_of(name: &str) -> Result<Fidelity> {
     let found = Fidelity::ALL.iter().find(|(word, ..)| *word == name);
     let known = || Fidelity::ALL.map(|(word, ..)| word).join(", ");
     let fault = || Input::new("fidelity", format!("expected one of {}", known())).value(name);
@@ -96,11 +99,7 @@ fn simulated(
         stop: Some(&watch.stop),
         ..Observers::default()
     };
-    let stepping = match fidelity {
-        Fidelity::Shot => Stepping::LeapShots,
-        _ => Stepping::SkipIdle,
-    };
-    let run = || Run::new(setup).stepping(stepping);
+    let run = || Run::new(setup).stepping(fidelity.stepping());
     let outcome = match fidelity {
         Fidelity::Histogram => HistogramRun::new(setup)?.many(count, observers)?,
         _ if is_by_cause => run().observe(count, observers)?,

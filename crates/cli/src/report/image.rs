@@ -22,6 +22,7 @@ use super::writer::Findings;
 use firmware::FirmwareTiming;
 use statistics::{ImageStatistics, SHOWN};
 
+pub use arrays::{ArrayValues, ImageArray};
 pub use readings::{DepthImages, ImagePixel};
 
 impl DepthImages<'_> {

@@ -4,8 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
-use tofsim::sim::Stepping;
-use tofsim::sim::image::{ImageFidelity, simulate};
+use tofsim::sim::image::simulate;
 use tofsim::sim::setup::array::ArraySetup;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
@@ -68,11 +67,7 @@ pub struct Args {
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let array = ArraySetup::new(load(&args.scenario, &args.set, args.seed)?)?;
     let setup = array.common();
-    let fidelity = match args.fidelity {
-        Fidelity::Cycle => ImageFidelity::Shots(Stepping::SkipIdle),
-        Fidelity::Shot => ImageFidelity::Shots(Stepping::LeapShots),
-        Fidelity::Histogram => ImageFidelity::Histograms,
-    };
+    let fidelity = args.fidelity.of_images();
     frames::check("--images", args.images, setup)?;
     let place = args.pixel.map(|pixel| pixel.within(&array)).transpose()?;
     use_threads(args.threads)?;
@@ -94,11 +89,12 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     notes.extend(notes_of_firmware(setup));
     notes.extend(LinkBudget::of(setup.clone()).eye_safety_notes());
     console.print_notes(&notes)?;
-    let pixel = |(k, measured)| {
-        let [row, column] = place.unwrap_or([k / columns, k % columns]);
-        ImagePixel { row, column, sight: array.sight(row, column), measured }
+    let pixels = match place {
+        None => ImagePixel::all(&array, simulated),
+        Some(place) => {
+            simulated.into_iter().map(|pixel| ImagePixel::new(&array, place, pixel)).collect()
+        }
     };
-    let pixels = simulated.into_iter().enumerate().map(pixel).collect();
     let (fidelity, images) = (args.fidelity.name(), args.images);
     let images = DepthImages { array: &array, fidelity, images, waves, pixels };
     args.result.deliver(&Report::new(images, setup, &notes, console), console)

@@ -13,7 +13,7 @@ use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
-use tofsim::sim::{Outcome, Run, Stepping};
+use tofsim::sim::{Outcome, Run};
 use tofsim::waves::{WaveFormat, Waves};
 use tofsim_learn::estimation::notes::notes_of_firmware;
 use tofsim_learn::estimation::{EstimatorKind, Needs, Panel};
@@ -180,11 +180,7 @@ impl Args {
             frames: Some(take_frame),
             stop: stop.as_deref(),
         };
-        let stepping = match self.fidelity {
-            Fidelity::Shot => Stepping::LeapShots,
-            _ => Stepping::SkipIdle,
-        };
-        let run = || Run::new(setup).stepping(stepping);
+        let run = || Run::new(setup).stepping(self.fidelity.stepping());
         match histograms {
             Some(histograms) => histograms.many(count, watch),
             None if watch.waves.is_some() || wants_all_shots => run().observe(count, watch),

@@ -288,6 +288,15 @@ def simulate(
     by_cause: bool = False,
     progress: _Progress | None = None,
 ) -> Frames: ...
+def image(
+    scenario: _Scenario = None,
+    images: int = 1,
+    fidelity: str = "shot",
+    seed: int | None = None,
+    threads: int | None = None,
+    *,
+    progress: _Progress | None = None,
+) -> dict[str, Any]: ...
 def link_budget(scenario: _Scenario = None) -> dict[str, Any]: ...
 def estimate(
     histograms: _Counts,

@@ -23,48 +23,74 @@ const EXPECTED: [Expected; 3] = [
     ("ambient", |pixel| pixel.measured.expected.ambient_hits),
 ];
 
-/// Returns all arrays: rows x columns; what is measured has the images as a first axis if there are several.
+/// Values of an array.
+pub enum ArrayValues {
+    /// Numbers; NaN where there is none.
+    Floats(Vec<f64>),
+    /// Truth values.
+    Bools(Vec<bool>),
+    /// Sums of status bits.
+    Words(Vec<u16>),
+    /// Counts.
+    Counts(Vec<u64>),
+}
+
+/// An array of some images, by row, then column.
+pub struct ImageArray {
+    /// Its name.
+    pub name: &'static str,
+    /// Rows and columns; what is measured has the images as a first axis if there are several.
+    pub shape: Vec<usize>,
+    /// Its values.
+    pub values: ArrayValues,
+}
+
+impl DepthImages<'_> {
+    /// Returns all arrays.
+    pub fn arrays(&self) -> Vec<ImageArray> {
+        let pixel = self.array.size().to_vec();
+        let measured = match self.images {
+            1 => pixel.clone(),
+            count => [vec![count as usize], pixel.clone()].concat(),
+        };
+        let readings = self.readings();
+        let floats = |values: Vec<Option<f64>>| {
+            ArrayValues::Floats(values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
+        };
+        let of_readings = MEASURED
+            .map(|(name, value)| (name, &measured, floats(readings.iter().map(value).collect())));
+        let of_pixels = EXPECTED
+            .map(|(name, value)| (name, &pixel, floats(self.pixels.iter().map(value).collect())));
+        let frames = || readings.iter().map(|one| one.frame);
+        let valid = ArrayValues::Bools(frames().map(|frame| frame.valid).collect());
+        let status = ArrayValues::Words(frames().map(|frame| frame.status.bits()).collect());
+        let hits = ArrayValues::Counts(frames().map(|frame| frame.hits).collect());
+        let others = [("valid", valid), ("status", status), ("hits", hits)];
+        let others = others.into_iter().map(|(name, values)| (name, &measured, values));
+        let all = of_readings.into_iter().chain(of_pixels).chain(others);
+        all.map(|(name, shape, values)| ImageArray { name, shape: shape.clone(), values }).collect()
+    }
+}
+
+/// Returns all arrays in NumPy's format.
 ///
 /// # Errors
 /// When an array cannot be encoded.
 pub fn all(images: &DepthImages) -> Result<Vec<NamedBytes>> {
-    let [rows, columns] = images.array.size().map(|count| count as u64);
-    let shape = match images.images {
-        1 => vec![rows, columns],
-        count => vec![count, rows, columns],
+    images.arrays().iter().map(encoded).collect()
+}
+
+fn encoded(array: &ImageArray) -> Result<NamedBytes> {
+    let name = format!("{}.npy", array.name);
+    let (kind, values): (_, Vec<u8>) = match &array.values {
+        ArrayValues::Floats(all) => ("<f8", all.iter().flat_map(|one| one.to_le_bytes()).collect()),
+        ArrayValues::Bools(all) => ("|b1", all.iter().map(|&one| u8::from(one)).collect()),
+        ArrayValues::Words(all) => ("<u2", all.iter().flat_map(|one| one.to_le_bytes()).collect()),
+        ArrayValues::Counts(all) => ("<u8", all.iter().flat_map(|one| one.to_le_bytes()).collect()),
     };
-    let (shape, one) = (shape.as_slice(), &[rows, columns][..]);
-    let readings = images.readings();
-    let mut files = Vec::new();
-    for (name, value) in MEASURED {
-        files.push(array(name, "<f8", shape, readings.iter().map(|one| bits(value(one))))?);
-    }
-    for (name, value) in EXPECTED {
-        files.push(array(name, "<f8", one, images.pixels.iter().map(|one| bits(value(one))))?);
-    }
-    let valid = readings.iter().map(|one| [u8::from(one.frame.valid)]);
-    files.push(array("valid", "|b1", shape, valid)?);
-    let status = readings.iter().map(|one| one.frame.status.bits().to_le_bytes());
-    files.push(array("status", "<u2", shape, status)?);
-    let hits = readings.iter().map(|one| one.frame.hits.to_le_bytes());
-    files.push(array("hits", "<u8", shape, hits)?);
-    Ok(files)
-}
-
-/// Returns the bytes of a number; NaN where there is none.
-fn bits(value: Option<f64>) -> [u8; 8] {
-    value.unwrap_or(f64::NAN).to_le_bytes()
-}
-
-fn array<const N: usize>(
-    name: &str,
-    kind: &str,
-    shape: &[u64],
-    values: impl Iterator<Item = [u8; N]>,
-) -> Result<NamedBytes> {
-    let name = format!("{name}.npy");
+    let shape: Vec<_> = array.shape.iter().map(|&count| count as u64).collect();
     let mut bytes = Vec::new();
-    array_header(&mut bytes, kind, shape).map_err(|error| Input::new(&name, error))?;
-    bytes.extend(values.flatten());
+    array_header(&mut bytes, kind, &shape).map_err(|error| Input::new(&name, error))?;
+    bytes.extend(values);
     Ok((name, bytes))
 }

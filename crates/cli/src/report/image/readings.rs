@@ -29,6 +29,20 @@ pub struct ImagePixel {
     pub measured: Pixel,
 }
 
+impl ImagePixel {
+    /// A pixel at a row and column.
+    pub fn new(array: &ArraySetup, [row, column]: [usize; 2], measured: Pixel) -> Self {
+        ImagePixel { row, column, sight: array.sight(row, column), measured }
+    }
+
+    /// All pixels of an array, which come by row, then column.
+    pub fn all(array: &ArraySetup, pixels: Vec<Pixel>) -> Vec<Self> {
+        let [_, columns] = array.size();
+        let place = |(k, pixel)| ImagePixel::new(array, [k / columns, k % columns], pixel);
+        pixels.into_iter().enumerate().map(place).collect()
+    }
+}
+
 /// A pixel in one image.
 #[derive(Clone, Copy)]
 pub struct Reading<'a> {
