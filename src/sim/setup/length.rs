@@ -4,8 +4,6 @@ use crate::kernel::{Time, U};
 
 use super::{Setup, recalibration};
 
-/// Hand-overs of a frame, besides its shots, Clear, Drain and the estimator [cycles of clk_sys].
-const HAND_OVERS: u64 = 2;
 /// Hand-overs of a frame with a preloaded histogram [cycles of clk_sys].
 const HAND_OVERS_PRELOADED: u64 = 1;
 
@@ -21,13 +19,13 @@ impl Setup {
     /// Length of an undisturbed frame with such a laser period: from the edge that begins Clear to the one
     /// that raises `algo_done` [cycles of clk_sys].
     pub fn frame_cycles(&self, laser_period: u64) -> u64 {
-        let (ctrl, clear) = (&self.params.frame_ctrl, self.params.histogram.bins as u64);
-        let estimator = self.params.estimator_cycles();
+        let (ctrl, estimator) = (&self.params.frame_ctrl, self.params.estimator_cycles());
         if ctrl.preloaded {
-            return clear + HAND_OVERS_PRELOADED + estimator;
+            return self.params.histogram.bins as u64 + HAND_OVERS_PRELOADED + estimator;
         }
-        let shots = ctrl.shots_per_frame as u64 * laser_period;
-        clear + shots + ctrl.drain_cycles + HAND_OVERS + estimator
+        let timing = ctrl.timing(laser_period, estimator);
+        // The estimation ends one cycle after that edge.
+        timing.acquisition + timing.estimation - 1
     }
 
     /// Returns whether frames come in pairs, the first of each a dark one.

@@ -78,6 +78,20 @@ fn chosen_channels_are_the_same_in_both_formats_up_to_the_last_row() {
 }
 
 #[test]
+fn it_ends_with_the_last_window() {
+    let folder = tempfile::tempdir().unwrap();
+    // In the second row, since shots are those of all rows.
+    let window = ["--window", "shot:202..205", "--waves", "vcd", "-o", "."];
+    traced(folder.path(), &window);
+    let wave = Wave::open(&folder.path().join("array.vcd"));
+    let begun = wave.rises("start");
+    assert_eq!(begun.len(), 3);
+    assert_eq!(wave.changes("frame_ctrl.row").last().unwrap().1.trim_start_matches('0'), "1");
+    let last = *wave.waveform.time_table().last().unwrap();
+    assert!(last < begun[2] + 100_000, "{last} ps after {begun:?}");
+}
+
+#[test]
 fn what_no_waveform_of_an_array_has_is_refused() {
     let folder = common::empty();
     let refused = |options: &[&str]| {
