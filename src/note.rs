@@ -133,6 +133,26 @@ impl From<&str> for NoteValue {
     }
 }
 
+/// Returns the notes of several pixels, each cause once, with the number of pixels that have it.
+pub fn merged<'a>(pixels: impl ExactSizeIterator<Item = &'a [Note]>) -> Vec<Note> {
+    let count = pixels.len();
+    let mut merged: Vec<(Note, usize)> = Vec::new();
+    for note in pixels.flatten() {
+        match merged.iter_mut().find(|(one, _)| one.code == note.code && one.key == note.key) {
+            Some((_, having)) => *having += 1,
+            None => merged.push((note.clone(), 1)),
+        }
+    }
+    let counted = |(note, having): (Note, usize)| match having == count {
+        true => note,
+        false => {
+            let text = format!("{}, and so at {having} of {count} pixels", note.text);
+            Note { text, ..note }
+        }
+    };
+    merged.into_iter().map(counted).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

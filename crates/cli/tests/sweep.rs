@@ -11,6 +11,7 @@ use serde_json::Value;
 use crate::common::{empty, json, refused, stdout, tofsim};
 
 mod files;
+mod images;
 
 /// A plan of 48 points with words among its values.
 const PLAN: &str = "

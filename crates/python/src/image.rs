@@ -6,11 +6,11 @@ use pyo3::types::PyDict;
 use serde_json::json;
 
 use tofsim::error::Input;
+use tofsim::note::merged;
 use tofsim::sim::setup::array::ArraySetup;
 use tofsim_cli::report::image::{ArrayValues, DepthImages, ImagePixel};
 use tofsim_cli::report::writer::Findings;
 use tofsim_cli::verbs::frames::check;
-use tofsim_cli::verbs::pixel::merged;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
 use crate::errors::Result;

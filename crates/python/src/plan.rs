@@ -8,7 +8,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use tempfile::TempDir;
 
-use tofsim::Setup;
 use tofsim::error::{Input, read_text};
 use tofsim::files::output::create_directory;
 use tofsim::scenario::builtin::Source;
@@ -41,7 +40,7 @@ impl Plan {
     /// Returns the provenance of the table.
     fn record(&self) -> Result<Record> {
         let (set, seed) = &self.given;
-        let setup = Setup::of_counts(self.plan.base()?)?;
+        let setup = self.plan.setup()?;
         let set = set.iter().map(|set| format!("--set={set}"));
         let seed = seed.map(|seed| format!("--seed={seed}"));
         let command = ["sweep".to_owned()].into_iter().chain(set).chain(seed);

@@ -12,6 +12,7 @@ use tofsim_learn::estimation::EstimatorKind;
 
 use crate::errors::Errors;
 use crate::figure::Figure;
+use crate::images::Images;
 use crate::plan::file::Fidelity;
 use crate::tally::Tally;
 
@@ -40,12 +41,16 @@ pub enum Quantity {
     Duration(fn(&Tally) -> f64),
     /// Errors of the estimator with the given index.
     Errors(usize, fn(&Errors) -> Figure),
+    /// What the images of an array can be expected to have, which is not random.
+    ExpectedOfImages(fn(&Images) -> Figure),
+    /// Simulated images of an array.
+    OfImages(fn(&Images) -> Figure),
 }
 
 impl Column {
     /// Returns whether the values are random, and therefore have standard errors.
     pub fn is_random(&self) -> bool {
-        matches!(self.quantity, Quantity::Hits(_) | Quantity::Errors(..))
+        matches!(self.quantity, Quantity::Hits(_) | Quantity::Errors(..) | Quantity::OfImages(_))
     }
 }
 
@@ -175,6 +180,79 @@ const OF_ERRORS: &[OfErrors] = &[
     ("failure_rate", "1", "Part of the frames without a depth", Errors::failure_rate),
     ("outlier_rate", "1", "Part of the depths that are far off, or negative", Errors::outlier_rate),
 ];
+
+/// Columns of an array's images, of its firmware's estimator: name, unit, meaning, origin.
+const OF_IMAGES: &[(&str, &str, &str, Quantity)] = &[
+    (
+        "images_per_s",
+        "1/s",
+        "Image rate of the firmware that scans the array",
+        Quantity::ExpectedOfImages(Images::rate),
+    ),
+    (
+        "signal_hits",
+        "hits",
+        "Hits of laser photons that a pixel can expect in a frame, median of the pixels",
+        Quantity::ExpectedOfImages(|images| images.expected(|pixel| pixel.expected.signal_hits)),
+    ),
+    (
+        "ambient_hits",
+        "hits",
+        "Other hits that a pixel can expect in a frame, median of the pixels",
+        Quantity::ExpectedOfImages(|images| images.expected(|pixel| pixel.expected.ambient_hits)),
+    ),
+    (
+        "fill_rate",
+        "1",
+        "Part of the pixels with a valid depth",
+        Quantity::OfImages(Images::fill_rate),
+    ),
+    (
+        "flying_rate",
+        "1",
+        "Part of the valid depths between fore- and background: farther than an outlier from the least and the largest true depth of pixel and neighbours",
+        Quantity::OfImages(Images::flying_rate),
+    ),
+    (
+        "root_mse_mm",
+        "mm",
+        "Root of the mean squared error of the valid depths",
+        Quantity::OfImages(Images::root_mse),
+    ),
+    (
+        "bias_by_pixel_mm",
+        "mm",
+        "Root mean square over the pixels of their mean error, without what noise contributes; takes two images",
+        Quantity::OfImages(Images::bias_by_pixel),
+    ),
+    (
+        "sd_by_pixel_mm",
+        "mm",
+        "Root mean square over the pixels of the standard deviation of their depths; takes two images",
+        Quantity::OfImages(Images::sd_by_pixel),
+    ),
+    (
+        "median_sigma_mm",
+        "mm",
+        "Median standard deviation that the estimator states of a valid depth",
+        Quantity::OfImages(Images::median_sigma),
+    ),
+    (
+        "error_over_sigma",
+        "1",
+        "Root mean square of errors over the standard deviations that the estimator states",
+        Quantity::OfImages(Images::error_over_sigma),
+    ),
+];
+
+/// Returns all columns of an array's images.
+pub fn of_images() -> Vec<Column> {
+    let column = |&(name, unit, meaning, quantity): &(&str, _, _, _)| {
+        let name = name.to_owned();
+        Column { name, unit, meaning, quantity }
+    };
+    OF_IMAGES.iter().map(column).collect()
+}
 
 /// Returns all columns of a fidelity and some estimators.
 pub fn all(fidelity: Fidelity, estimators: &[EstimatorKind]) -> Vec<Column> {

@@ -9,6 +9,7 @@ pub mod echo;
 pub mod errors;
 pub mod figure;
 pub mod header;
+pub mod images;
 pub mod journal;
 pub mod limit;
 pub mod merge;

@@ -15,13 +15,15 @@ use toml_edit::Table;
 use tofsim::error::{Input, Result, hint, read_text};
 use tofsim::files::toml::{Checked, assign};
 use tofsim::scenario::{self, Loaded, Scenario};
+use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
 use tofsim_learn::estimation::EstimatorKind;
 
 use crate::columns::{self, Column};
 use axis::Axis;
 use combination::{Combination, scenes};
 use fault::at_key;
-use file::{PlanFile, Plot, PlotKind};
+use file::{Fidelity, PlanFile, Plot, PlotKind};
 use search::Search;
 
 /// A checked plan.
@@ -41,6 +43,8 @@ pub struct Plan {
     pub seed: u64,
     /// Estimators that evaluate each histogram.
     pub estimators: Vec<EstimatorKind>,
+    /// Whether the points are images of an array.
+    pub is_of_array: bool,
     /// Points.
     pub points: Combination,
     /// Scenes over which each point is averaged, as an assignment for each key.
@@ -130,7 +134,13 @@ impl Plan {
         let mean_over = scenes(&checked, "mean_over", &mean_over, &taken)?;
         let points = Combination::new(&checked, &file, axes, seed)?;
         let estimators = estimators(&checked, &file, &loaded)?;
-        let known = columns::all(file.fidelity, &estimators);
+        let is_of_array = loaded.scenario.array.count() > 1;
+        let known = if is_of_array {
+            check_array(&checked, &file)?;
+            columns::of_images()
+        } else {
+            columns::all(file.fidelity, &estimators)
+        };
         let outputs = columns::chosen(&checked, &file.outputs, &known)?;
         let search = file.search.as_ref();
         let search = search.map(|search| Search::new(&checked, search, &points, &known));
@@ -144,6 +154,7 @@ impl Plan {
             set,
             seed,
             estimators,
+            is_of_array,
             points,
             mean_over,
             search,
@@ -170,6 +181,18 @@ impl Plan {
         let mut loaded = scenario::load(&self.scenario, &set)?;
         loaded.scenario.seed = self.seed;
         Ok(loaded)
+    }
+
+    /// Returns the setup of the scenario with the overrides for all points; of an array, what its pixels have in common.
+    ///
+    /// # Errors
+    /// If it cannot be elaborated.
+    pub fn setup(&self) -> Result<Setup> {
+        let loaded = self.base()?;
+        if self.is_of_array {
+            return Ok(ArraySetup::new(loaded)?.common().clone());
+        }
+        Setup::of_counts(loaded)
     }
 
     /// Returns the names of the columns that a plot can use.
@@ -218,6 +241,20 @@ fn check_overrides(file: &PlanFile, overrides: &[String]) -> Result<()> {
             let expected = "the plan has the values of this key";
             return Err(Input::new(format!("-s {assignment}"), expected).into());
         }
+    }
+    Ok(())
+}
+
+/// Checks that the plan asks for what images have.
+fn check_array(checked: &Checked, file: &PlanFile) -> Result<()> {
+    if file.fidelity == Fidelity::Budget {
+        let expected = "expected histogram, shot or cycle with an array of pixels";
+        return Err(checked.fault("fidelity", expected).into());
+    }
+    if !file.estimators.is_empty() {
+        let expected =
+            "expected none with an array of pixels: images are of its firmware's estimator";
+        return Err(checked.fault("estimators", expected).into());
     }
     Ok(())
 }

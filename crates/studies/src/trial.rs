@@ -4,19 +4,22 @@ use std::sync::atomic::AtomicBool;
 
 use tofsim::error::{Result, poll_stop};
 use tofsim::network::Histogram;
-use tofsim::note::{Note, NoteCode};
+use tofsim::note::{Note, NoteCode, merged};
 use tofsim::scenario::Loaded;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
+use tofsim::sim::image::ImageFidelity;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Run, Stepping, domain};
+use tofsim::sim::setup::array::ArraySetup;
+use tofsim::sim::{Run, domain};
 use tofsim_learn::estimation::{Estimator, EstimatorKind, HistogramPair, Panel};
 
 use crate::columns::{Column, Quantity};
 use crate::echo::EchoShift;
 use crate::errors::Errors;
 use crate::figure::Figure;
+use crate::images::Images;
 use crate::plan::Plan;
 use crate::plan::file::Fidelity;
 use crate::tally::Tally;
@@ -47,6 +50,9 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// If the scenario cannot be simulated at the plan's fidelity, or the sweep is stopped.
     pub fn measure(&self, loaded: Loaded) -> Result<Outcome> {
+        if self.plan.is_of_array {
+            return self.measure_images(loaded);
+        }
         let setup = Setup::of_counts(loaded)?;
         let kinds = &self.plan.estimators;
         let simulates = self.plan.file.fidelity != Fidelity::Budget;
@@ -69,6 +75,22 @@ impl<'a> Trial<'a> {
             setup.no_depth().cloned().into_iter().collect()
         };
         Ok(Outcome { figures, notes })
+    }
+
+    fn measure_images(&self, loaded: Loaded) -> Result<Outcome> {
+        let (array, file) = (ArraySetup::new(loaded)?, &self.plan.file);
+        let fidelity = match file.fidelity.stepping() {
+            Some(stepping) => ImageFidelity::Shots(stepping),
+            None => ImageFidelity::Histograms,
+        };
+        let pixels = array.images(fidelity, file.frames, self.stop, &|_| ())?;
+        let notes = merged(pixels.iter().map(|pixel| &pixel.notes[..]));
+        let images = Images { array, pixels, limit_m: 1e-3 * file.outlier_limit_mm };
+        let figure = |column: &&Column| match column.quantity {
+            Quantity::ExpectedOfImages(of) | Quantity::OfImages(of) => of(&images),
+            _ => Figure::default(),
+        };
+        Ok(Outcome { figures: self.columns.iter().map(figure).collect(), notes })
     }
 
     fn simulate(&self, setup: &Setup) -> Result<(Tally, Vec<Errors>)> {
@@ -100,8 +122,7 @@ impl<'a> Trial<'a> {
                 }
             }
             fidelity @ (Fidelity::Shot | Fidelity::Cycle) => {
-                let leaps = fidelity == Fidelity::Shot;
-                let stepping = if leaps { Stepping::LeapShots } else { Stepping::SkipIdle };
+                let stepping = fidelity.stepping().unwrap_or_default();
                 let frames_to =
                     Observers { frames: Some(&mut take), stop: self.stop, ..Observers::default() };
                 Run::new(setup).stepping(stepping).observe(frames, frames_to)?;

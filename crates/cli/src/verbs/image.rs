@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
+use tofsim::note::merged;
 use tofsim::sim::image::simulate;
 use tofsim::sim::setup::array::ArraySetup;
 use tofsim_learn::estimation::notes::notes_of_firmware;
@@ -17,7 +18,7 @@ use crate::report::writer::Report;
 use super::draws::{load, use_threads};
 use super::frames;
 use super::options::ResultArgs;
-use super::pixel::{PixelPlace, merged};
+use super::pixel::PixelPlace;
 use super::terminal::{Console, stop_signal};
 use super::wave_plan::{SignalArgs, WavePlan};
 

@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use tofsim::Note;
 use tofsim::error::{Input, Result};
+use tofsim::note::merged;
 use tofsim::scenario::Loaded;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::setup::array::ArraySetup;
@@ -61,26 +62,6 @@ pub fn notes_of_all(array: &ArraySetup) -> Result<Vec<Note>> {
     let notes = |place| array.pixel(place / columns, place % columns).notes();
     let notes = (0..rows * columns).map(notes).collect::<Result<Vec<_>>>()?;
     Ok(merged(notes.iter().map(Vec::as_slice)))
-}
-
-/// Returns the notes of several pixels, each cause once, with the number of pixels that have it.
-pub fn merged<'a>(pixels: impl ExactSizeIterator<Item = &'a [Note]>) -> Vec<Note> {
-    let count = pixels.len();
-    let mut merged: Vec<(Note, usize)> = Vec::new();
-    for note in pixels.flatten() {
-        match merged.iter_mut().find(|(one, _)| one.code == note.code && one.key == note.key) {
-            Some((_, having)) => *having += 1,
-            None => merged.push((note.clone(), 1)),
-        }
-    }
-    let counted = |(note, having): (Note, usize)| match having == count {
-        true => note,
-        false => {
-            let text = format!("{}, and so at {having} of {count} pixels", note.text);
-            Note { text, ..note }
-        }
-    };
-    merged.into_iter().map(counted).collect()
 }
 
 #[cfg(test)]

@@ -9,7 +9,6 @@ use tofsim::error::{Input, Result};
 use tofsim::files::digest::digest;
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
-use tofsim::sim::setup::Setup;
 use tofsim_studies::sweep::Finished;
 use tofsim_studies::table::Row;
 use tofsim_studies::table::reader::TableReader;
@@ -98,7 +97,7 @@ impl SweepArgs {
             return Err(Input::new("plan", "expected a built-in plan or the path of one").into());
         };
         let plan = Plan::load(name, &self.set, self.seed)?;
-        let setup = Setup::of_counts(plan.base()?)?;
+        let setup = plan.setup()?;
         let record = Record::new(&setup, &console.command);
         let about = about(&plan, &record);
         let sweep = Sweep {

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use tofsim::sim::Stepping;
+
 /// A plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -20,7 +22,7 @@ pub struct PlanFile {
     pub samples: Option<u64>,
     /// Simulation fidelity.
     pub fidelity: Fidelity,
-    /// Number of frames per repeat, or of pairs of a dark and a lit frame.
+    /// Number of frames per repeat, of pairs of a dark and a lit frame, or of images of an array.
     #[schemars(range(min = 1, max = 1_000_000_000))]
     pub frames: u64,
     /// Number of repeats of each point, with different random numbers.
@@ -100,6 +102,17 @@ pub enum Fidelity {
     Shot,
     /// Cycle by cycle.
     Cycle,
+}
+
+impl Fidelity {
+    /// How shots are simulated, if they are.
+    pub fn stepping(self) -> Option<Stepping> {
+        match self {
+            Fidelity::Shot => Some(Stepping::LeapShots),
+            Fidelity::Cycle => Some(Stepping::SkipIdle),
+            Fidelity::Budget | Fidelity::Histogram => None,
+        }
+    }
 }
 
 /// Treatment of a point that the scenario refuses.

@@ -161,7 +161,7 @@ mod tests {
         let [dark, middle, light] = [0.0, 0.5, 1.0].map(|part| ViridisRGB.get_color(part));
         assert_eq!(colour(8.0, [8.0, 8.0]), middle);
         assert_eq!([0.1, 0.9].map(|value| colour(value, [0.2, 0.8])), [dark, light]);
-        assert_eq!(colour(0.3, [0.2, 0.4]), middle);
+        assert_eq!(colour(0.5, [0.0, 1.0]), middle);
         assert_eq!(ends(&[None, Some(3.0), None]), Some([3.0, 3.0]));
         assert_eq!(ends(&[None]), None);
     }

@@ -42,6 +42,9 @@ pub struct ColumnsArgs {
     /// Estimators whose columns to list
     #[arg(long, value_parser = words(EstimatorKind::ALL), value_delimiter = ',', default_value = "network")]
     estimator: Vec<EstimatorKind>,
+    /// List the columns of the images of an array instead
+    #[arg(long, conflicts_with = "estimator")]
+    array: bool,
     /// Print one JSON object instead of a table
     #[arg(long)]
     json: bool,
@@ -74,7 +77,10 @@ pub fn show(args: &ShowArgs) -> Result<()> {
 
 /// Lists the columns.
 pub fn columns(args: &ColumnsArgs, console: &Console) -> Result<()> {
-    let columns = columns::all(Fidelity::Histogram, &args.estimator);
+    let columns = match args.array {
+        true => columns::of_images(),
+        false => columns::all(Fidelity::Histogram, &args.estimator),
+    };
     if args.json {
         return print_json(&json!({ "schema": "tofsim.sweep-columns/1", "columns": columns }));
     }
