@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::error::open::open_own;
 use crate::error::{Error, Input, Result};
 
-use super::output::create_directory;
-use super::unfinished::{remove_empty, will_make};
+use super::unfinished::{make_folders, remove_empty};
 
 /// Lock on an output folder, which is held until it is dropped or the process ends. A folder that was created for it
 /// and is still empty is then removed.
@@ -39,8 +38,7 @@ impl FolderLock {
         path: &Path,
         lock: impl Fn(&File) -> std::result::Result<(), TryLockError>,
     ) -> Result<Self> {
-        let made = will_make(path);
-        create_directory(path)?;
+        let made = make_folders(path).map_err(Error::io(path, "create"))?;
         // Where the system opens no folders, there is nothing to hold.
         let Ok(folder) = open_own(path) else { return Ok(FolderLock { _folder: None, made }) };
         match lock(&folder) {

@@ -40,17 +40,17 @@ impl Unfinished<TempPath> {
     /// Creates a temporary file in `directory`.
     pub(super) fn file(directory: &Path) -> io::Result<(File, Self)> {
         sweep(directory);
-        let made = made(|builder| {
+        let make = |builder: &mut Builder| {
             #[cfg(unix)]
             {
                 use std::os::unix::fs::PermissionsExt;
                 builder.permissions(fs::Permissions::from_mode(0o666));
             }
             builder.tempfile_in(directory).map(NamedTempFile::into_parts)
-        })?;
-        let (file, path) = made;
+        };
+        let ((file, own), path) = registered(make, |(_, own)| own)?;
         lock(&file);
-        Ok((file, Unfinished { path: register(&path), own: Some(path) }))
+        Ok((file, Unfinished { path, own: Some(own) }))
     }
 
     /// Renames the file to its final path.
@@ -66,11 +66,11 @@ impl Unfinished<TempDir> {
     /// Creates a temporary folder in `directory`.
     pub(super) fn folder(directory: &Path) -> io::Result<(Option<File>, Self)> {
         sweep(directory);
-        let own = made(|builder| builder.tempdir_in(directory))?;
+        let (own, path) = registered(|builder| builder.tempdir_in(directory), TempDir::path)?;
         // Where a folder cannot be opened, its age has to do.
         let lock_file = open_own(own.path()).ok();
         lock_file.iter().for_each(lock);
-        Ok((lock_file, Unfinished { path: register(own.path()), own: Some(own) }))
+        Ok((lock_file, Unfinished { path, own: Some(own) }))
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -86,10 +86,20 @@ impl<T> Drop for Unfinished<T> {
     }
 }
 
-/// Creates a path that follows the naming scheme.
-fn made<T>(make: impl FnOnce(&mut Builder) -> io::Result<T>) -> io::Result<T> {
+/// Creates a path that follows the naming scheme, and returns it as absolute; [`discard_all`] finds it in any case.
+fn registered<T>(
+    make: impl FnOnce(&mut Builder) -> io::Result<T>,
+    path: impl FnOnce(&T) -> &Path,
+) -> io::Result<(T, PathBuf)> {
     let prefix = format!("{PREFIX}{}-", std::process::id());
-    make(Builder::new().prefix(&prefix).suffix(SUFFIX)).map_err(|error| without_path(&error))
+    let mut ours = OURS.lock().unwrap_or_else(PoisonError::into_inner);
+    let made = make(Builder::new().prefix(&prefix).suffix(SUFFIX));
+    let made = made.map_err(|error| without_path(&error))?;
+    // Whoever ends the process may do so in another folder than where it began.
+    let path = path(&made);
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    ours.insert(path.clone());
+    Ok((made, path))
 }
 
 /// Returns an error of the temporary file without its name, which says nothing to a user, but with the system's words.
@@ -105,13 +115,6 @@ fn lock(file: &File) {
     drop(file.try_lock());
 }
 
-fn register(path: &Path) -> PathBuf {
-    // Whoever ends the process may do so in another folder than where it began.
-    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    OURS.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
-    path
-}
-
 /// Removes everything that this process has under construction, and blocks any further output, just before the
 /// process ends.
 pub fn discard_all() {
@@ -121,16 +124,19 @@ pub fn discard_all() {
     remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
 }
 
-/// Returns the missing folders on the path to `directory`, outer ones first, and notes that this process will create
-/// them.
-pub(super) fn will_make(directory: &Path) -> Vec<PathBuf> {
-    let Ok(directory) = std::path::absolute(directory) else { return Vec::new() };
+/// Creates the missing folders on the path to `directory`, and returns them, outer ones first. [`discard_all`] removes
+/// those that are empty.
+pub(super) fn make_folders(directory: &Path) -> io::Result<Vec<PathBuf>> {
+    // Nothing is created once the process ends.
+    let _ours = OURS.lock().unwrap_or_else(PoisonError::into_inner);
+    let absolute = std::path::absolute(directory)?;
     let is_missing = |path: &&Path| fs::symlink_metadata(path).is_err();
-    let missing = directory.ancestors().take_while(is_missing).map(Path::to_owned);
+    let missing = absolute.ancestors().take_while(is_missing).map(Path::to_owned);
     let mut missing: Vec<_> = missing.collect();
     missing.reverse();
     MADE.lock().unwrap_or_else(PoisonError::into_inner).extend(missing.iter().cloned());
-    missing
+    fs::create_dir_all(directory)?;
+    Ok(missing)
 }
 
 /// Removes those of the folders that are empty; the list has outer ones first.

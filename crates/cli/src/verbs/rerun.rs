@@ -220,7 +220,7 @@ fn without_folder(bytes: Vec<u8>) -> Vec<u8> {
     // In keys that name files, the part of each text up to its last stroke.
     let text_of_any = r#""(?:[^"\\]|\\.)*""#;
     let list = format!(r"\[(?:{text_of_any}|[,\s])*\]");
-    let keys = Regex::new(&format!(r#""(?:waves|network|files)":(?:{text_of_any}|{list})"#));
+    let keys = Regex::new(&format!(r#""(?:waves|network|files)":\s*(?:{text_of_any}|{list})"#));
     let folders = Regex::new(r#""(?:[^"\\]|\\.)*/"#);
     let (Ok(keys), Ok(folders)) = (keys, folders) else { return text.into_bytes() };
     let name = |found: &Captures| folders.replace_all(&found[0], "\"").into_owned();

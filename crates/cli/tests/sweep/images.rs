@@ -51,7 +51,6 @@ fn a_point_has_the_images_of_its_seed() {
         assert!((0.0..0.2).contains(&number(row, "flying_rate")), "{row}");
     }
     let [few, many] = [&rows[0], &rows[1]];
-    assert!(number(many, "fill_rate") > number(few, "fill_rate"));
     assert!(number(many, "sd_by_pixel_mm") < 0.6 * number(few, "sd_by_pixel_mm"));
     assert!(number(many, "images_per_s") < number(few, "images_per_s"));
 }

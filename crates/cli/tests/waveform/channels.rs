@@ -46,6 +46,8 @@ fn a_channel_of_the_first_row_is_the_pixel_alone() {
             compared += 1;
         }
         assert!(compared > 60, "{compared} signals of column {column}");
+        let code = |column: usize| all.changes(&format!("channel_{column}.code"));
+        assert!(column < 2 || code(column) != code(1), "column {column}");
         assert!(alone.rises("tdc.tdc_decoder.tdc_valid").len() > 3, "column {column}");
     }
 }
@@ -73,6 +75,10 @@ fn chosen_channels_are_the_same_in_both_formats_up_to_the_last_row() {
         assert!(vcd.rises(&format!("channel_2.{bank}.counting")).len() > 3, "{bank}");
     }
     assert_eq!(vcd.rises("frame_ctrl.frame_done").len(), 2);
+    for file in ["out/array.vcd", "out/array.fst", "out/image.json"] {
+        let text = common::stdout(folder.path(), &["rerun", file]);
+        assert!(text.contains("the same"), "{file}: {text}");
+    }
     let views = common::files(&folder.path().join("out"));
     assert!(views.contains(&"array.gtkw".to_owned()) && views.contains(&"array.sucl".to_owned()));
 }
