@@ -129,10 +129,11 @@ pub fn discard_all() {
 pub(super) fn make_folders(directory: &Path) -> io::Result<Vec<PathBuf>> {
     // Nothing is created once the process ends.
     let _ours = OURS.lock().unwrap_or_else(PoisonError::into_inner);
-    let absolute = std::path::absolute(directory)?;
     let is_missing = |path: &&Path| fs::symlink_metadata(path).is_err();
-    let missing = absolute.ancestors().take_while(is_missing).map(Path::to_owned);
-    let mut missing: Vec<_> = missing.collect();
+    // That of a bare name is empty, and there.
+    let absolute = std::path::absolute(directory).unwrap_or_default();
+    let missing = absolute.ancestors().take_while(is_missing).filter(|path| *path != Path::new(""));
+    let mut missing: Vec<_> = missing.map(Path::to_owned).collect();
     missing.reverse();
     MADE.lock().unwrap_or_else(PoisonError::into_inner).extend(missing.iter().cloned());
     fs::create_dir_all(directory)?;
