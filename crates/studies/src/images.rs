@@ -148,12 +148,18 @@ impl Images {
     }
 }
 
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+/// Returns the least of some numbers, their median, and the largest.
+pub fn ends_and_median(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
     let mut sorted: Vec<_> = values.collect();
     sorted.sort_unstable_by(f64::total_cmp);
+    let (&least, &most) = (sorted.first()?, sorted.last()?);
     let half = sorted.len() / 2;
-    let (&upper, &lower) = (sorted.get(half)?, sorted.get(sorted.len() - 1 - half)?);
-    Some((lower + upper) / 2.0)
+    let median = (sorted[half] + sorted[sorted.len() - 1 - half]) / 2.0;
+    Some([least, median, most])
+}
+
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    ends_and_median(values).map(|[_, median, _]| median)
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::setup::array::ArraySetup;
 use tofsim::sim::{Run, domain};
+use tofsim_learn::estimation::notes::notes_of_firmware;
 use tofsim_learn::estimation::{Estimator, EstimatorKind, HistogramPair, Panel};
 
 use crate::columns::{Column, Quantity};
@@ -84,7 +85,8 @@ impl<'a> Trial<'a> {
             None => ImageFidelity::Histograms,
         };
         let pixels = array.images(fidelity, file.frames, self.stop, &|_| ())?;
-        let notes = merged(pixels.iter().map(|pixel| &pixel.notes[..]));
+        let mut notes = merged(pixels.iter().map(|pixel| &pixel.notes[..]));
+        notes.extend(notes_of_firmware(array.common()));
         let images = Images { array, pixels, limit_m: 1e-3 * file.outlier_limit_mm };
         let figure = |column: &&Column| match column.quantity {
             Quantity::ExpectedOfImages(of) | Quantity::OfImages(of) => of(&images),

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use tofsim::error::Result;
 use tofsim::optics::Pixels;
 use tofsim::sim::image::Pixel;
+use tofsim_studies::images::ends_and_median;
 
 use crate::text::table::{facts, fixed, grouped, number_or_dash};
 
@@ -57,7 +58,7 @@ impl DepthImages<'_> {
     /// Returns the least, the median and the largest number of hits that pixels can expect, where shots do not depend
     /// on each other.
     fn expected(&self, hits: impl Fn(&Pixel) -> Option<f64>) -> Option<[f64; 3]> {
-        statistics::ends_and_median(self.pixels.iter().filter_map(|pixel| hits(&pixel.measured)))
+        ends_and_median(self.pixels.iter().filter_map(|pixel| hits(&pixel.measured)))
     }
 
     fn signal_hits(&self) -> Option<[f64; 3]> {

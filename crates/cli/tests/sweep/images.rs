@@ -47,6 +47,7 @@ fn a_point_has_the_images_of_its_seed() {
         near("images_per_s", number(&images["firmware"], "images_per_s"));
         near("signal_hits", number(&images["signal_hits"], "median"));
         near("ambient_hits", number(&images["ambient_hits"], "median"));
+        assert_eq!(row["notes"], "estimator-outside-model");
         assert!(number(row, "root_mse_mm_se") > 0.0 && row.get("images_per_s_se").is_none());
         assert!((0.0..0.2).contains(&number(row, "flying_rate")), "{row}");
     }

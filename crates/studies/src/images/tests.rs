@@ -86,3 +86,11 @@ fn only_an_array_that_firmware_can_scan_has_a_rate() {
     assert!(figures[0].is_some_and(|rate| (17.3..17.4).contains(&rate)), "{figures:?}");
     assert_eq!(figures[1], None);
 }
+
+#[test]
+fn the_median_lies_between_the_two_in_the_middle() {
+    let of = |values: &[f64]| ends_and_median(values.iter().copied());
+    assert_eq!(of(&[3.0, 1.0, 2.0]), Some([1.0, 2.0, 3.0]));
+    assert_eq!(of(&[4.0, 1.0, 2.0, 3.0]), Some([1.0, 2.5, 4.0]));
+    assert_eq!(of(&[]), None);
+}

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use tofsim_learn::evaluation::Spread;
+use tofsim_studies::images::ends_and_median;
 
 use crate::report::sheet::Digits::{Fixed, Shortest};
 use crate::report::sheet::Sheet;
@@ -61,27 +62,4 @@ pub fn table(images: &[ImageStatistics]) -> String {
             of.median_sigma_m.map(|sigma_m| 1e3 * sigma_m)
         })
         .table()
-}
-
-/// Returns the least of some numbers, their median, and the largest.
-pub fn ends_and_median(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
-    let mut sorted: Vec<_> = values.collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let (&least, &most) = (sorted.first()?, sorted.last()?);
-    let half = sorted.len() / 2;
-    let median = (sorted[half] + sorted[sorted.len() - 1 - half]) / 2.0;
-    Some([least, median, most])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_median_lies_between_the_two_in_the_middle() {
-        let of = |values: &[f64]| ends_and_median(values.iter().copied());
-        assert_eq!(of(&[3.0, 1.0, 2.0]), Some([1.0, 2.0, 3.0]));
-        assert_eq!(of(&[4.0, 1.0, 2.0, 3.0]), Some([1.0, 2.5, 4.0]));
-        assert_eq!(of(&[]), None);
-    }
 }
