@@ -8,6 +8,8 @@ module tof_top #(
     parameter integer Rows = 1,                  // see frame_ctrl
     parameter integer Columns = 1,
     parameter integer Banks = 1,
+    // Column 7 loads CalFile.07 and DelaysFile.07, as each but the first its own; 0: all load those of the first.
+    parameter [0:0] OwnChains = 1'b0,
     parameter integer SumBits = 36,              // see forward1
     // Word formats and table of depth_estimator, see forward1, tansig and forward2
     parameter integer W1Bits = 16,
@@ -433,6 +435,8 @@ module tof_top #(
         for (c = 1; c < Columns; c = c + 1) begin : channel
             wire code_valid;
             wire [BinBits-1:0] code;
+            localparam [7:0] Tens = 8'd48 + c / 10, Units = 8'd48 + c % 10;
+            localparam [23:0] Number = {8'd46, Tens, Units};
             if (Banks == 1) assign shown[(2*c+1)*CountBits+:CountBits] = {CountBits{1'b0}};
 
             tdc #(
@@ -442,11 +446,11 @@ module tof_top #(
                 .Cycle(Cycle),
                 .Digits(Digits),
                 .AgeBits(AgeBits),
-                .DelaysFile(DelaysFile),
+                .DelaysFile(OwnChains ? {DelaysFile, Number} : {24'd0, DelaysFile}),
                 .CountStages(CountStages),
                 .Decoder(Decoder),
                 .Order(Order),
-                .CalFile(CalFile)
+                .CalFile(OwnChains ? {CalFile, Number} : {24'd0, CalFile})
             ) tdc (
                 .clk_sys(clk_sys),
                 .rst(rst_dsp),

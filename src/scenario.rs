@@ -8,6 +8,7 @@ pub mod bundle;
 pub mod calibration;
 #[doc(hidden)]
 pub mod chain;
+pub mod chains;
 #[doc(hidden)]
 pub mod dark;
 #[doc(hidden)]

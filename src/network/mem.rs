@@ -1,5 +1,7 @@
 //! ROM contents for Verilog's `$readmemh`: one hexadecimal word per line.
 
+use std::borrow::Cow;
+
 use crate::firmware::depth_estimator::Params;
 use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward1::{Rom, Weight};
@@ -17,8 +19,20 @@ use crate::kernel::sizes::likelihood::WIDTH_BITS;
 /// Name and text of a ROM file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mem {
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     pub text: String,
+}
+
+impl Mem {
+    /// A file of that name.
+    pub fn new(name: impl Into<Cow<'static, str>>, text: String) -> Self {
+        Mem { name: name.into(), text }
+    }
+
+    /// Returns the file for a column of an array: with the column's number at the end of its name.
+    pub fn of_column(self, column: usize) -> Self {
+        Mem { name: format!("{}.{column:02}", self.name).into(), ..self }
+    }
 }
 
 /// Formats MEM1: one line per bin with a word for each neuron, and one such line of biases. The last neuron is in the
@@ -26,8 +40,8 @@ pub struct Mem {
 pub fn forward1(rom: &Rom, neurons: usize, datapath: &Datapath) -> [Mem; 2] {
     let row = |row: &[Weight], format: WordFormat| words(&row[..neurons], format.width);
     [
-        Mem { name: "w1.mem", text: rom.w1.iter().map(|bin| row(bin, datapath.w1)).collect() },
-        Mem { name: "b1.mem", text: row(&rom.b1, datapath.b1) },
+        Mem::new("w1.mem", rom.w1.iter().map(|bin| row(bin, datapath.w1)).collect()),
+        Mem::new("b1.mem", row(&rom.b1, datapath.b1)),
     ]
 }
 
@@ -35,15 +49,15 @@ pub fn forward1(rom: &Rom, neurons: usize, datapath: &Datapath) -> [Mem; 2] {
 pub fn tansig(rom: &tansig::Rom, datapath: &Datapath) -> Mem {
     let width = datapath.l1_out.width;
     let entries = rom.entries.iter().map(|entry| low_bits(entry.get(), width));
-    Mem { name: "tansig.mem", text: lines(entries, digits(width)) }
+    Mem::new("tansig.mem", lines(entries, digits(width)))
 }
 
 /// Formats MEM3: one line of weights with the last neuron in the top bits, and the bias.
 pub fn forward2(rom: &forward2::Rom) -> [Mem; 2] {
     let Datapath { w2, b2, .. } = rom.datapath;
     [
-        Mem { name: "w2.mem", text: words(&rom.w2[..rom.neurons], w2.width) },
-        Mem { name: "b2.mem", text: words(&[rom.b2], b2.width) },
+        Mem::new("w2.mem", words(&rom.w2[..rom.neurons], w2.width)),
+        Mem::new("b2.mem", words(&[rom.b2], b2.width)),
     ]
 }
 
@@ -58,7 +72,7 @@ pub fn depth_estimator(params: &Params) -> Vec<Mem> {
 /// Formats the decoder's calibration ROM: line N is the time for a ones count of N [units].
 pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
     let words = params.cal.iter().map(|age| age.get());
-    Mem { name: "tdc_cal.mem", text: lines(words, digits(params.age_bits())) }
+    Mem::new("tdc_cal.mem", lines(words, digits(params.age_bits())))
 }
 
 /// Formats the ROMs of the likelihood estimator: for each bin boundary its time and the width of the bin before it,
@@ -77,10 +91,10 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [M
     let hazard = (0..64).map(|quarter| (TABLES.k[quarter] << 11 | TABLES.growth[quarter]) as u64);
     let log = LOG2.iter().map(|&log| log as u64);
     [
-        Mem { name: "edges.mem", text: lines(edges, digits(edge_bits + WIDTH_BITS)) },
-        Mem { name: "pulse.mem", text: lines(pulse, digits(35)) },
-        Mem { name: "hazard.mem", text: lines(hazard, digits(28)) },
-        Mem { name: "log2.mem", text: lines(log, digits(7)) },
+        Mem::new("edges.mem", lines(edges, digits(edge_bits + WIDTH_BITS))),
+        Mem::new("pulse.mem", lines(pulse, digits(35))),
+        Mem::new("hazard.mem", lines(hazard, digits(28))),
+        Mem::new("log2.mem", lines(log, digits(7))),
         likelihood_solver(),
     ]
 }
@@ -88,7 +102,7 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [M
 /// Formats the ROM of the likelihood estimator's solver: its program, an instruction a line.
 pub fn likelihood_solver() -> Mem {
     let words = PROGRAM.iter().map(Instruction::word);
-    Mem { name: "solver.mem", text: lines(words, digits(Instruction::BITS)) }
+    Mem::new("solver.mem", lines(words, digits(Instruction::BITS)))
 }
 
 /// Concatenates words of `width` bits into one, the first in the low bits.
@@ -149,7 +163,7 @@ mod tests {
         let shape = |mem: &Mem| {
             let digits = mem.text.lines().next().map(str::len);
             assert!(mem.text.lines().all(|line| Some(line.len()) == digits));
-            (mem.name, mem.text.lines().count(), digits.unwrap_or(0))
+            (mem.name.clone().into_owned(), mem.text.lines().count(), digits.unwrap_or(0))
         };
         let expected = [
             ("w1.mem", 256, 32),
@@ -159,7 +173,10 @@ mod tests {
             ("tansig.mem", 4096, 4),
             ("tdc_cal.mem", 801, 4),
         ];
-        assert_eq!(files.iter().map(shape).collect::<Vec<_>>(), expected);
+        assert_eq!(
+            files.iter().map(shape).collect::<Vec<_>>(),
+            expected.map(|(name, lines, digits)| (name.to_owned(), lines, digits))
+        );
         assert!(files[5].text.starts_with("0005\n3abc\n"));
         assert_eq!(files[4].text.lines().nth(2048), Some("8016"));
         assert_eq!(files[3].text, format!("{:04x}\n", network.fixed.b2));

@@ -32,6 +32,7 @@ const STIMULI: &[(&str, &str)] = &[
     ("../photons/tdc_validation.csv", include_str!("../../stimuli/photons/tdc_validation.csv")),
     ("../codes/kc705.csv", include_str!("../../stimuli/codes/kc705.csv")),
     ("../histograms/kc705.csv", include_str!("../../stimuli/histograms/kc705.csv")),
+    ("../chains/columns.csv", include_str!("../../stimuli/chains/columns.csv")),
     ("../meshes/table.obj", include_str!("../../stimuli/meshes/table.obj")),
 ];
 

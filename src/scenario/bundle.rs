@@ -10,6 +10,7 @@ use crate::error::{Error, Result, read_bytes};
 
 use super::builtin::Source;
 use super::chain::Chain;
+use super::chains;
 use super::model::{Scenario, Stimulus, TdcCalibration};
 
 /// Greatest number of `..` with which a file name in a bundle may begin [1].
@@ -48,6 +49,9 @@ impl Bundle {
                 bundle.set.push(format!("{key}={}", toml::Value::from(name)));
             }
             bundle.add(folder, name)?;
+        }
+        if let Some(name) = &scenario.array.chains_file {
+            bundle.add_chains(files, folder, name)?;
         }
         if *files == Source::BuiltIn && !bundle.files.is_empty() {
             let Stimulus { photons, codes, histogram } = &scenario.stimulus;
@@ -97,6 +101,15 @@ impl Bundle {
         Ok(())
     }
 
+    /// Adds the chains that the file of an array's chains names, as the scenario would find them.
+    fn add_chains(&mut self, base: &Source, folder: &Path, name: &str) -> Result<()> {
+        let Ok((source, text)) = base.read(name) else { return Ok(()) };
+        for profile in chains::profiles(&source, &text) {
+            self.add(folder, &profile)?;
+        }
+        Ok(())
+    }
+
     /// Writes the files to a temporary folder, and returns that folder and the subfolder to which the file names are
     /// relative.
     ///
@@ -140,6 +153,7 @@ pub fn names(scenario: &Scenario) -> impl Iterator<Item = (&'static str, &str)> 
         ("laser.pulse_file", laser.pulse_file.as_deref()),
         ("spad.dark_file", spad.dark_file.as_deref()),
         ("array.offset_file", array.offset_file.as_deref()),
+        ("array.chains_file", array.chains_file.as_deref()),
         ("tdc.conditions", tdc.conditions.as_deref()),
         ("stimulus.photons", stimulus.photons.as_deref()),
         ("stimulus.codes", stimulus.codes.as_deref()),

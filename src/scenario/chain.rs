@@ -73,68 +73,106 @@ pub struct Extra {
     pub ps: f64,
 }
 
-/// Loads a chain: a built-in profile, or a file whose path is relative to `base`. The chain is sampled with the clock
-/// period `cycle`.
+/// A profile: a built-in chain, or a chain file.
+pub struct Profile {
+    /// Name of the file, for errors.
+    source: String,
+    text: String,
+    /// Folder of the files that it names.
+    files: Source,
+}
+
+impl Profile {
+    /// Finds a built-in profile, or reads a file whose path is relative to `base`. If there is no such profile, `fault` makes
+    /// the error from what was expected.
+    ///
+    /// # Errors
+    /// If there is no such profile, or the file cannot be read.
+    pub fn find(name: &str, base: &Source, fault: impl FnOnce(String) -> Input) -> Result<Self> {
+        if let Some(text) = builtin::chain(name) {
+            let (source, text) = (format!("chain {name}"), text.to_owned());
+            return Ok(Profile { source, text, files: Source::BuiltIn });
+        }
+        if !name.contains(['/', '.']) {
+            let (hint, known) = hint(name, builtin::CHAINS.iter().map(|(name, _)| *name));
+            return Err(fault(format!("expected {known} or a chain file{hint}")).into());
+        }
+        let (source, text) = base.read(name)?;
+        let folder = Path::new(&source).parent().unwrap_or(Path::new("")).to_owned();
+        Ok(Profile { source, text, files: Source::Folder(folder) })
+    }
+
+    /// Returns the delays of the chain, which is sampled with the clock period `cycle`. A `seed` replaces that of its random
+    /// model of silicon.
+    ///
+    /// # Errors
+    /// If the file is invalid, or has no such model for a seed.
+    pub fn delays(&self, seed: Option<u64>, cycle: Time) -> Result<Delays> {
+        let Profile { source, text, files } = self;
+        let checked = Checked::parse::<Chain>(source, text)?;
+        let mut chain: Chain = checked.read()?;
+        let key = chain.origin(source, &checked)?;
+        if let Some(seed) = seed {
+            let Some(silicon) = &mut chain.silicon else {
+                let expected = "expected [silicon], a random model, for array.chains_file to have a seed of it";
+                return Err(checked.fault(key, expected).into());
+            };
+            silicon.seed = seed;
+        }
+        let (first_ps, mut taps_ps) = chain.taps_ps(&checked, files, cycle)?;
+        if let Some(taps) = chain.taps.filter(|taps| *taps != taps_ps.len()) {
+            let expected = format!("expected {}, as many as {key} has", taps_ps.len());
+            return Err(checked.fault("taps", expected).value(taps).into());
+        }
+        let last = taps_ps.len() - 1;
+        for (k, extra) in chain.extra.iter().enumerate() {
+            let Some(tap_ps) = taps_ps.get_mut(extra.tap) else {
+                let expected = format!("expected {last} at most, the last tap");
+                return Err(checked
+                    .fault(&format!("extra.{k}.tap"), expected)
+                    .value(extra.tap)
+                    .into());
+            };
+            *tap_ps += extra.ps;
+        }
+        if let Some(tap) = taps_ps.iter().position(|ps| !(-1e5..=1e5).contains(ps)) {
+            let fault =
+                checked.fault(&format!("tap_delays_ps.{tap}"), "expected a delay up to 1e5 ps");
+            return Err(fault.into());
+        }
+        if !LENGTHS.contains(&taps_ps.len()) {
+            let expected =
+                format!("expected {} taps or more, there are {}", LENGTHS.start(), last + 1);
+            return Err(checked.fault(key, expected).into());
+        }
+        let taps_fs: Vec<_> = taps_ps.iter().map(|ps| (ps * 1e3).round() as i64).collect();
+        let offset_ps = Some(chain.offset_ps + first_ps).filter(|ps| *ps >= 0.0);
+        // No tap is reached at the very time of the change: 0 is a femtosecond.
+        let offset = offset_ps.map(|ps| Time::from_ps_f64(ps).max(Time::from_fs(1)));
+        let delays = offset.and_then(|offset| Delays::new(offset, &taps_fs));
+        let Some(delays) = delays else {
+            let expected = "a tap would be reached before `tdc_stop` changes";
+            return Err(checked.fault("offset_ps", expected).into());
+        };
+        if let Some(expected) = too_long(&delays, cycle) {
+            let is_late = delays.tap_0() > delays.span();
+            return Err(checked.fault(if is_late { "offset_ps" } else { key }, expected).into());
+        }
+        if let Some(expected) = too_short(&delays, cycle) {
+            return Err(checked.fault(key, expected).into());
+        }
+        Ok(delays)
+    }
+}
+
+/// Loads the chain of `tdc.profile`: a built-in profile, or a file whose path is relative to `base`. The chain is sampled
+/// with the clock period `cycle`.
 ///
 /// # Errors
 /// If the file cannot be read, or its delays are invalid.
 pub fn load(name: &str, base: &Source, cycle: Time) -> Result<Delays> {
-    if let Some(text) = builtin::chain(name) {
-        return parse(&format!("chain {name}"), text, &Source::BuiltIn, cycle);
-    }
-    if !name.contains(['/', '.']) {
-        let (hint, known) = hint(name, builtin::CHAINS.iter().map(|(name, _)| *name));
-        let expected = format!("expected {known} or a chain file{hint}");
-        return Err(Input::new("tdc.profile", expected).value(name).into());
-    }
-    let (source, text) = base.read(name)?;
-    let folder = Path::new(&source).parent().unwrap_or(Path::new("")).to_owned();
-    parse(&source, &text, &Source::Folder(folder), cycle)
-}
-
-/// Parses a chain file; `files` locates the files that it names.
-fn parse(source: &str, text: &str, files: &Source, cycle: Time) -> Result<Delays> {
-    let checked = Checked::parse::<Chain>(source, text)?;
-    let chain: Chain = checked.read()?;
-    let key = chain.origin(source, &checked)?;
-    let (first_ps, mut taps_ps) = chain.taps_ps(&checked, files, cycle)?;
-    if let Some(taps) = chain.taps.filter(|taps| *taps != taps_ps.len()) {
-        let expected = format!("expected {}, as many as {key} has", taps_ps.len());
-        return Err(checked.fault("taps", expected).value(taps).into());
-    }
-    let last = taps_ps.len() - 1;
-    for (k, extra) in chain.extra.iter().enumerate() {
-        let Some(tap_ps) = taps_ps.get_mut(extra.tap) else {
-            let expected = format!("expected {last} at most, the last tap");
-            return Err(checked.fault(&format!("extra.{k}.tap"), expected).value(extra.tap).into());
-        };
-        *tap_ps += extra.ps;
-    }
-    if let Some(tap) = taps_ps.iter().position(|ps| !(-1e5..=1e5).contains(ps)) {
-        let fault = checked.fault(&format!("tap_delays_ps.{tap}"), "expected a delay up to 1e5 ps");
-        return Err(fault.into());
-    }
-    if !LENGTHS.contains(&taps_ps.len()) {
-        let expected = format!("expected {} taps or more, there are {}", LENGTHS.start(), last + 1);
-        return Err(checked.fault(key, expected).into());
-    }
-    let taps_fs: Vec<_> = taps_ps.iter().map(|ps| (ps * 1e3).round() as i64).collect();
-    let offset_ps = Some(chain.offset_ps + first_ps).filter(|ps| *ps >= 0.0);
-    // No tap is reached at the very time of the change: 0 is a femtosecond.
-    let offset = offset_ps.map(|ps| Time::from_ps_f64(ps).max(Time::from_fs(1)));
-    let delays = offset.and_then(|offset| Delays::new(offset, &taps_fs));
-    let Some(delays) = delays else {
-        let expected = "a tap would be reached before `tdc_stop` changes";
-        return Err(checked.fault("offset_ps", expected).into());
-    };
-    if let Some(expected) = too_long(&delays, cycle) {
-        let is_late = delays.tap_0() > delays.span();
-        return Err(checked.fault(if is_late { "offset_ps" } else { key }, expected).into());
-    }
-    if let Some(expected) = too_short(&delays, cycle) {
-        return Err(checked.fault(key, expected).into());
-    }
-    Ok(delays)
+    let fault = |expected| Input::new("tdc.profile", expected).value(name);
+    Profile::find(name, base, fault)?.delays(None, cycle)
 }
 
 impl Chain {

@@ -144,9 +144,11 @@ impl ArrayDevice {
     /// Takes the edge at `now` at which both clocks rise; returns whether it selects another row.
     fn rise<T: SignalProbe>(&mut self, now: Time, probe: &mut T) -> bool {
         self.show_oscillator(now, probe);
-        let (delays, lit) = (&self.params.tdc.delays, self.top.nets.laser_on);
-        let mut taps =
-            self.wires.iter_mut().map(|wire| wire.transitions.sample(wire.level, now, delays));
+        let lit = self.top.nets.laser_on;
+        let wires = self.wires.iter_mut().enumerate();
+        let mut taps = wires.map(|(column, wire)| {
+            wire.transitions.sample(wire.level, now, &self.params.tdc_of(column).delays)
+        });
         let first = taps.next().unwrap_or_default();
         for (channel, taps) in self.top.channels.iter_mut().zip(taps) {
             channel.sampled = taps;

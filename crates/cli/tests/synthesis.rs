@@ -96,7 +96,7 @@ fn sixteen_neurons_take_eighteen_multipliers() {
     let mut sources = yosys::rtl_ref();
     let network = Network::builtin("uniform-16").unwrap().unwrap();
     for rom in mem::depth_estimator(&network.params(&Default::default())) {
-        sources.insert(rom.name.to_owned(), rom.text);
+        sources.insert(rom.name.into_owned(), rom.text);
     }
     let command = "chparam -set Neurons 16 depth_estimator";
     let cells = Cells::with(&sources, "depth_estimator", "depth_estimator.16", command);

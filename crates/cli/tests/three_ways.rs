@@ -139,7 +139,7 @@ fn simulated(folder: &Path, dut: Dut, histograms: &[Histogram]) -> Vec<String> {
     let words = histograms.iter().flatten().map(|&count| count.into());
     fs::write(folder.join("histograms.mem"), lines(words, 4)).unwrap();
     for rom in dut.roms {
-        fs::write(folder.join(rom.name), rom.text).unwrap();
+        fs::write(folder.join(&*rom.name), rom.text).unwrap();
     }
     let mut bench = BENCH.replace("HISTOGRAMS", &histograms.len().to_string());
     for (place, text) in [

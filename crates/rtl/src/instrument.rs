@@ -17,7 +17,7 @@ pub fn verilog(setup: &Setup) -> Vec<(String, String)> {
     let all = parameters::whole::tof_top_in_full(setup);
     let mut files: Vec<_> = blocks::verilog().map(|(name, text)| (name, text.to_owned())).collect();
     files.extend(
-        parameters::memories(&all).map(|memory| (memory.name.to_owned(), memory.text.clone())),
+        parameters::memories(&all).map(|memory| (memory.name.to_string(), memory.text.clone())),
     );
     files.push((format!("{MODULE}.v"), wrapper::module(setup, &all)));
     files.push((format!("{}.v", board::name(setup)), top(setup)));

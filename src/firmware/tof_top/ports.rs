@@ -102,6 +102,8 @@ pub struct Params {
     pub vcsel_driver: vcsel_driver::Params,
     /// Delay chain and its ROM.
     pub tdc: tdc::Params,
+    /// Those of the other columns of an array, if each has its own.
+    pub channels: Vec<tdc::Params>,
     /// Parameters of its calibration, if it has one.
     pub tdc_calibration: Option<tdc_calibration::Params>,
     /// Parameters of the estimators.
@@ -120,6 +122,12 @@ pub struct Params {
 const OF_HOST: [&str; 3] = ["uart_bridge", "registers", "laser_guard"];
 
 impl Params {
+    /// Returns the delay chain and the ROM of a column of an array.
+    #[inline]
+    pub fn tdc_of(&self, column: usize) -> &tdc::Params {
+        column.checked_sub(1).and_then(|other| self.channels.get(other)).unwrap_or(&self.tdc)
+    }
+
     /// Parameters of `control_sync`.
     #[inline(always)]
     pub fn control_sync(&self) -> control_sync::Params {

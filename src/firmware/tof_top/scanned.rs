@@ -29,7 +29,7 @@ impl TofTop {
             for (bank, histogram) in channel.banks.iter_mut().enumerate() {
                 histogram.tick(&own.at(&p.place(column, bank)), &p.histogram);
             }
-            channel.tdc.rise(&tdc, &p.tdc, channel.sampled);
+            channel.tdc.rise(&tdc, p.tdc_of(column), channel.sampled);
         }
     }
 

@@ -33,7 +33,10 @@ impl Params {
         Sizes {
             taps: self.tdc.delays.taps() as u32,
             coarse_bits: self.tdc.coarse_counter.coarse_bits,
-            age_bits: decoder.age_bits(),
+            age_bits: (0..=self.channels.len())
+                .map(|column| self.tdc_of(column).decoder.age_bits())
+                .max()
+                .unwrap_or(AGE_BITS),
             count_stages: decoder.count_stages as u32,
             hosted: self.is_hosted,
             calibrates: calibration.is_some(),

@@ -6,6 +6,12 @@ use super::*;
 
 const CYCLE: Time = Time::from_ns(8);
 
+fn parse(source: &str, text: &str, files: &Source, cycle: Time) -> Result<Delays> {
+    let profile =
+        Profile { source: source.to_owned(), text: text.to_owned(), files: files.clone() };
+    profile.delays(None, cycle)
+}
+
 #[test]
 fn a_chain_is_held_to_the_period_of_its_clock() {
     let message = |cycle_fs: u64| {

@@ -29,6 +29,11 @@ table! {
         /// and a line for each pixel. Estimators do not know of it.
         #[schemars(extend("source" = "choice: none"))]
         pub offset_file: Option<String> = None,
+        /// Carry chain of each column's TDC: a CSV file with the columns `column`, `profile` (as `tdc.profile`) and
+        /// optionally `seed` (that of the profile's `[silicon]`), and a line for each column. Each TDC has the calibration
+        /// of its own chain; the estimator, which they share, knows the chain of `tdc.profile` only.
+        #[schemars(extend("source" = "choice: none, all have tdc.profile"))]
+        pub chains_file: Option<String> = None,
     }
 }
 

@@ -21,6 +21,11 @@ pub fn check(scenario: &Scenario, checked: &Checked) -> Result<()> {
         let expected = "expected none, or several pixels (array.rows, array.columns)";
         return fault("array.offset_file", file, expected.to_owned());
     }
+    if let (1, Some(file)) = (array.columns, &array.chains_file) {
+        let expected =
+            "expected none, or several columns (array.columns): tdc.profile is the chain of one";
+        return fault("array.chains_file", file, expected.to_owned());
+    }
     if !array.is_rectangular() {
         if array.distortion == [0.0; 2] {
             return Ok(());

@@ -52,6 +52,21 @@ fn the_firmware_of_an_array_has_the_depths_of_its_pixels_alone() {
 }
 
 #[test]
+fn each_column_converts_with_the_chain_that_its_pixels_have_alone() {
+    let own = "array.chains_file=../chains/columns.csv";
+    let (usual, setup) = (array(&["tdc.profile=kintex7"]), array(&["tdc.profile=kintex7", own]));
+    let (found, device) = depths(&setup, 1);
+    for (place, depth) in found.iter().enumerate() {
+        let [row, column] = [place / 4, place % 4];
+        let [pixel, same] = [&setup, &usual].map(|setup| setup.pixel(row, column));
+        assert_eq!(pixel.bins() == same.bins(), column == 0, "{column}");
+        assert_eq!(depth.words, Run::new(&pixel).frames(1).unwrap()[0].words, "{row},{column}");
+    }
+    let roms: Vec<_> = (0..4).map(|column| &device.params().tdc_of(column).decoder.cal).collect();
+    assert!((1..4).all(|column| roms[..column].iter().all(|rom| *rom != roms[column])));
+}
+
+#[test]
 fn a_single_pixel_is_an_array_of_one() {
     let setup =
         array(&["array.rows=1", "array.columns=1", "array.banks=1", "estimator.kind=network"]);
@@ -68,8 +83,10 @@ fn what_the_firmware_of_an_array_lacks_is_refused() {
     for (set, said) in [
         ("array.rows=41", "array.rows = 41: expected at most 40 for the firmware"),
         ("tdc.recalibrate_frames=3", "tdc.recalibrate_frames = 3: expected 0 with an array"),
+        ("tdc.decoder=reordered", "tdc.decoder = reordered: expected ones or leading with array"),
     ] {
-        let error = array(&[set]).firmware().unwrap_err().to_string();
+        let setup = array(&[set, "array.chains_file=../chains/columns.csv"]);
+        let error = setup.firmware().unwrap_err().to_string();
         assert!(error.contains(said), "{error}");
     }
 }

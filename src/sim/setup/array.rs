@@ -5,12 +5,14 @@ use std::sync::Arc;
 use rand_chacha::rand_core::Rng;
 
 use crate::error::Result;
+use crate::firmware::tof_top::Params;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Budget, PixelBudgets, Pixels};
 use crate::scenario::{Loaded, MOST_SEED, Scenario, dark, offsets};
 use crate::sensor::streams::{Source, stream};
 
 use super::Setup;
+use super::converter::Converter;
 use super::detector::by_budget;
 use super::pixel_files::PixelFiles;
 
@@ -38,16 +40,20 @@ impl ArraySetup {
         let Some(pixels) = Pixels::of(&loaded.scenario) else {
             return Ok(ArraySetup { common: Setup::new(loaded)?, budgets: None });
         };
-        let pixel_files = PixelFiles {
-            offsets_ps: offsets::load(&loaded.scenario, &files)?,
-            measured: dark::load(&loaded.scenario, &files)?,
-        };
         let without_light = |scenario: &Scenario, pulse, _: Option<&_>| {
             let pulse_energy_j = scenario.laser.pulse_energy_j();
             Budget { pulse, pulse_energy_j, ..Budget::default() }
         };
         let mut common = Setup::elaborated(loaded, without_light)?;
         common.check_estimator()?;
+        let pixel_files = PixelFiles {
+            offsets_ps: offsets::load(&common.scenario, &files)?,
+            converters: Converter::of_columns(&common.scenario, &files, common.cycle())?,
+            measured: dark::load(&common.scenario, &files)?,
+        };
+        for converter in &pixel_files.converters {
+            common.clone().with_converter(converter).check_fits()?;
+        }
         (common.no_depth, common.pixel_files) = (None, Arc::new(pixel_files));
         let budgets = PixelBudgets::new(&common.scenario, pixels, common.mesh.as_deref());
         Ok(ArraySetup { common, budgets: Some(budgets) })
@@ -80,7 +86,7 @@ impl ArraySetup {
         let Some(budgets) = &self.budgets else { return self.common.clone() };
         let (common, [_, columns]) = (&self.common, self.size());
         let (scenario, place) = (&common.scenario, row * columns + column);
-        let PixelFiles { offsets_ps, measured } = &*common.pixel_files;
+        let PixelFiles { offsets_ps, converters, measured } = &*common.pixel_files;
         let offset_ps = offsets_ps.get(place).copied().unwrap_or_default();
         let budget = budgets.of(scenario, common.budget.pulse.clone(), place, offset_ps);
         let is_alone = scenario.array.count() == 1;
@@ -92,7 +98,11 @@ impl ArraySetup {
             let dark = DarkRates::of_pixel(&scenario.spad, measured, number);
             (dark, seed_of(scenario.seed, number as u64))
         };
-        common.with_light(budget.with_dark_rates(&dark), dark, seed)
+        let converted = match converters.get(column) {
+            Some(own) => common.clone().with_converter(own),
+            None => common.clone(),
+        };
+        converted.with_light(budget.with_dark_rates(&dark), dark, seed)
     }
 }
 
@@ -102,13 +112,21 @@ fn seed_of(seed: u64, number: u64) -> u64 {
 }
 
 impl Setup {
-    /// Returns the same setup with other light, and with random streams of another seed.
-    fn with_light(&self, budget: Budget, dark: DarkRates, seed: u64) -> Self {
+    /// Returns the setup with other light, and with random streams of another seed.
+    fn with_light(self, budget: Budget, dark: DarkRates, seed: u64) -> Self {
         let light = by_budget(&budget, seed);
         let words = stream(seed, Source::SetupWindow, 0);
-        let disturbance = self.disturbance.clone().map(|one| one.with_words(words));
-        let setup = Setup { budget, dark, light, disturbance, seed, ..self.clone() };
+        let disturbance = self.disturbance.map(|one| one.with_words(words));
+        let setup = Setup { budget, dark, light, disturbance, seed, ..self };
         Setup { no_depth: setup.why_no_depth(), ..setup }
+    }
+
+    /// Returns the setup with another converter. The estimator in its slot still knows the bins of the scenario's.
+    fn with_converter(self, own: &Converter) -> Self {
+        let Converter { tdc, tdc_calibration, calibrated, known, course, disturbance } =
+            own.clone();
+        let params = Params { tdc, tdc_calibration, ..self.params };
+        Setup { params, calibrated, known_tdc: known, course, disturbance, ..self }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::firmware::{tdc, tdc_calibration};
 use crate::kernel::Time;
 use crate::scenario::builtin::Source;
 use crate::scenario::drift::{Course, Drifted, conditions};
-use crate::scenario::{Scenario, Tdc, calibration, chain};
+use crate::scenario::{Scenario, Tdc, calibration, chain, chains};
 use crate::sensor::streams::{Source as Noise, stream};
 use crate::sim::disturbance::Disturbance;
 
@@ -16,7 +16,8 @@ use super::recalibration;
 /// Taps about a transition that may be unsure, for two transitions in the chain to be shown whole.
 const MOST_UNSURE: usize = 4;
 
-/// The converter of a scenario.
+/// The converter of a scenario, or of a column of its array.
+#[derive(Clone, Debug)]
 pub(super) struct Converter {
     /// Parameters of `tdc`.
     pub tdc: tdc::Params,
@@ -38,8 +39,22 @@ impl Converter {
     /// # Errors
     /// When a file cannot be read or used, or the chain does not fit the clock or the set-up window.
     pub fn new(scenario: &Scenario, files: &Source, cycle: Time) -> Result<Self> {
+        let own = chain::load(&scenario.tdc.profile, files, cycle)?;
+        Converter::of_chain(own, scenario, files, cycle)
+    }
+
+    /// Of an array's columns, for a clock of the period `cycle`; none if all have the chain of `tdc.profile`.
+    ///
+    /// # Errors
+    /// As [`Converter::new`].
+    pub fn of_columns(scenario: &Scenario, files: &Source, cycle: Time) -> Result<Vec<Self>> {
+        let chains = chains::load(scenario, files, cycle)?;
+        let converter = |own| Converter::of_chain(own, scenario, files, cycle);
+        chains.into_iter().map(converter).collect()
+    }
+
+    fn of_chain(own: Delays, scenario: &Scenario, files: &Source, cycle: Time) -> Result<Self> {
         let keys = &scenario.tdc;
-        let own = chain::load(&keys.profile, files, cycle)?;
         let profile = conditions(keys, files)?;
         let chain = Drifted::new(own, keys, profile.as_ref(), cycle)?;
         let scale = time_scale(keys, cycle);

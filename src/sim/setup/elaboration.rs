@@ -78,6 +78,7 @@ impl Setup {
             frame_ctrl: frame_ctrl(&scenario.firmware, histogram, preloaded),
             vcsel_driver: vcsel_driver(&scenario.firmware),
             tdc: converter.tdc,
+            channels: Vec::new(),
             tdc_calibration: converter.tdc_calibration,
             estimators,
             estimator: scenario.estimator.kind,
@@ -85,8 +86,6 @@ impl Setup {
             histogram_source,
             is_hosted: false,
         };
-        let slowest = converter.course.as_ref().map_or(1.0, |course| course.slowest);
-        check_fits(&name, &scenario, &params, slowest)?;
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
         let seed = scenario.seed;
         let mut setup = Setup {
@@ -111,6 +110,7 @@ impl Setup {
             seed,
             pixel_files: Arc::default(),
         };
+        setup.check_fits()?;
         let shots = setup.params.frame_ctrl.shots_per_frame.into();
         // One that the estimator is not for has a stand-in, which nothing starts.
         if let Ok(own) = setup.likelihood(shots) {
@@ -132,6 +132,21 @@ impl Setup {
             _ => Ok(()),
         }
     }
+
+    /// Checks that the parts fit each other, with the longest delays that the chain has in a run.
+    pub(super) fn check_fits(&self) -> Result<()> {
+        let Setup { name, scenario, params, .. } = self;
+        fits::check(name, params)?;
+        let slowest = self.course.as_ref().map_or(1.0, |course| course.slowest);
+        let longest = params.tdc.delays.longest().fs() as f64 * slowest;
+        fits::check_pulses(name, scenario, Time::from_fs(longest.ceil() as u64))?;
+        match params.tdc_calibration {
+            Some(_) => {
+                fits::check_ring(name, &recalibration::ring(&scenario.tdc), &params.tdc, slowest)
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 fn check_seed(name: &str, seed: u64) -> Result<()> {
@@ -140,19 +155,6 @@ fn check_seed(name: &str, seed: u64) -> Result<()> {
     }
     let fault = Input::new(format!("scenario {name}"), format!("expected 0 to {MOST_SEED}"));
     Err(fault.field("seed").value(seed).into())
-}
-
-/// Checks that the parts fit each other, with delays up to `slowest` times those of the chain.
-fn check_fits(name: &str, scenario: &Scenario, params: &Params, slowest: f64) -> Result<()> {
-    fits::check(name, params)?;
-    let longest = params.tdc.delays.longest().fs() as f64 * slowest;
-    fits::check_pulses(name, scenario, Time::from_fs(longest.ceil() as u64))?;
-    match params.tdc_calibration {
-        Some(_) => {
-            fits::check_ring(name, &recalibration::ring(&scenario.tdc), &params.tdc, slowest)
-        }
-        None => Ok(()),
-    }
 }
 
 fn network(scenario: &Scenario, files: &Source) -> Result<Network> {

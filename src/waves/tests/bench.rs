@@ -62,6 +62,7 @@ pub fn with_delays(taps: &[i64]) -> Params {
         },
         vcsel_driver: vcsel_driver::Params::default(),
         tdc: tdc::Params::of_chain(delays),
+        channels: Vec::new(),
         tdc_calibration: None,
         estimators,
         estimator: FirmwareEstimator::Network,

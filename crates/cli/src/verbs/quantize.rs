@@ -202,7 +202,7 @@ impl Args {
             create_directory(folder)?;
             let size = Params { bins: network.fixed.bins(), ..Params::default() };
             for rom in mem::depth_estimator(&network.params(&size)) {
-                put(folder.join(rom.name), &rom.text)?;
+                put(folder.join(&*rom.name), &rom.text)?;
             }
         }
         Ok(files)

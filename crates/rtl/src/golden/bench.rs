@@ -103,7 +103,7 @@ impl<'a> Bench<'a> {
             vectors.parameters.iter().any(own)
         };
         for memory in vectors.memories().filter(|memory| !is_inside(memory)) {
-            text(memory.name, &memory.text)?;
+            text(&memory.name, &memory.text)?;
         }
         if !vectors.stops.is_empty() {
             text("tdc_stop.mem", &lines(vectors.stops.iter().map(|at| at.fs()), 16))?;

@@ -23,7 +23,7 @@ pub fn draws(size: &Params) -> (u64, u64) {
 /// The memory from which the bench reads histograms, one after the other.
 pub fn memory(histograms: &[Histogram], size: &Params) -> Mem {
     let words = histograms.iter().flatten().map(|count| count.get());
-    Mem { name: "histograms.mem", text: lines(words, digits(size.count_bits)) }
+    Mem::new("histograms.mem", lines(words, digits(size.count_bits)))
 }
 
 /// Parts of an estimation.

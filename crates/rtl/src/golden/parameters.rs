@@ -22,6 +22,8 @@ pub enum Parameter {
     Words(Vec<u64>),
     /// The file name of a memory that the Verilog loads.
     Memory(Mem),
+    /// A flag that is on, by which the Verilog loads further memories.
+    Flag(Vec<Mem>),
 }
 
 impl Parameter {
@@ -35,6 +37,7 @@ impl Parameter {
                 format!("{{{}}}", words.join(", "))
             }
             Parameter::Memory(memory) => format!("\"{}\"", memory.name),
+            Parameter::Flag(_) => "1".to_owned(),
         }
     }
 
@@ -45,7 +48,8 @@ impl Parameter {
             Parameter::Words(words) => {
                 words.iter().rev().map(|word| format!("{word:016b}")).collect()
             }
-            Parameter::Memory(memory) => memory.name.to_owned(),
+            Parameter::Memory(memory) => memory.name.to_string(),
+            Parameter::Flag(_) => "1".to_owned(),
         }
     }
 }
@@ -158,9 +162,10 @@ pub fn files(
 
 /// The memories among some parameters.
 pub fn memories(parameters: &Parameters) -> impl Iterator<Item = &Mem> {
-    parameters.iter().filter_map(|(_, value)| match value {
-        Parameter::Memory(memory) => Some(memory),
-        Parameter::Number(_) | Parameter::Words(_) => None,
+    parameters.iter().flat_map(|(_, value)| match value {
+        Parameter::Memory(memory) => std::slice::from_ref(memory),
+        Parameter::Flag(memories) => memories,
+        Parameter::Number(_) | Parameter::Words(_) => &[],
     })
 }
 
@@ -216,17 +221,17 @@ pub fn tap_delays(delays: &Delays) -> Mem {
     for (&tap, at) in delays.order().iter().zip(delays.arrivals()) {
         arrivals[tap as usize] = at.fs();
     }
-    Mem { name: "tap_delays.mem", text: lines(arrivals, 8) }
+    Mem::new("tap_delays.mem", lines(arrivals, 8))
 }
 
 /// The ROM of `code_preload`.
 pub fn codes(rom: &[Bin], size: &histogram_builder::Params) -> Mem {
     let words = rom.iter().map(|code| code.get());
-    Mem { name: "codes.mem", text: lines(words, digits(size.bins.ilog2())) }
+    Mem::new("codes.mem", lines(words, digits(size.bins.ilog2())))
 }
 
 /// The ROM of `histogram_preload`.
 pub fn histogram(rom: &[Count], size: &histogram_builder::Params) -> Mem {
     let words = rom.iter().map(|count| count.get());
-    Mem { name: "histogram.mem", text: lines(words, digits(size.count_bits)) }
+    Mem::new("histogram.mem", lines(words, digits(size.count_bits)))
 }

@@ -102,7 +102,7 @@ pub fn json(vectors: &Vectors) -> Value {
             value["before_edge_ps"] = in_ps(vectors.before_edge(column.sample));
             value["register"] = json!(column.internal);
         }),
-        "roms": vectors.memories().map(|memory| memory.name).collect::<Vec<_>>(),
+        "roms": vectors.memories().map(|memory| &*memory.name).collect::<Vec<_>>(),
     })
 }
 
@@ -116,6 +116,7 @@ fn parameters(parameters: &Parameters) -> Value {
         Parameter::Number(number) => json!(number),
         Parameter::Words(words) => json!(words),
         Parameter::Memory(memory) => json!(memory.name),
+        Parameter::Flag(_) => json!(1),
     };
     parameters.iter().map(|(name, parameter)| ((*name).to_owned(), value(parameter))).collect()
 }

@@ -80,7 +80,7 @@ pub fn own(folder: &Path, setup: &Setup) -> Result<Rtl> {
     let sources = folder.join("rtl_ref");
     create_directory(&sources)?;
     for memory in parameters::memories(&parameters::whole::tof_top_in_full(setup)) {
-        write_bytes(&sources.join(memory.name), &memory.text)?;
+        write_bytes(&sources.join(&*memory.name), &memory.text)?;
     }
     Rtl::own(&sources)
 }

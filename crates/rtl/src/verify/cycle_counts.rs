@@ -106,5 +106,5 @@ fn count(
 fn write_program(folder: &Path) -> Result<()> {
     let (program, rtl_ref) = (mem::likelihood_solver(), folder.join("rtl_ref"));
     create_directory(&rtl_ref)?;
-    write_bytes(&rtl_ref.join(program.name), program.text)
+    write_bytes(&rtl_ref.join(&*program.name), program.text)
 }

@@ -45,7 +45,7 @@ pub fn as_verilog<'a>(
     create_directory(&folder)?;
     for (_, parameter) in generics {
         if let Parameter::Memory(memory) = parameter {
-            write_bytes(&folder.join(memory.name), &memory.text)?;
+            write_bytes(&folder.join(&*memory.name), &memory.text)?;
         }
     }
     let refused = import(rtl, &folder, limits)?;

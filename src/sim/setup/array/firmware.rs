@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use crate::error::{Input, Result};
 use crate::firmware::frame_ctrl::timing::RowTiming;
+use crate::firmware::tdc_decoder::Decoder;
 use crate::firmware::tof_top::{CodeSource, HistogramSource, Params};
 use crate::kernel::Time;
 use crate::kernel::scan::{MOST_ROWS, Scan};
@@ -47,6 +48,14 @@ impl ArraySetup {
             }
         }
         params.frame_ctrl.scan = scan;
+        if let [first, others @ ..] = &setup.pixel_files.converters[..] {
+            if params.tdc.decoder.encoder.decoder() == Decoder::Reordered {
+                let expected = "expected ones or leading with array.chains_file: the order of the taps is that of one chain";
+                return Err(fault("tdc.decoder", &Decoder::Reordered.name(), expected));
+            }
+            params.tdc = first.tdc.clone();
+            params.channels = others.iter().map(|other| other.tdc.clone()).collect();
+        }
         Ok(params)
     }
 

@@ -32,7 +32,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK, OWN_CHAINS],
     model: Some(Model {
         // It is looked at once its clocks run.
         settle: |at| at.top.pll.locked = true,
@@ -97,6 +97,21 @@ const ONE_BANK: Configuration = Configuration {
     name: "one_bank",
     set: &["array.rows=2", "array.columns=3", "array.banks=1", "estimator.kind=network"],
     parameters: &["Columns"],
+    ..ARRAY
+};
+
+/// An array whose columns have chains of their own.
+const OWN_CHAINS: Configuration = Configuration {
+    name: "own_chains",
+    set: &[
+        "array.rows=2",
+        "array.columns=3",
+        "array.chains_file=../chains/columns.csv",
+        "tdc.profile=kintex7",
+        "estimator.kind=centroid",
+    ],
+    parameters: &["Columns", "OwnChains"],
+    module: Some(super::CENTROID),
     ..ARRAY
 };
 

@@ -5,6 +5,7 @@
 //! the hash of its contents, `Name = 801 words 0123456789abcdef`. What only simulations have is left out.
 
 use tofsim::files::digest::digest;
+use tofsim::network::mem::Mem;
 use tofsim::sim::setup::Setup;
 
 use super::whole::tof_top_in_full;
@@ -37,17 +38,21 @@ fn words(value: &Parameter) -> String {
         Parameter::Words(words) => {
             words.iter().map(|word| word.to_string()).collect::<Vec<_>>().join(" ")
         }
-        Parameter::Memory(memory) => {
-            let contents = digest(0, memory.text.as_bytes());
-            format!("{} words {contents:016x}", memory.text.lines().count())
+        Parameter::Memory(memory) => contents(memory),
+        Parameter::Flag(memories) => {
+            let memories = memories.iter().map(|memory| " ".to_owned() + &contents(memory));
+            "1".to_owned() + &memories.collect::<String>()
         }
     }
 }
 
+fn contents(memory: &Mem) -> String {
+    let contents = digest(0, memory.text.as_bytes());
+    format!("{} words {contents:016x}", memory.text.lines().count())
+}
+
 #[cfg(test)]
 mod tests {
-    use tofsim::network::mem::Mem;
-
     use super::*;
 
     fn hash(scenario: &str, set: &[&str]) -> u64 {
@@ -56,7 +61,7 @@ mod tests {
 
     #[test]
     fn the_text_names_each_parameter_once_in_order() {
-        let memory = Mem { name: "a.mem", text: "1\n2\n".to_owned() };
+        let memory = Mem::new("a.mem", "1\n2\n".to_owned());
         let parameters = vec![
             ("Order", Parameter::Words(vec![3, 1])),
             ("LockTime", Parameter::Number(5)),

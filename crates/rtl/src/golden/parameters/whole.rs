@@ -1,5 +1,6 @@
 //! Parameters of the whole firmware.
 
+use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_calibration::Params as Calibration;
 use tofsim::firmware::tof_top::{CodeSource, FirmwareEstimator, HistogramSource};
 use tofsim::kernel::U;
@@ -28,6 +29,7 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder))),
         ("DelaysFile", Memory(tap_delays(&params.tdc.delays))),
     ]);
+    list.extend(own_chains(&params.channels));
     list.extend(options(params, TOF_TOP));
     list.extend(params.tdc_calibration.iter().flat_map(tdc_calibration));
     list.extend(sized(params, TOF_TOP));
@@ -60,6 +62,15 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         _ => {}
     }
     list
+}
+
+/// Chains of the other columns of an array, if each has its own.
+fn own_chains(channels: &[tdc::Params]) -> Option<(&'static str, Parameter)> {
+    let memories = (1..).zip(channels).flat_map(|(column, tdc)| {
+        let own = [mem::tdc_decoder(&tdc.decoder), tap_delays(&tdc.delays)];
+        own.map(|memory| memory.of_column(column))
+    });
+    (!channels.is_empty()).then(|| ("OwnChains", Parameter::Flag(memories.collect())))
 }
 
 /// Parameters of the whole firmware, also where they are the default.
