@@ -14,7 +14,7 @@ use crate::optics::hazard::varied::Varied;
 use crate::optics::hazard::{Cause, Hazard};
 
 use super::photon_list::Given;
-use super::streams::{Source, exponential, normal, seek, stream, uniform};
+use super::streams::{Seeds, Source, exponential, normal, seek, stream, uniform};
 
 /// Light that reaches the detector.
 #[derive(Clone, Debug)]
@@ -109,7 +109,7 @@ impl Light {
 pub struct Optics {
     /// Hazard of a shot with the laser, and of a shot without.
     hazards: Arc<[Hazard; 2]>,
-    seed: u64,
+    seeds: Seeds,
     first: ChaCha8Rng,
     further: ChaCha8Rng,
     causes: ChaCha8Rng,
@@ -136,14 +136,16 @@ pub struct Optics {
 
 impl Optics {
     /// Creates light with the hazards of a shot with and without laser pulse, before the first frame.
-    pub fn new(lit: Hazard, dark: Hazard, seed: u64) -> Self {
+    pub fn new(lit: Hazard, dark: Hazard, seeds: impl Into<Seeds>) -> Self {
+        let seeds = seeds.into();
+        let Seeds { pixel, row } = seeds;
         Optics {
             hazards: Arc::new([dark, lit]),
-            seed,
-            first: stream(seed, Source::Avalanche, 0),
-            further: stream(seed, Source::FurtherAvalanches, 0),
-            causes: stream(seed, Source::Cause, 0),
-            pulses: stream(seed, Source::LaserPulse, 0),
+            seeds,
+            first: stream(pixel, Source::Avalanche, 0),
+            further: stream(pixel, Source::FurtherAvalanches, 0),
+            causes: stream(pixel, Source::Cause, 0),
+            pulses: stream(row, Source::LaserPulse, 0),
             pulse: None,
             lit: false,
             origin: Time::ZERO,
@@ -157,10 +159,11 @@ impl Optics {
     }
 
     fn begin_frame(&mut self, frame: u64) {
-        self.first = stream(self.seed, Source::Avalanche, frame);
-        self.further = stream(self.seed, Source::FurtherAvalanches, frame);
-        self.causes = stream(self.seed, Source::Cause, frame);
-        self.pulses = stream(self.seed, Source::LaserPulse, frame);
+        let Seeds { pixel, row } = self.seeds;
+        self.first = stream(pixel, Source::Avalanche, frame);
+        self.further = stream(pixel, Source::FurtherAvalanches, frame);
+        self.causes = stream(pixel, Source::Cause, frame);
+        self.pulses = stream(row, Source::LaserPulse, frame);
         (self.shot, self.further_drawn, self.causes_drawn) = (0, 0, 0);
     }
 

@@ -47,6 +47,24 @@ pub enum Source {
     SetupWindow = 16,
     /// Seeds of an array's pixels; the frame number is that of the pixel.
     Pixel = 17,
+    /// Seeds of an array's rows, for what their pixels share; the frame number is that of the row.
+    Row = 18,
+}
+
+/// Seeds of the random streams of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seeds {
+    /// Of the streams of its own.
+    pub pixel: u64,
+    /// Of those that it shares with its row: jitter of the clocks and of the laser.
+    pub row: u64,
+}
+
+impl From<u64> for Seeds {
+    /// Those of a pixel by itself.
+    fn from(seed: u64) -> Self {
+        Seeds { pixel: seed, row: seed }
+    }
 }
 
 /// Length of a shot's section of a stream [32-bit words].

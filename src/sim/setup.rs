@@ -34,6 +34,7 @@ use crate::scenario::drift::Course;
 use crate::scenario::mesh::Mesh;
 use crate::scenario::{self, Loaded, Scenario};
 use crate::sensor::light::Light;
+use crate::sensor::streams::Seeds;
 
 use super::device::Device;
 use super::disturbance::Disturbance;
@@ -84,8 +85,8 @@ pub struct Setup {
     /// Light on all SPADs that are simulated, if these are more.
     row_light: Option<Light>,
     pub(super) pins: Pins,
-    /// Seed of the random streams: the scenario's, or one of a pixel.
-    pub(super) seed: u64,
+    /// Seeds of the random streams: the scenario's, or those of a pixel.
+    pub(super) seeds: Seeds,
     /// What files say of an array's pixels.
     pixel_files: Arc<PixelFiles>,
 }
@@ -132,7 +133,7 @@ impl Setup {
 
     /// Returns the seed of the random streams: the scenario's, or that of the pixel.
     pub fn seed(&self) -> u64 {
-        self.seed
+        self.seeds.pixel
     }
 
     /// The clocks.
@@ -149,16 +150,16 @@ impl Setup {
     pub fn device(&self) -> Device {
         let scenario = &self.scenario;
         let rms_ps = scenario.pll.jitter_rms_ps;
-        let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, self.seed));
+        let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, self.seeds.row));
         let calibrates = self.params.tdc_calibration.is_some();
-        let front_end = detector::front_end(scenario, calibrates, self.seed);
+        let front_end = detector::front_end(scenario, calibrates, self.seed());
         Device::new(
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
             self.disturbance.clone(),
             self.light_of_row().clone(),
-            (detector::spads(scenario, &self.dark, self.seed), front_end),
+            (detector::spads(scenario, &self.dark, self.seed()), front_end),
             Timeline::new(scenario),
         )
     }

@@ -94,7 +94,7 @@ impl<'a> Histograms<'a> {
 
     /// Draws a frame.
     pub fn frame(&self, index: u64) -> Frame {
-        let mut random = stream(self.setup.seed, Source::Histogram, index);
+        let mut random = stream(self.setup.seed(), Source::Histogram, index);
         let kind = &self.kinds[index as usize % self.kinds.len()];
         let counts = kind.codes.draw(self.shots, &mut random);
         let coded: u64 = counts.iter().sum();

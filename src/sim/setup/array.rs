@@ -9,7 +9,7 @@ use crate::firmware::tof_top::Params;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Budget, PixelBudgets, Pixels};
 use crate::scenario::{Loaded, MOST_SEED, Scenario, dark, offsets};
-use crate::sensor::streams::{Source, stream};
+use crate::sensor::streams::{Seeds, Source, stream};
 
 use super::Setup;
 use super::converter::Converter;
@@ -80,8 +80,9 @@ impl ArraySetup {
         self.pixels().map_or([0.0, 0.0, 1.0], |pixels| pixels.sight(row, column))
     }
 
-    /// Returns the setup of a pixel. Its random streams have a seed of their own, by row and column: the first 64 bits
-    /// of the stream [`Source::Pixel`], of which 63 count.
+    /// Returns the setup of a pixel. Its random streams have a seed of their own, by row and column, and those that it shares
+    /// with its row a seed of the row: the first 64 bits of the streams [`Source::Pixel`] and [`Source::Row`], of which 63
+    /// count.
     pub fn pixel(&self, row: usize, column: usize) -> Setup {
         let Some(budgets) = &self.budgets else { return self.common.clone() };
         let (common, [_, columns]) = (&self.common, self.size());
@@ -90,34 +91,33 @@ impl ArraySetup {
         let offset_ps = offsets_ps.get(place).copied().unwrap_or_default();
         let budget = budgets.of(scenario, common.budget.pulse.clone(), place, offset_ps);
         let is_alone = scenario.array.count() == 1;
-        let (dark, seed) = if is_alone {
-            (common.dark.clone(), scenario.seed)
+        let (dark, seeds) = if is_alone {
+            (common.dark.clone(), scenario.seed.into())
         } else {
             let measured = measured.as_ref().and_then(|rates| rates.rate(row, column));
             let number = row * MOST_COLUMNS + column;
             let dark = DarkRates::of_pixel(&scenario.spad, measured, number);
-            (dark, seed_of(scenario.seed, number as u64))
+            let seed = |source, number: usize| {
+                stream(scenario.seed, source, number as u64).next_u64() & MOST_SEED
+            };
+            let (pixel, row) = (seed(Source::Pixel, number), seed(Source::Row, row));
+            (dark, Seeds { pixel, row })
         };
         let converted = match converters.get(column) {
             Some(own) => common.clone().with_converter(own),
             None => common.clone(),
         };
-        converted.with_light(budget.with_dark_rates(&dark), dark, seed)
+        converted.with_light(budget.with_dark_rates(&dark), dark, seeds)
     }
 }
 
-/// Returns the seed of the pixel with such a number.
-fn seed_of(seed: u64, number: u64) -> u64 {
-    stream(seed, Source::Pixel, number).next_u64() & MOST_SEED
-}
-
 impl Setup {
-    /// Returns the setup with other light, and with random streams of another seed.
-    fn with_light(self, budget: Budget, dark: DarkRates, seed: u64) -> Self {
-        let light = by_budget(&budget, seed);
-        let words = stream(seed, Source::SetupWindow, 0);
+    /// Returns the setup with other light, and with random streams of other seeds.
+    fn with_light(self, budget: Budget, dark: DarkRates, seeds: Seeds) -> Self {
+        let light = by_budget(&budget, seeds);
+        let words = stream(seeds.pixel, Source::SetupWindow, 0);
         let disturbance = self.disturbance.map(|one| one.with_words(words));
-        let setup = Setup { budget, dark, light, disturbance, seed, ..self };
+        let setup = Setup { budget, dark, light, disturbance, seeds, ..self };
         Setup { no_depth: setup.why_no_depth(), ..setup }
     }
 

@@ -11,6 +11,7 @@ use crate::sensor::ring::Ring;
 use crate::sensor::row::Effects;
 use crate::sensor::shaper::{self, Shaper};
 use crate::sensor::spad::Spads;
+use crate::sensor::streams::Seeds;
 
 use super::recalibration;
 
@@ -39,8 +40,8 @@ pub(super) fn front_end(scenario: &Scenario, calibrates: bool, seed: u64) -> Fro
 }
 
 /// Returns the light of the link budget.
-pub(super) fn by_budget(budget: &Budget, seed: u64) -> Light {
-    Light::Optics(Box::new(Optics::new(Hazard::new(budget), Hazard::dark(budget), seed)))
+pub(super) fn by_budget(budget: &Budget, seeds: impl Into<Seeds>) -> Light {
+    Light::Optics(Box::new(Optics::new(Hazard::new(budget), Hazard::dark(budget), seeds)))
 }
 
 /// Returns what a scenario's diodes do besides firing.

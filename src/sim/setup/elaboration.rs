@@ -87,7 +87,7 @@ impl Setup {
             is_hosted: false,
         };
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
-        let seed = scenario.seed;
+        let seeds = scenario.seed.into();
         let mut setup = Setup {
             name,
             scenario,
@@ -107,7 +107,7 @@ impl Setup {
             row_light: of_row,
             pins,
             no_depth,
-            seed,
+            seeds,
             pixel_files: Arc::default(),
         };
         setup.check_fits()?;

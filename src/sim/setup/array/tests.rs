@@ -40,6 +40,38 @@ fn the_streams_of_a_pixel_are_its_own_in_an_array_of_any_size() {
     assert_eq!(seeds.len(), 3 * 64 + 4);
 }
 
+/// The mean code of each of some short frames, less the mean of all.
+fn codes(setup: &Setup) -> Vec<f64> {
+    let mean = |histogram: &[u32]| {
+        let codes = (0u32..).zip(histogram).map(|(code, count)| f64::from(code * count));
+        codes.sum::<f64>() / f64::from(histogram.iter().sum::<u32>())
+    };
+    let frames = Run::new(setup).frames(60).unwrap();
+    let codes: Vec<_> = frames.iter().map(|frame| mean(&frame.histogram)).collect();
+    let middle = codes.iter().sum::<f64>() / codes.len() as f64;
+    codes.iter().map(|code| code - middle).collect()
+}
+
+#[test]
+fn pixels_of_a_row_share_the_jitter_of_the_laser_and_those_of_other_rows_do_not() {
+    let jitter = ["laser.timing_jitter_ps=600", "firmware.shots_per_frame=20"];
+    let bright =
+        ["target.distance_m=0.4", "ambient.irradiance_w_m2_nm=0", "laser.average_power_w=0.5"];
+    let array = array(&[&SIZE[..], &jitter, &bright].concat());
+    let codes: Vec<_> = pixels(&array).map(|pixel| codes(&pixel)).collect();
+    let correlation = |[one, other]: [usize; 2]| {
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let of = |a: usize, b: usize| product(&codes[a], &codes[b]);
+        of(one, other) / (of(one, one) * of(other, other)).sqrt()
+    };
+    for row in [[0, 1], [2, 3]] {
+        assert!(correlation(row) > 0.6, "{row:?}: {}", correlation(row));
+    }
+    for rows in [[0, 2], [0, 3], [1, 2], [1, 3]] {
+        assert!(correlation(rows).abs() < 0.4, "{rows:?}: {}", correlation(rows));
+    }
+}
+
 #[test]
 fn an_offset_moves_all_light_of_its_pixel_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
