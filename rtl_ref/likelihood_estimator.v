@@ -20,6 +20,8 @@ module likelihood_estimator #(
     parameter [31:0] Metres = 32'd16094985,      // distance of a 16th of a unit [2^-(29 + MetresShift) m]
     parameter integer MetresShift = 13,
     parameter [31:0] LaserDelay = 32'd0,         // distance of the light's delay after the laser edge [2^-29 m]
+    parameter integer Columns = 1,               // see frame_ctrl
+    parameter [0:0] OwnChains = 1'b0,            // see likelihood_memory
     parameter EdgesFile = "rtl_ref/edges.mem",
     parameter PulseFile = "rtl_ref/pulse.mem",
     parameter HazardFile = "rtl_ref/hazard.mem",
@@ -30,6 +32,7 @@ module likelihood_estimator #(
     input wire rst,
     input wire algo_start,                       // starts an estimation
     input wire mode,                             // SPADs come back by themselves
+    input wire [5:0] depth_column,               // column of the histogram
     // Histogram
     output wire read_en,                         // the histogram's word at read_addr is being read
     output wire [BinBits-1:0] read_addr,         // word of the histogram
@@ -192,6 +195,8 @@ module likelihood_estimator #(
         .CountBits(CountBits),
         .LikelihoodShots(LikelihoodShots),
         .BoxBins(BoxBins),
+        .Columns(Columns),
+        .OwnChains(OwnChains),
         .EdgesFile(EdgesFile)
     ) likelihood_memory (
         .clk_sys(clk_sys),
@@ -199,6 +204,7 @@ module likelihood_estimator #(
         .load(load),
         .read_en(read_en),
         .read_addr(read_addr),
+        .depth_column(depth_column),
         .count(count),
         .block_done(block_done),
         .block_ended(block_ended),

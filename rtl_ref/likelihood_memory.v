@@ -11,6 +11,8 @@ module likelihood_memory #(
     parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
     parameter [23:0] LikelihoodShots = 24'd30000,  // shots of a histogram
     parameter integer BoxBins = 15,              // bins of the box
+    parameter integer Columns = 1,               // see frame_ctrl
+    parameter [0:0] OwnChains = 1'b0,            // each column has its own bins, in 2 to the power of BinBits + 1 words
     parameter EdgesFile = "rtl_ref/edges.mem"    // of each place the width of the bin before it [units], and its time
 ) (
     input wire clk_sys,
@@ -19,6 +21,9 @@ module likelihood_memory #(
     // Histogram
     output reg read_en,                          // the histogram's word at read_addr is being read
     output reg [BinBits-1:0] read_addr,          // word of the histogram
+    // verilator lint_off UNUSEDSIGNAL
+    input wire [5:0] depth_column,               // column of the histogram
+    // verilator lint_on UNUSEDSIGNAL
     input wire [CountBits-1:0] count,            // word of the histogram at read_addr [hits]
     // Blocks of an eighth of the bins
     output reg block_done,                       // one is complete; one cycle
@@ -90,7 +95,7 @@ module likelihood_memory #(
 `else
     (* rom_style = "block" *)
 `endif
-    reg [EdgeBits+9:0] edges [0:Bins];
+    reg [EdgeBits+9:0] edges [0:OwnChains ? 2 * Bins * Columns - 1 : Bins];
     reg [KeptBits-1:0] ram [0:Bins-1];      // shots that end, that wait, and their exposure
 
     integer i;
@@ -114,7 +119,10 @@ module likelihood_memory #(
 
     wire last_word = &read_addr;
     wire [BinBits:0] place = read_en ? {1'b0, read_addr} + 1'b1 : index;
-    wire [EdgeBits+9:0] edge_word = edges[place];
+    // It has more bits than the address needs.
+    // verilator lint_off WIDTH
+    wire [EdgeBits+9:0] edge_word = edges[OwnChains ? {depth_column, place} : {6'd0, place}];
+    // verilator lint_on WIDTH
     wire first_of_block = written_bin[BinBits-4:0] == {BinBits - 3{1'b0}};
     wire [CountBits:0] less = {1'b0, left} - {1'b0, count};
     wire at_begin = index == fit_begin, at_end = index == fit_end;

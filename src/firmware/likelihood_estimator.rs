@@ -151,7 +151,7 @@ connect! {
     likelihood_memory(clk_sys): likelihood_memory::In {
         rst <- i.rst;
         load <- this.registers.load;
-        count <- i.count;
+        [depth_column, count] <- i;
         [pass, scan, fit_begin, fit_end, phase] <- this.registers;
     }
     likelihood_terms(clk_sys): likelihood_terms::In {

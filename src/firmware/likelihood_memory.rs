@@ -11,7 +11,7 @@
 //! registers  index, kind       fetched, ended, waiting    word
 //! ```
 
-use crate::kernel::U;
+use crate::kernel::{U, scan};
 use crate::{module_of_registers, signals};
 
 use super::histogram_builder::{Bin, Count, MOST_BINS};
@@ -38,6 +38,9 @@ signals! {
         pub rst: bool,
         /// Begins a load.
         pub load: bool,
+        /// Column of the histogram.
+        #[only_if(Scanned)]
+        pub depth_column: scan::Place,
         /// Word of the histogram at `read_addr` [hits].
         #[size(CountBits)]
         pub count: Count,
@@ -260,7 +263,7 @@ impl LikelihoodMemory {
         q.pass(i, p, &mut d);
         if i.phase || q.read_en {
             let place = if q.read_en { q.read_addr.index() + 1 } else { q.index.index() };
-            (d.fetched_width, d.fetched_end) = p.rom_word(place);
+            (d.fetched_width, d.fetched_end) = p.rom_word(i.depth_column.index(), place);
         }
         if i.rst { Registers::default() } else { d }
     }

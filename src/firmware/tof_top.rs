@@ -211,6 +211,7 @@ connect! {
         rst <- this.nets.rst_dsp;
         algo_start <- this.frame_ctrl.algo_start;
         mode <- this.control_sync.mode_sync;
+        depth_column <- this.frame_ctrl.depth_column;
         count <- this.nets.count;
     }
     uart_bridge(clk_sys): uart_bridge::In {

@@ -79,19 +79,27 @@ pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
 /// the pulse, k with its slope, the logarithm, and the solver's program.
 pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [Mem; 5] {
     let edge_bits = params.edge_bits();
-    let edge = |place: usize| {
-        let (width, end) = params.rom_word(place);
+    let bins = params.histogram.bins;
+    let edge = |column: usize, place: usize| {
+        let (width, end) = params.rom_word(column, place);
         width.get() << edge_bits | end.get()
     };
     let pulse = |word: &PulseWord| {
         (word.part as u64) << 18 | low_bits(word.slope, 9) << 9 | low_bits(word.first, 9)
     };
-    let edges = (0..=params.histogram.bins).map(edge);
+    let edges = match params.columns.len() {
+        0 => (0..=bins).map(|place| edge(0, place)).collect::<Vec<_>>(),
+        // Each column from a power of two on.
+        others => (0..=others)
+            .flat_map(|column| (0..2 * bins).map(move |place| (column, place)))
+            .map(|(column, place)| if place > bins { 0 } else { edge(column, place) })
+            .collect(),
+    };
     let pulse = params.pulse.iter().map(pulse);
     let hazard = (0..64).map(|quarter| (TABLES.k[quarter] << 11 | TABLES.growth[quarter]) as u64);
     let log = LOG2.iter().map(|&log| log as u64);
     [
-        Mem::new("edges.mem", lines(edges, digits(edge_bits + WIDTH_BITS))),
+        Mem::new("edges.mem", lines(edges.into_iter(), digits(edge_bits + WIDTH_BITS))),
         Mem::new("pulse.mem", lines(pulse, digits(35))),
         Mem::new("hazard.mem", lines(hazard, digits(28))),
         Mem::new("log2.mem", lines(log, digits(7))),

@@ -17,7 +17,7 @@ pub trait Clockless: SlotEstimator {
     /// shorter way.
     fn estimate(p: &Self::Params, histogram: &[u32]) -> EstimateWords {
         let (mut block, mut count) = (Self::default(), Count::default());
-        let mut i = SlotIn { rst: false, algo_start: true, mode: false, count };
+        let mut i = SlotIn { algo_start: true, count, ..SlotIn::default() };
         for _ in 0..=Self::cycles(p) {
             block.rise(&SlotIn { count, ..i }.into(), p);
             i.algo_start = false;
@@ -31,7 +31,7 @@ pub trait Clockless: SlotEstimator {
     fn land(&mut self, words: &[Count], _idle: Count, mode: bool, p: &Self::Params) {
         for _ in 1..Self::cycles(p) {
             let count = words[self.outputs().read_addr.index()];
-            self.rise(&SlotIn { rst: false, algo_start: false, mode, count }.into(), p);
+            self.rise(&SlotIn { mode, count, ..SlotIn::default() }.into(), p);
         }
     }
 }

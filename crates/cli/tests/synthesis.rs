@@ -3,6 +3,7 @@
 //! `UPDATE_DOCS=1 cargo test -p tofsim-cli --test cli synthesis -- --include-ignored` writes the record of Yosys's
 //! results and the table in `docs/resources.md` anew.
 
+mod arrays;
 mod cells;
 mod clocks;
 mod decoders;

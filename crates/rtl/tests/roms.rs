@@ -20,16 +20,16 @@ fn folder() -> PathBuf {
 }
 
 /// Returns the expected memory contents.
-fn expected() -> BTreeMap<&'static str, String> {
+fn expected() -> BTreeMap<String, String> {
     let of = |scenario, set: &[&str]| {
         let parameters = parameters::whole::tof_top(&common::setup(scenario, set));
-        let text = |memory: &Mem| (memory.name, memory.text.clone());
+        let text = |memory: &Mem| (memory.name.to_string(), memory.text.clone());
         parameters::memories(&parameters).map(text).collect::<BTreeMap<_, _>>()
     };
     let mut expected = of("kc705", &[]);
     expected.extend(of("kc705", &["estimator.kind=likelihood"]));
     for (name, scenario) in STIMULI {
-        expected.insert(name, of(scenario, &[]).remove(name).unwrap());
+        expected.insert(name.to_owned(), of(scenario, &[]).remove(name).unwrap());
     }
     expected
 }

@@ -100,7 +100,7 @@ fn every_signal_has_the_width_of_the_table_in_designs_of_many_sizes() {
         let mut rtl = Rtl::own(folder.path()).unwrap();
         rtl.options.system_verilog = true;
         for memory in parameters::memories(&parameters) {
-            fs::write(folder.path().join(memory.name), &memory.text).unwrap();
+            fs::write(folder.path().join(&*memory.name), &memory.text).unwrap();
         }
         let file = folder.path().join("widths.v");
         fs::write(&file, bench(&setup, &parameters)).unwrap();

@@ -24,6 +24,10 @@ pub struct Params {
     pub shots: u64,
     /// Start of each bin, and end of the last one [half units].
     pub edges: Arc<[u32]>,
+    /// Those of the other columns of an array, if each has a chain of its own.
+    pub columns: Arc<[Arc<[u32]>]>,
+    /// End of the last bin of the chain that the rest is computed for [half units].
+    pub last_edge: u32,
     /// The pulse, by the time from its middle.
     pub pulse: Arc<[PulseWord]>,
     /// Step of the pulse's ROM is 2 to the power of this [units].
@@ -170,17 +174,22 @@ impl Params {
 
     /// Returns the end of the last bin [units / 16].
     pub fn end(&self) -> i64 {
-        i64::from(self.edges[self.histogram.bins]) << 3
+        i64::from(self.last_edge) << 3
     }
 
-    /// An edge [units].
-    pub fn edge(&self, bin: usize) -> i64 {
-        i64::from((self.edges[bin] + 1) >> 1)
+    /// Returns the start of each bin of a column, and the end of the last one [half units].
+    pub fn edges_of(&self, column: usize) -> &[u32] {
+        column.checked_sub(1).and_then(|other| self.columns.get(other)).unwrap_or(&self.edges)
+    }
+
+    /// Returns the parameters for a histogram with other bins.
+    pub fn with_edges(self, edges: Arc<[u32]>) -> Self {
+        Params { edges, ..self }
     }
 
     /// Width of a bin [units].
     pub fn width(&self, bin: usize) -> i64 {
-        self.edge(bin + 1) - self.edge(bin)
+        width(&self.edges[bin..]).into()
     }
 
     /// Bins of a fit, but for the one that stands for all others.
@@ -207,7 +216,9 @@ impl Params {
         Params {
             histogram: *histogram,
             shots: *shots,
+            last_edge: wanted.edges()[histogram.bins],
             edges: wanted.edges().into(),
+            columns: Arc::default(),
             pulse: words(pulse, wanted.unit_ps(), step_log2).into(),
             step_log2,
             before,
@@ -273,7 +284,6 @@ impl Wanted<'_> {
         if last >> (bins.ilog2() + EDGE_BITS) != 0 {
             return Some(Unfit::Late(f64::from(last) / 2.0 / UNITS as f64 - bins as f64));
         }
-        let width = |edges: &[u32]| edges[1].div_ceil(2) - edges[0].div_ceil(2);
         let widest = edges.windows(2).map(width).max().unwrap_or(0);
         if widest >= 1 << WIDTH_BITS {
             return Some(Unfit::Wide(f64::from(widest) / UNITS as f64));
@@ -290,6 +300,11 @@ impl Wanted<'_> {
         let long = self.reach().iter().sum::<usize>() + 1;
         (long > bins).then_some(Unfit::Long(long, bins))
     }
+}
+
+/// Width of a bin [units] from its edges [half units].
+pub fn width(edges: &[u32]) -> u32 {
+    edges[1].div_ceil(2) - edges[0].div_ceil(2)
 }
 
 /// Bits of a word of the solver for such a histogram.

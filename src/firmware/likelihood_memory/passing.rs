@@ -1,16 +1,17 @@
 //! Goes over the bins of a pass, and takes them off the rest.
 
-use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::params::{Params, width};
 use crate::firmware::likelihood_estimator::words::UNITS;
 use crate::kernel::U;
 
 use super::{Edge, In, Kept, Registers, Width};
 
 impl Params {
-    /// The ROM's word of a place: width of the bin before it, and its time.
-    pub fn rom_word(&self, place: usize) -> (Width, Edge) {
-        let width = if place == 0 { 0 } else { self.width(place - 1) };
-        (U::new(width as u64), U::new(self.edges[place].into()))
+    /// The ROM's word of a place in a column: width of the bin before it, and its time.
+    pub fn rom_word(&self, column: usize, place: usize) -> (Width, Edge) {
+        let edges = self.edges_of(column);
+        let width = if place == 0 { 0 } else { width(&edges[place - 1..]) };
+        (U::new(width.into()), U::new(edges[place].into()))
     }
 
     /// Beats of a scan after its last bin, less one.

@@ -5,7 +5,7 @@ use fixed::{FixedI64, FixedU64};
 
 use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_builder::{self, Bin, Count};
-use crate::kernel::U;
+use crate::kernel::{U, scan};
 use crate::signals;
 
 /// Standard deviation of a depth, with as many fraction bits as the depth word [2^-29 m].
@@ -22,6 +22,9 @@ signals! {
         pub algo_start: bool,
         /// SPADs come back by themselves (MODE 1).
         pub mode: bool,
+        /// Column of the histogram.
+        #[only_if(Scanned)]
+        pub depth_column: scan::Place,
         /// Word of the histogram at `read_addr` [hits].
         #[size(CountBits)]
         pub count: Count,

@@ -25,7 +25,8 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
 
 fn rests<E: Slotted>(top: &TofTop, p: &Params) -> bool {
     let (mode, count) = (top.control_sync.mode_sync, top.nets.count);
-    let i = SlotIn { rst: false, algo_start: false, mode, count };
+    let depth_column = top.frame_ctrl.depth_column;
+    let i = SlotIn { rst: false, algo_start: false, mode, depth_column, count };
     E::block(top).rests(&i.into(), E::params(p))
 }
 

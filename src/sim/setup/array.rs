@@ -8,13 +8,14 @@ use crate::error::Result;
 use crate::firmware::tof_top::Params;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Budget, PixelBudgets, Pixels};
+use crate::scenario::builtin::Source as FileSource;
 use crate::scenario::{Loaded, MOST_SEED, Scenario, dark, offsets};
 use crate::sensor::streams::{Seeds, Source, stream};
 
 use super::Setup;
 use super::converter::Converter;
 use super::detector::by_budget;
-use super::pixel_files::PixelFiles;
+use super::pixel_files::{Column, PixelFiles};
 
 mod firmware;
 
@@ -48,12 +49,9 @@ impl ArraySetup {
         common.check_estimator()?;
         let pixel_files = PixelFiles {
             offsets_ps: offsets::load(&common.scenario, &files)?,
-            converters: Converter::of_columns(&common.scenario, &files, common.cycle())?,
+            columns: common.columns(&files)?,
             measured: dark::load(&common.scenario, &files)?,
         };
-        for converter in &pixel_files.converters {
-            common.clone().with_converter(converter).check_fits()?;
-        }
         (common.no_depth, common.pixel_files) = (None, Arc::new(pixel_files));
         let budgets = PixelBudgets::new(&common.scenario, pixels, common.mesh.as_deref());
         Ok(ArraySetup { common, budgets: Some(budgets) })
@@ -87,7 +85,7 @@ impl ArraySetup {
         let Some(budgets) = &self.budgets else { return self.common.clone() };
         let (common, [_, columns]) = (&self.common, self.size());
         let (scenario, place) = (&common.scenario, row * columns + column);
-        let PixelFiles { offsets_ps, converters, measured } = &*common.pixel_files;
+        let PixelFiles { offsets_ps, columns: own, measured } = &*common.pixel_files;
         let offset_ps = offsets_ps.get(place).copied().unwrap_or_default();
         let budget = budgets.of(scenario, common.budget.pulse.clone(), place, offset_ps);
         let is_alone = scenario.array.count() == 1;
@@ -103,11 +101,11 @@ impl ArraySetup {
             let (pixel, row) = (seed(Source::Pixel, number), seed(Source::Row, row));
             (dark, Seeds { pixel, row })
         };
-        let converted = match converters.get(column) {
-            Some(own) => common.clone().with_converter(own),
+        let setup = match own.get(column) {
+            Some(own) => common.clone().with_column(own),
             None => common.clone(),
         };
-        converted.with_light(budget.with_dark_rates(&dark), dark, seeds)
+        setup.with_light(budget.with_dark_rates(&dark), dark, seeds)
     }
 }
 
@@ -121,10 +119,29 @@ impl Setup {
         Setup { no_depth: setup.why_no_depth(), ..setup }
     }
 
-    /// Returns the setup with another converter. The estimator in its slot still knows the bins of the scenario's.
-    fn with_converter(self, own: &Converter) -> Self {
+    /// Returns what the columns of the array have of their own, if it names a file of chains.
+    fn columns(&self, files: &FileSource) -> Result<Vec<Column>> {
+        let converters = Converter::of_columns(&self.scenario, files, self.cycle())?;
+        let column = |converter| {
+            let column = Column { converter, edges: None };
+            let setup = self.clone().with_column(&column);
+            setup.check_fits()?;
+            setup.check_estimator()?;
+            let shots = setup.params.frame_ctrl.shots_per_frame.into();
+            let edges = setup.likelihood(shots).ok().map(|own| own.edges);
+            Ok(Column { edges, ..column })
+        };
+        converters.into_iter().map(column).collect()
+    }
+
+    /// Returns the setup with the converter of a column, and its bins in the estimator.
+    fn with_column(mut self, own: &Column) -> Self {
         let Converter { tdc, tdc_calibration, calibrated, known, course, disturbance } =
-            own.clone();
+            own.converter.clone();
+        if let Some(edges) = &own.edges {
+            let common = &mut self.params.estimators.likelihood_estimator;
+            *common = Arc::new((**common).clone().with_edges(Arc::clone(edges)));
+        }
         let params = Params { tdc, tdc_calibration, ..self.params };
         Setup { params, calibrated, known_tdc: known, course, disturbance, ..self }
     }

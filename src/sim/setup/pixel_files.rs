@@ -1,5 +1,7 @@
 //! What files say of an array's pixels.
 
+use std::sync::Arc;
+
 use crate::scenario::dark::Measured;
 
 use super::converter::Converter;
@@ -9,8 +11,17 @@ use super::converter::Converter;
 pub struct PixelFiles {
     /// Additional delay of each pixel's signal path; empty if there is none [ps].
     pub offsets_ps: Vec<f64>,
-    /// Converters of the columns; empty if all have that of the scenario.
-    pub converters: Vec<Converter>,
+    /// Parts of the columns; empty if all have those of the scenario.
+    pub columns: Vec<Column>,
     /// Dark count rates that were measured.
     pub measured: Option<Measured>,
+}
+
+/// What a column of an array has of its own.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Its converter.
+    pub converter: Converter,
+    /// The bins that the likelihood estimator has in its ROM, if there is one for the instrument [half units].
+    pub edges: Option<Arc<[u32]>>,
 }

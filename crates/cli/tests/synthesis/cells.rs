@@ -21,7 +21,7 @@ pub struct Cells {
 }
 
 /// Columns of the table, with the prefixes of the cell types that they count.
-const COLUMNS: &[(&str, &[&str])] = &[
+pub const COLUMNS: &[(&str, &[&str])] = &[
     ("LUT", &["LUT", "INV"]),
     ("FF", &["FD"]),
     ("DSP48E1", &["DSP48E1"]),
@@ -46,9 +46,19 @@ impl Cells {
 
     /// The same after a command of Yosys, under another name.
     pub fn with(sources: &Sources, top: &str, name: &str, command: &str) -> Self {
+        Self::by(sources, (top, "-flatten"), name, command)
+    }
+
+    /// The same with the modules apart: each is optimised once and by itself, which is quicker where many are alike. The
+    /// chain is not counted then.
+    pub fn of_modules(sources: &Sources, top: &str, name: &str, command: &str) -> Self {
+        Self::by(sources, (top, ""), name, command)
+    }
+
+    fn by(sources: &Sources, (top, option): (&str, &str), name: &str, command: &str) -> Self {
         let sources = yosys::needed(sources, top);
         let script = format!(
-            "read_verilog {}\n{command}\nsynth_xilinx -family xc7 -top {top} -flatten\n\
+            "read_verilog {}\n{command}\nsynth_xilinx -family xc7 -top {top} {option}\n\
              tee -q -o stat.json stat -json\n\
              tee -q -o chain.txt select -count t:CARRY4 c:*carry_chain.slice* %i\n",
             yosys::paths(yosys::modules(&sources)),
@@ -82,6 +92,22 @@ impl Cells {
         self.counts.keys().map(String::as_str).filter(odd).collect()
     }
 
+    /// The cells of a row of a table.
+    pub fn row(&self) -> String {
+        let cell = |count| if count == 0 { " |".to_owned() } else { format!(" {count} |") };
+        self.columns().map(cell).collect()
+    }
+
+    /// The cells of a row with the parts of the board's device that they take.
+    pub fn used(&self) -> String {
+        let part = |(used, has): (u64, Option<u64>)| match has {
+            Some(has) => format!(" {:.1} % |", 100.0 * used as f64 / has as f64),
+            None => " |".to_owned(),
+        };
+        self.columns().zip(DEVICE).map(part).collect()
+    }
+
+    /// Their numbers.
     fn columns(&self) -> impl Iterator<Item = u64> {
         COLUMNS.iter().map(|(_, begins)| begins.iter().map(|begin| self.count(begin)).sum())
     }
@@ -98,12 +124,7 @@ pub fn table(modules: &BTreeMap<String, Cells>) -> String {
     text += "---|\n";
     for (module, cells) in modules {
         write!(text, "| `{module}` |").unwrap();
-        for count in cells.columns() {
-            match count {
-                0 => text += " |",
-                _ => write!(text, " {count} |").unwrap(),
-            }
-        }
+        text += &cells.row();
         let types = cells.counts.keys().filter(|t| NAMED.iter().any(|begin| t.starts_with(begin)));
         let types: Vec<_> = types.map(String::as_str).collect();
         let types = types.join(", ");
@@ -116,12 +137,5 @@ pub fn table(modules: &BTreeMap<String, Cells>) -> String {
             None => text += " |",
         }
     }
-    text += " |\n| used by `kc705_top` |";
-    for (used, has) in modules["kc705_top"].columns().zip(DEVICE) {
-        match has {
-            Some(has) => write!(text, " {:.1} % |", 100.0 * used as f64 / has as f64).unwrap(),
-            None => text += " |",
-        }
-    }
-    text + " |\n"
+    text + " |\n| used by `kc705_top` |" + &modules["kc705_top"].used() + " |\n"
 }

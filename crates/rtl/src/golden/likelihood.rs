@@ -114,7 +114,7 @@ impl<'a> Estimations<'a> {
         let next = self.begun + 1;
         let unarmed = next / WHOLE % KINDS == UNARMED;
         let mode = unarmed && draw.one_in(if idle { 2 } else { 500 * (1 + next % WHOLE * 100) });
-        In { rst, algo_start, mode, count: U::new(word.into()) }
+        In { rst, algo_start, mode, count: U::new(word.into()), ..In::default() }
     }
 
     /// Returns whether these lines and all that follow are drawn for one block alone: from the middle of

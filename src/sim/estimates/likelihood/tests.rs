@@ -12,7 +12,7 @@ use crate::sim::setup::Setup;
 
 /// The block, stepped from a start until `algo_done`, and the edges it took.
 fn step(block: &mut LikelihoodEstimator, p: &Params, histogram: &[u32]) -> (Found, u64) {
-    let mut i = In { rst: false, algo_start: true, mode: false, count: U::new(0) };
+    let mut i = In { algo_start: true, ..In::default() };
     block.rise(&i, p);
     i.algo_start = false;
     let mut edges = 0;

@@ -1,9 +1,11 @@
 //! The firmware that scans an array.
 
 use std::fmt::Display;
+use std::sync::Arc;
 
 use crate::error::{Input, Result};
 use crate::firmware::frame_ctrl::timing::RowTiming;
+use crate::firmware::likelihood_estimator;
 use crate::firmware::tdc_decoder::Decoder;
 use crate::firmware::tof_top::{CodeSource, HistogramSource, Params};
 use crate::kernel::Time;
@@ -12,7 +14,7 @@ use crate::kernel::scan::{MOST_ROWS, Scan};
 use crate::scenario::window::Window;
 use crate::sim::setup::Setup;
 
-use super::ArraySetup;
+use super::{ArraySetup, Column};
 
 impl ArraySetup {
     /// Returns the parameters of the firmware that scans the array.
@@ -48,13 +50,20 @@ impl ArraySetup {
             }
         }
         params.frame_ctrl.scan = scan;
-        if let [first, others @ ..] = &setup.pixel_files.converters[..] {
+        if let [first, others @ ..] = &setup.pixel_files.columns[..] {
             if params.tdc.decoder.encoder.decoder() == Decoder::Reordered {
                 let expected = "expected ones or leading with array.chains_file: the order of the taps is that of one chain";
                 return Err(fault("tdc.decoder", &Decoder::Reordered.name(), expected));
             }
-            params.tdc = first.tdc.clone();
-            params.channels = others.iter().map(|other| other.tdc.clone()).collect();
+            params.tdc = first.converter.tdc.clone();
+            params.channels = others.iter().map(|other| other.converter.tdc.clone()).collect();
+            let estimator = &mut params.estimators.likelihood_estimator;
+            if let Some(edges) = &first.edges {
+                let edges_of = |column: &Column| column.edges.clone().unwrap_or_default();
+                let columns = others.iter().map(edges_of).collect();
+                let own = (**estimator).clone().with_edges(Arc::clone(edges));
+                *estimator = Arc::new(likelihood_estimator::params::Params { columns, ..own });
+            }
         }
         Ok(params)
     }

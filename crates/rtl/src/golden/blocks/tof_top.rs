@@ -32,7 +32,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK, OWN_CHAINS],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK, OWN_EDGES, OWN_CHAINS],
     model: Some(Model {
         // It is looked at once its clocks run.
         settle: |at| at.top.pll.locked = true,
@@ -112,6 +112,21 @@ const OWN_CHAINS: Configuration = Configuration {
     ],
     parameters: &["Columns", "OwnChains"],
     module: Some(super::CENTROID),
+    ..ARRAY
+};
+
+/// The same with the estimator that knows their bins.
+const OWN_EDGES: Configuration = Configuration {
+    name: "own_edges",
+    set: &[
+        "array.rows=1",
+        "array.columns=2",
+        "array.chains_file=../chains/columns.csv",
+        "tdc.profile=kintex7",
+        "estimator.kind=likelihood",
+    ],
+    parameters: &["Columns", "OwnChains", "EdgesFile"],
+    module: Some(super::LIKELIHOOD),
     ..ARRAY
 };
 

@@ -90,7 +90,8 @@ fn latency<E: SlotEstimator>(
     let mut count = counts.next();
     let edge = |algo_start| {
         let count_now = U::new(count.unwrap_or(0));
-        estimator.rise(&SlotIn { rst: false, algo_start, mode: false, count: count_now }.into(), p);
+        let i = SlotIn { algo_start, count: count_now, ..SlotIn::default() };
+        estimator.rise(&i.into(), p);
         let algo_done = estimator.outputs().algo_done;
         if algo_done {
             count = counts.next();

@@ -24,7 +24,7 @@ fn clocked(histogram: &[u32], params: &Params) -> Outcome {
             _ => {}
         }
         let word = if memory.read_en { histogram[memory.read_addr.index()] } else { 0 };
-        let i = In { mode: false, rst: false, algo_start: line == 0, count: U::new(word.into()) };
+        let i = In { algo_start: line == 0, count: U::new(word.into()), ..In::default() };
         block.rise(&i, params);
     }
     (outcome.rescan, outcome.middles[1]) = highest(&block);
