@@ -175,6 +175,21 @@ mod tests {
     const CYCLE: Time = Time::from_ns(8);
 
     #[test]
+    fn the_chains_of_an_array_s_columns_go_with_it() {
+        let here = tempfile::tempdir().unwrap();
+        std::fs::create_dir_all(here.path().join("chains")).unwrap();
+        let write = |name: &str, text: &str| std::fs::write(here.path().join(name), text).unwrap();
+        write("chains/own.toml", "delays_file = \"taps.csv\"\n");
+        write("chains/taps.csv", "tap,delay_ps\n0,1\n");
+        write("c.csv", "column,profile\n0,ideal\n1,chains/own.toml\n");
+        write("s.toml", "[array]\ncolumns = 2\nchains_file = \"c.csv\"\n");
+        let loaded = load(&here.path().join("s.toml").display().to_string(), &[]).unwrap();
+        let bundle = Bundle::of(&loaded.files, &loaded.scenario).unwrap();
+        let names: Vec<_> = bundle.files.keys().collect();
+        assert_eq!(names, ["c.csv", "chains/own.toml", "chains/taps.csv"]);
+    }
+
+    #[test]
     fn a_scenario_reads_its_files_where_they_were_unpacked() {
         let here = tempfile::tempdir().unwrap();
         let folder = here.path().join("scenarios");

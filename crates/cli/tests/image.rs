@@ -190,7 +190,10 @@ fn faults_of_an_array_are_named() {
         "[array]\nrows = 2\ncolumns = 2\noffset_file = \"few.csv\"\n[laser]\ndelay_ps = 50\n",
     )
     .unwrap();
-    let refusals: [(&[&str], &str); 11] = [
+    fs::write(path.join("few-chains.csv"), "column,profile\n0,ideal\n1,uniform\n").unwrap();
+    let chains = "[array]\nrows = 2\ncolumns = 3\nchains_file = \"few-chains.csv\"\n";
+    fs::write(path.join("chains.toml"), chains).unwrap();
+    let refusals: [(&[&str], &str); 13] = [
         (&["image", "-s", "array.rows=0"], "array.rows = 0: expected a whole number from 1 to 64"),
         (
             &["image", "-s", "array.columns=65"],
@@ -205,6 +208,11 @@ fn faults_of_an_array_are_named() {
         (&["image", "-s", "array.distortion=[-40, 0]"], "array.distortion"),
         (&["image", "-s", "target.mesh_file=none.obj"], "none.obj"),
         (&["image", "few.toml"], "missing = row 0, column 1: expected a line for each of 2 x 2"),
+        (&["image", "chains.toml"], "missing = column 2: expected a line for each of 3 columns"),
+        (
+            &["image", "-s", "array.columns=1", "-s", "array.chains_file=../chains/columns.csv"],
+            "array.chains_file = ../chains/columns.csv: expected none, or several columns",
+        ),
         (&["image", "--pixel", "40,0"], "--pixel: 40,0: expected rows 0 to 39 and columns 0 to 29"),
         (&["image", "--pixel", "3"], "expected a row and a column from 0"),
         (&["run", "array"], "array.rows = 40: expected 1 here: `tofsim image`"),

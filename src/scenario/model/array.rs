@@ -30,8 +30,8 @@ table! {
         #[schemars(extend("source" = "choice: none"))]
         pub offset_file: Option<String> = None,
         /// Carry chain of each column's TDC: a CSV file with the columns `column`, `profile` (as `tdc.profile`) and
-        /// optionally `seed` (that of the profile's `[silicon]`), and a line for each column. Each TDC has the calibration
-        /// of its own chain; the estimator, which they share, knows the chain of `tdc.profile` only.
+        /// optionally `seed` (in place of that of the profile's `[silicon]`), and a line for each column. Each TDC has the
+        /// calibration of its chain, and the likelihood estimator has its bins.
         #[schemars(extend("source" = "choice: none, all have tdc.profile"))]
         pub chains_file: Option<String> = None,
     }
