@@ -1,6 +1,7 @@
 //! Promises hold of our own Verilog; what cannot be counted or proven is reported.
 
 mod faults;
+mod recorded;
 
 use std::fs;
 use std::time::Duration;
@@ -16,6 +17,14 @@ use super::*;
 
 fn limits() -> Limits<'static> {
     Limits::new(Duration::from_secs(60))
+}
+
+/// Counts promises of a design, what is proven of it by the record.
+fn by_record(of: &str, promises: &[Promise], design: &CountedDesign, rtl: &Rtl) -> Vec<Count> {
+    let prove = |promise: &Promise, rtl: &Rtl, folder: &Path, limits: &Limits| {
+        recorded::prove(of, promise, (rtl, folder), limits)
+    };
+    count(promises, (design, rtl), &limits(), prove, |_| {}).unwrap()
 }
 
 /// A place in a file of ours, and what to put there.
@@ -49,7 +58,9 @@ fn with_fault_in(design: &CountedDesign, key: &str, edits: &[Edit]) -> Count {
     promises.extend(promises::likelihood(design));
     promises.extend(design.scan.iter().flat_map(promises::of_scan));
     promises.retain(|promise| promise.key() == key);
-    count(&promises, design, &rtl, &limits(), |_| {}).unwrap().remove(0)
+    let planted = edits.iter().map(|[file, from, to]| format!("{file}: {from} -> {to}"));
+    let planted: Vec<_> = planted.collect();
+    by_record(&planted.join(", "), &promises, design, &rtl).remove(0)
 }
 
 /// Proves the promises of either estimator with so many bins and neurons; returns the numbers.
@@ -67,11 +78,21 @@ fn proven_of(bins: usize, neurons: usize, chosen: fn(&Promise) -> bool) -> Vec<u
     promises.retain(|promise| promise.properties.module == "check_estimator");
     promises.push(promises::centroid(&design));
     promises.retain(chosen);
-    let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
+    let of = format!("{bins} bins, {neurons} neurons");
+    let counts = by_record(&of, &promises, &design, &rtl);
     for count in &counts {
         assert!(count.holds(), "{design:?}: {count:?}");
     }
     counts.iter().map(|count| count.expected).collect()
+}
+
+#[test]
+fn our_own_design_keeps_all_its_promises() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let counts = by_record("", &promises::of(&rtl, &kc705()), &kc705(), &rtl);
+    assert!(counts.iter().all(Count::holds), "{counts:?}");
+    assert_eq!(counts.len(), 20);
 }
 
 #[test]
@@ -109,7 +130,7 @@ fn likelihood(set: &[&str]) -> u64 {
     let rtl = Rtl::own(folder.path()).unwrap();
     let design = of(set);
     let promise = promises::likelihood(&design).unwrap();
-    let counts = count(&[promise], &design, &rtl, &limits(), |_| {}).unwrap();
+    let counts = by_record(&set.join(", "), &[promise], &design, &rtl);
     assert!(counts[0].holds(), "{set:?}: {:?}", counts[0]);
     counts[0].expected
 }
@@ -143,7 +164,7 @@ fn scanned(set: &[&str]) -> Vec<u64> {
     let rtl = Rtl::own(folder.path()).unwrap();
     let design = array(set);
     let promises = promises::of_scan(&design.scan.unwrap());
-    let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
+    let counts = by_record(&set.join(", "), &promises, &design, &rtl);
     counts.iter().for_each(|count| assert!(count.holds(), "{set:?}: {count:?}"));
     counts.iter().map(|count| count.expected).collect()
 }
@@ -199,7 +220,7 @@ fn other_laser_periods_pulses_and_clocks_are_counted_and_proven() {
         let design = of(set);
         let mut promises = promises::promises(&design);
         promises.retain(|promise| promise.properties.module != "check_estimator");
-        let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
+        let counts = by_record(&set.join(", "), &promises, &design, &rtl);
         for count in &counts {
             assert!(count.holds(), "{set:?}: {count:?}");
         }
