@@ -10,9 +10,9 @@ use std::sync::LazyLock;
 use tofsim::error::Result;
 use tofsim::network::mem;
 
-use super::super::design::with_defines;
-use super::super::promises::Promise;
-use super::super::prove;
+use crate::verify::cycle_counts::design::with_defines;
+use crate::verify::cycle_counts::promises::Promise;
+use crate::verify::cycle_counts::{self, Count, CountedDesign, prove};
 use crate::verify::process::Limits;
 use crate::verify::rtl::Rtl;
 
@@ -29,22 +29,20 @@ const ASKING: &str = concat!(include_str!("../prove.rs"), include_str!("../../yo
 /// What the record says of a promise that holds.
 const PROVEN: &str = "proven";
 
-/// As [`prove::prove`], with the answer of the record if there is one; `of` says what the design is.
-pub fn prove(
-    of: &str,
-    promise: &Promise,
-    (rtl, folder): (&Rtl, &Path),
-    limits: &Limits,
-) -> Result<Option<String>> {
-    let design = if of.is_empty() { "kc705" } else { of };
-    let check = format!("{} {} of {design}", promise.key(), promise.expected);
-    let ask = || match prove::prove(promise, rtl, folder, limits).unwrap() {
-        None => Ok(PROVEN.to_owned()),
-        Some(why) if why.contains("has not ended") => Err(why),
-        Some(why) => Ok(why),
+/// Counts promises of our Verilog, maybe with faults, and has the proofs by the record; `of` says what the design is.
+pub fn count(of: &str, promises: &[Promise], design: &CountedDesign, rtl: &Rtl) -> Vec<Count> {
+    let of = if of.is_empty() { "kc705" } else { of };
+    let prove = |promise: &Promise, rtl: &Rtl, folder: &Path, limits: &Limits| {
+        let check = format!("{} {} of {of}", promise.key(), promise.expected);
+        let ask = || match prove::prove(promise, rtl, folder, limits).unwrap() {
+            None => Ok(PROVEN.to_owned()),
+            Some(why) if why.contains("has not ended") => Err(why),
+            Some(why) => Ok(why),
+        };
+        let answer = PROOFS.answer(&check, &inputs(promise, rtl)?, ask);
+        Ok(Some(answer).filter(|answer| answer != PROVEN))
     };
-    let answer = PROOFS.answer(&check, &inputs(promise, rtl)?, ask);
-    Ok(Some(answer).filter(|answer| answer != PROVEN))
+    cycle_counts::count(promises, (design, rtl), &super::limits(), prove, |_| {}).unwrap()
 }
 
 /// All that Yosys reads for a proof of a promise, and for attempts to prove what is next to it.
