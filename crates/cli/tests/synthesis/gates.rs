@@ -11,6 +11,7 @@ use tofsim_rtl::golden::{Setting, Vectors, blocks};
 use tofsim_rtl::verify::{Rtl, Simulator, Verdict, rtl};
 
 use crate::common;
+use crate::lockstep::recorded::CHECKING;
 use crate::record::{Inputs, Record};
 
 use super::yosys::{self, LIMITS, Sources};
@@ -107,7 +108,8 @@ fn inputs(sources: &Sources, bench: &Path) -> Inputs {
     let mut inputs = Inputs::default()
         .version("yosys", "-V")
         .version("iverilog", "-V")
-        .rust("making", concat!(include_str!("gates.rs"), include_str!("yosys.rs")));
+        .rust("making", concat!(include_str!("gates.rs"), include_str!("yosys.rs")))
+        .rust("checking", CHECKING);
     for (name, text) in yosys::needed(sources, "tof_top") {
         inputs = inputs.verilog(&name, &text);
     }
