@@ -1,6 +1,8 @@
 //! Rust and Verilog do the same, clock by clock: each block alone, the whole with short frames and
 //! under random control, and full frames at every laser rate.
 
+pub mod recorded;
+
 use serde_json::Value;
 
 use tofsim_rtl::golden::BLOCKS;
@@ -59,12 +61,17 @@ const LATE: [&str; 2] = ["likelihood_estimator", "tof_top"];
 /// Lines that show those what they do with unknown values, and the others [clock cycles].
 const FEW: [&str; 2] = ["16000", "5000"];
 
+/// Those of these configurations that are late, and the others, each with its number of lines.
+fn late_and_early(names: &[String]) -> impl Iterator<Item = (Vec<String>, &'static str)> {
+    let is_late = |name: &String| LATE.iter().any(|late| name.starts_with(late));
+    let (late, early) = names.iter().cloned().partition(is_late);
+    [late, early].into_iter().zip(FEW)
+}
+
 /// Verifies these configurations in Icarus, from power-up on, when no register is known yet. Verilator sees all that
 /// comes later, for a fraction of the time.
 fn pass_in_icarus(names: &[String]) {
-    let is_late = |name: &&String| LATE.iter().any(|late| name.starts_with(late));
-    let (late, early): (Vec<_>, Vec<_>) = names.iter().partition(is_late);
-    for (names, cycles) in [late, early].into_iter().zip(FEW) {
+    for (names, cycles) in late_and_early(names) {
         let named = names.iter().flat_map(|name| ["--block", name]);
         let blocks = verified(&["--cycles", cycles].into_iter().chain(named).collect::<Vec<_>>());
         assert_eq!(blocks.len(), names.len());
@@ -80,7 +87,9 @@ fn every_block_passes_in_icarus() {
 #[test]
 #[ignore = "long: ./check --full"]
 fn every_slow_configuration_passes_in_icarus() {
-    pass_in_icarus(&SLOW.map(str::to_owned));
+    for (names, cycles) in late_and_early(&SLOW.map(str::to_owned)) {
+        recorded::verified("icarus", &names, &["--cycles", cycles]);
+    }
 }
 
 /// Of an array with two banks. Those of the other estimators are configurations of `tof_top`.
@@ -101,13 +110,11 @@ fn whole_images_of_the_likelihood_estimator_pass_in_both_simulators() {
 #[test]
 #[ignore = "long: ./check --full"]
 fn every_configuration_of_every_block_passes_in_verilator() {
-    let blocks = verified(&["--simulator", "verilator", "--seed", "2"]);
-    let found = blocks.iter().map(|block| block["block"].as_str().unwrap().to_owned());
-    let default = format!(".{DEFAULT}");
-    assert!(found.eq(configurations().map(|name| name.trim_end_matches(&default).to_owned())));
-    for block in &blocks {
-        assert!(block["cycles"].as_u64() >= Some(CYCLES), "{block}");
-        assert_eq!(block["goals"]["met"], block["goals"]["of"], "{block}");
+    let names: Vec<_> = configurations().collect();
+    let passed = recorded::verified("verilator", &names, &["--seed", "2"]);
+    for (name, passed) in names.iter().zip(passed) {
+        let (met, of) = passed.goals;
+        assert!(passed.cycles >= CYCLES && met == of, "{name}: {passed:?}");
     }
 }
 
@@ -204,9 +211,9 @@ fn each_calibration_of_a_silicon_chain_passes_in_icarus() {
 fn full_frames_at_every_rate_pass_in_verilator() {
     for (rate, period) in [(0, 25), (1, 13), (2, 8), (3, 6)] {
         let rate = format!("firmware.laser_freq={rate}");
-        let blocks = verified(&["--top", "--simulator", "verilator", "-s", &rate]);
+        let top = ["tof_top".to_owned()];
+        let [passed] = &recorded::verified("verilator", &top, &["-s", &rate])[..] else { panic!() };
         let frame = 30_000 * period + 541;
-        let cycles = blocks[0]["cycles"].as_u64().unwrap();
-        assert!((frame..frame + 8).contains(&cycles), "{cycles} cycles");
+        assert!((frame..frame + 8).contains(&passed.cycles), "{passed:?}");
     }
 }

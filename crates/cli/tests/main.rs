@@ -38,6 +38,8 @@ mod performance;
 mod quantize;
 mod readme;
 mod recalibration;
+#[path = "../../../tests/record.rs"]
+mod record;
 mod replay;
 mod report;
 mod reproduce;

@@ -22,7 +22,6 @@ use cells::{Cells, table};
 use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::network::{Network, mem};
 use tofsim_learn::quantize::Cost;
-use tofsim_rtl::verify::Verdict;
 
 const RESOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/resources.md");
 const BEGIN: &str = "<!-- resources -->";
@@ -117,5 +116,5 @@ fn no_hit_comes_in_the_two_cycles_that_the_histogram_takes_for_another() {
 #[test]
 #[ignore = "long: ./check --full"]
 fn the_synthesised_core_does_what_the_rust_model_does() {
-    assert_eq!(gates::compare(&yosys::rtl_ref()), Verdict::Pass);
+    assert_eq!(gates::compare(&yosys::rtl_ref()), "Pass");
 }

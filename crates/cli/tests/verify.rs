@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use crate::common;
 
+mod cycle_counts;
 mod early;
 mod foreign;
 mod inputs;
@@ -27,6 +28,16 @@ fn counter(old: &str, new: &str) -> tempfile::TempDir {
     let text = fs::read_to_string(Path::new(OWN).join("coarse_counter.v")).unwrap();
     assert!(text.contains(old), "{old} is not in coarse_counter.v");
     fs::write(folder.path().join("coarse_counter.v"), text.replace(old, new)).unwrap();
+    folder
+}
+
+/// A folder with our Verilog, but for those files.
+fn own(but: &[&str]) -> tempfile::TempDir {
+    let folder = common::empty();
+    let ours = common::files(Path::new(OWN)).into_iter();
+    for name in ours.filter(|name| name.ends_with(".v") && !but.contains(&name.as_str())) {
+        fs::copy(Path::new(OWN).join(&name), folder.path().join(&name)).unwrap();
+    }
     folder
 }
 
@@ -181,14 +192,7 @@ fn a_missing_module_or_port_and_a_wrong_width_are_named() {
 
 #[test]
 fn a_design_with_the_estimator_of_the_thesis_only_is_checked_without_the_other() {
-    let folder = common::empty();
-    let ours = fs::read_dir(OWN).unwrap().map(|entry| entry.unwrap().path());
-    for path in ours.filter(|path| path.extension().is_some_and(|end| end == "v")) {
-        fs::copy(&path, folder.path().join(path.file_name().unwrap())).unwrap();
-    }
-    for others in ["centroid_estimator.v", "likelihood_estimator.v"] {
-        fs::remove_file(folder.path().join(others)).unwrap();
-    }
+    let folder = own(&["centroid_estimator.v", "likelihood_estimator.v"]);
     let top = folder.path().join("tof_top.v");
     let text = fs::read_to_string(&top).unwrap();
     let (before, instance) = text.split_once("    centroid_estimator #(").unwrap();
@@ -279,18 +283,4 @@ fn what_cannot_be_asked_for_is_refused() {
     let jitter = ["verify", "--top", "-s", "pll.jitter_rms_ps=7.7"];
     let error = common::refused(folder.path(), &jitter);
     assert!(error.contains("pll.jitter_rms_ps = 7.7"), "{error}");
-}
-
-#[test]
-#[ignore = "long: ./check --full"]
-fn cycle_counts_agree_with_the_model_and_are_proven() {
-    let folder = common::empty();
-    let report = common::json(folder.path(), &["verify", "--cycle-counts", "--json"]);
-    let counts = report["counts"].as_array().unwrap();
-    let latency = counts.iter().find(|count| count["expected"] == 267).unwrap();
-    assert_eq!((&latency["model"], &latency["rtl"]), (&267.into(), &267.into()));
-    assert_eq!(counts.len(), 20);
-    let holds = |count: &Value| ["model", "rtl"].iter().all(|by| count[by] == count["expected"]);
-    assert!(counts.iter().all(holds), "{report}");
-    assert!(counts.iter().all(|count| count["proven"] == true), "{report}");
 }

@@ -4,5 +4,8 @@ mod board;
 #[path = "../../../tests/common.rs"]
 mod common;
 mod mirror;
+#[path = "../../../tests/record.rs"]
+mod record;
+mod records;
 mod roms;
 mod sizes;

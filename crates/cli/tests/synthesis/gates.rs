@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use tofsim::files::output::write_file;
 use tofsim_rtl::golden::bench::Bench;
@@ -10,6 +11,8 @@ use tofsim_rtl::golden::{Setting, Vectors, blocks};
 use tofsim_rtl::verify::{Rtl, Simulator, Verdict, rtl};
 
 use crate::common;
+use crate::lockstep::recorded::CHECKING;
+use crate::record::{Inputs, Record};
 
 use super::yosys::{self, LIMITS, Sources};
 
@@ -17,6 +20,11 @@ use super::yosys::{self, LIMITS, Sources};
 const SHOTS: u64 = 300;
 /// Frames: the second one needs the clearing of the first one's histogram.
 const FRAMES: u64 = 2;
+
+static CORE: LazyLock<Record> = LazyLock::new(|| {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/synthesis/core.record");
+    Record::read(path, "cargo test -p tofsim-cli --test cli the_synthesised_core -- --ignored")
+});
 
 /// Modules that are primitives without a useful model: CARRY4 has no delay for each tap, and there
 /// is none for PLLE2. They stay as they are in simulation.
@@ -79,18 +87,41 @@ fn wrapper(vectors: &Vectors) -> String {
     )
 }
 
-/// Runs the golden bench of the whole firmware on the synthesised core.
-pub fn compare(sources: &Sources) -> Verdict {
-    let netlist = netlist(sources);
+/// What the golden bench of the whole firmware says of the synthesised core, by the record.
+pub fn compare(sources: &Sources) -> String {
     let shots = format!("firmware.shots_per_frame={SHOTS}");
     let setting = Setting::new(common::setup("kc705", &[&shots]));
     let setting = Setting { as_configured: true, frames: FRAMES, ..setting };
     let spec = blocks::find("tof_top").unwrap();
     let vectors = (spec.record)(spec, &setting).unwrap();
-
     let folder = common::empty();
-    let work = folder.path();
-    Bench::new(&vectors).write(work).unwrap();
+    Bench::new(&vectors).write(folder.path()).unwrap();
+    CORE.answer("tof_top as primitives", &inputs(sources, folder.path()), || {
+        let verdict = run(sources, &vectors, folder.path());
+        let said = format!("{verdict:?}");
+        if verdict == Verdict::Pass { Ok(said) } else { Err(said) }
+    })
+}
+
+/// All that Yosys and Icarus read, with a bench in a folder.
+fn inputs(sources: &Sources, bench: &Path) -> Inputs {
+    let mut inputs = Inputs::default()
+        .version("yosys", "-V")
+        .version("iverilog", "-V")
+        .rust("making", concat!(include_str!("gates.rs"), include_str!("yosys.rs")))
+        .rust("checking", CHECKING);
+    for (name, text) in yosys::needed(sources, "tof_top") {
+        inputs = inputs.verilog(&name, &text);
+    }
+    for name in common::files(bench).iter().filter(|name| *name != "ports.json") {
+        inputs = inputs.text(name, fs::read(bench.join(name)).unwrap());
+    }
+    inputs
+}
+
+/// Runs the bench that is in a folder on the netlist.
+fn run(sources: &Sources, vectors: &Vectors, work: &Path) -> Verdict {
+    let netlist = netlist(sources);
     let write = |name: &str, text: &str| {
         write_file(&work.join(name), |file| file.write_all(text.as_bytes())).unwrap();
         work.join(name)
@@ -101,7 +132,7 @@ pub fn compare(sources: &Sources) -> Verdict {
         files.push(write(&name, &sources[&name]));
     }
     let rtl = Rtl::read(&rtl::Sources { paths: files, ..rtl::Sources::default() }).unwrap();
-    let bench = [work.join(vectors.bench_module() + ".v"), write("tof_top.v", &wrapper(&vectors))];
+    let bench = [work.join(vectors.bench_module() + ".v"), write("tof_top.v", &wrapper(vectors))];
     let compiled = Simulator::Icarus
         .compile(work, "tb_tof_top", &bench, &rtl, false, &LIMITS)
         .unwrap_or_else(|error| panic!("{error}"));

@@ -70,14 +70,15 @@ pub fn cycle_counts(
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
-    count(&promises::of(rtl, design), design, rtl, limits, done)
+    count(&promises::of(rtl, design), (design, rtl), limits, prove::prove, done)
 }
 
+/// Counts those promises; `prove` says why one may not hold, or `None` if it is proven.
 fn count(
     promises: &[Promise],
-    design: &CountedDesign,
-    rtl: &Rtl,
+    (design, rtl): (&CountedDesign, &Rtl),
     limits: &Limits,
+    prove: impl Fn(&Promise, &Rtl, &Path, &Limits) -> Result<Option<String>>,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let folder = ScratchFolder::new()?;
@@ -86,7 +87,7 @@ fn count(
     let modelled = model::measure(design);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);
-        let reason = prove::prove(promise, rtl, folder.path(), limits)?;
+        let reason = prove(promise, rtl, folder.path(), limits)?;
         let count = Count {
             what: promise.what.clone(),
             expected,

@@ -1,8 +1,11 @@
 //! The rules of `laser_guard`: each is proven of its Verilog, and shown on the boards' tops.
 
 use std::process::Command;
+use std::sync::LazyLock;
 
-use super::{Board, ECP5, Fault, KC705, TAP_FS, root, sources};
+use crate::record::{Inputs, Record};
+
+use super::{Bench, Board, ECP5, Fault, KC705, root};
 
 /// The rules, in the order of their numbers in `proof.v`, each with a fault that breaks it.
 const RULES: [(&str, &str, &str); 5] = [
@@ -13,19 +16,38 @@ const RULES: [(&str, &str, &str); 5] = [
     ("rate_too_high", "gap_next = ShortestPeriod - 16'd1;", "gap_next = ShortestPeriod - 16'd2;"),
 ];
 
-/// Asks Yosys for a proof of a rule of some Verilog of the guard; its last line on it.
-fn prove(rule: usize, guard: &str) -> String {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("laser_guard.v"), guard).unwrap();
-    let proof = root().join("crates/rtl/tests/board/proof.v");
+/// What Yosys says of a rule.
+const PROVEN: &str = "Induction step proven: SUCCESS!";
+const DISPROVEN: &str = "model found for base case: FAIL!";
+
+static PROOFS: LazyLock<Record> = LazyLock::new(|| {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/board/guard.record");
+    Record::read(path, "cargo test -p tofsim-rtl --test rtl each_rule_is_proven -- --ignored")
+});
+
+/// The last line of Yosys on a rule of some Verilog of the guard, by the record; `of` says which Verilog that is.
+fn prove(rule: usize, of: &str, guard: &str) -> String {
+    let proof = include_str!("proof.v");
     let script = format!(
-        "read_verilog -sv -formal -DRULE={rule} {} laser_guard.v; hierarchy -top proof; proc; flatten; \
+        "read_verilog -sv -formal -DRULE={rule} proof.v laser_guard.v; hierarchy -top proof; proc; flatten; \
          opt_expr; opt_clean; clk2fflogic; opt_clean; \
-         sat -tempinduct -prove-asserts -seq 1 -maxsteps 60 proof",
-        proof.display()
+         sat -tempinduct -prove-asserts -seq 1 -maxsteps 60 proof"
     );
+    let inputs = Inputs::default()
+        .version("yosys", "-V")
+        .text("script", &script)
+        .verilog("proof.v", proof)
+        .verilog("laser_guard.v", guard);
+    PROOFS.answer(of, &inputs, || Ok(ask_yosys(&script, proof, guard)))
+}
+
+/// Runs that script on those files; the last line on the proof.
+fn ask_yosys(script: &str, proof: &str, guard: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("proof.v"), proof).unwrap();
+    std::fs::write(folder.path().join("laser_guard.v"), guard).unwrap();
     let mut yosys = Command::new("yosys");
-    yosys.current_dir(folder.path()).args(["-p", &script]);
+    yosys.current_dir(folder.path()).args(["-p", script]);
     let done = yosys.output().expect("yosys: apt-get install yosys");
     let said = String::from_utf8_lossy(&done.stdout);
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
@@ -39,25 +61,17 @@ fn prove(rule: usize, guard: &str) -> String {
 fn each_rule_is_proven_and_a_fault_breaks_its_proof() {
     let guard = std::fs::read_to_string(root().join("rtl_ref/laser_guard.v")).unwrap();
     for (rule, (name, old, new)) in RULES.into_iter().enumerate() {
-        assert_eq!(prove(rule, &guard), "Induction step proven: SUCCESS!", "{name}");
+        assert_eq!(prove(rule, name, &guard), PROVEN, "{name}");
         assert_eq!(guard.matches(old).count(), 1, "{name}: {old}");
-        let last = prove(rule, &guard.replace(old, new));
-        assert!(last.ends_with("model found for base case: FAIL!"), "{name}: {last}");
+        let fault = format!("{name}: {old} -> {new}");
+        let last = prove(rule, &fault, &guard.replace(old, new));
+        assert!(last.ends_with(DISPROVEN), "{fault}: {last}");
     }
 }
 
 /// What the host and the laser of a board's top do while each rule is broken.
 fn broken_rules(board: Board, fault: Option<&Fault>) -> String {
-    let (folder, sources) = sources(fault);
-    let here = root().join("crates/rtl/tests/board");
-    let mut compiler = Command::new("iverilog");
-    compiler.current_dir(folder.path()).args(["-g2005", "-s", "safety", "-o", "safety.vvp"]);
-    let [name, primitives] = board.options();
-    compiler.args([name, "-DSYNTHESIS"]).arg(format!("-DTAP_PS={}", TAP_FS as f64 / 1000.0));
-    compiler.arg(here.join("safety.v")).args(sources);
-    compiler.args([here.join("vendor_pll.v"), here.join(primitives)]);
-    super::output(&mut compiler);
-    super::output(Command::new("vvp").current_dir(folder.path()).args(["-n", "safety.vvp"]))
+    Bench { top: "safety", board: Some(board) }.run(fault)
 }
 
 /// The section of `docs/board.md` with the waveforms.

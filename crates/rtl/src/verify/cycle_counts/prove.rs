@@ -72,7 +72,7 @@ fn ask(
 }
 
 /// Commands for Yosys. A module that is left open is one that it does not know.
-fn script(promise: &Promise, number: u64, steps: u32) -> String {
+pub(super) fn script(promise: &Promise, number: u64, steps: u32) -> String {
     let Promise { properties, property, parameter, .. } = promise;
     let module = properties.module;
     let code = promise.code.map_or(String::new(), |code| format!("-chparam Code {code}"));

@@ -1,16 +1,16 @@
 //! Promises hold of our own Verilog; what cannot be counted or proven is reported.
 
 mod faults;
+mod recorded;
+mod scan;
 
 use std::fs;
 use std::time::Duration;
 
 use tofsim::firmware::estimator_ctrl::Params;
-use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 
 use crate::golden::blocks::CENTROID;
-use crate::golden::setting::Setting;
 
 use super::*;
 
@@ -49,7 +49,9 @@ fn with_fault_in(design: &CountedDesign, key: &str, edits: &[Edit]) -> Count {
     promises.extend(promises::likelihood(design));
     promises.extend(design.scan.iter().flat_map(promises::of_scan));
     promises.retain(|promise| promise.key() == key);
-    count(&promises, design, &rtl, &limits(), |_| {}).unwrap().remove(0)
+    let planted = edits.iter().map(|[file, from, to]| format!("{file}: {from} -> {to}"));
+    let planted: Vec<_> = planted.collect();
+    recorded::count(&planted.join(", "), &promises, design, &rtl).remove(0)
 }
 
 /// Proves the promises of either estimator with so many bins and neurons; returns the numbers.
@@ -67,11 +69,21 @@ fn proven_of(bins: usize, neurons: usize, chosen: fn(&Promise) -> bool) -> Vec<u
     promises.retain(|promise| promise.properties.module == "check_estimator");
     promises.push(promises::centroid(&design));
     promises.retain(chosen);
-    let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
+    let of = format!("{bins} bins, {neurons} neurons");
+    let counts = recorded::count(&of, &promises, &design, &rtl);
     for count in &counts {
         assert!(count.holds(), "{design:?}: {count:?}");
     }
     counts.iter().map(|count| count.expected).collect()
+}
+
+#[test]
+fn our_own_design_keeps_all_its_promises() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let counts = recorded::count("", &promises::of(&rtl, &kc705()), &kc705(), &rtl);
+    assert!(counts.iter().all(Count::holds), "{counts:?}");
+    assert_eq!(counts.len(), 20);
 }
 
 #[test]
@@ -109,7 +121,7 @@ fn likelihood(set: &[&str]) -> u64 {
     let rtl = Rtl::own(folder.path()).unwrap();
     let design = of(set);
     let promise = promises::likelihood(&design).unwrap();
-    let counts = count(&[promise], &design, &rtl, &limits(), |_| {}).unwrap();
+    let counts = recorded::count(&set.join(", "), &[promise], &design, &rtl);
     assert!(counts[0].holds(), "{set:?}: {:?}", counts[0]);
     counts[0].expected
 }
@@ -129,43 +141,6 @@ fn a_likelihood_estimation_takes_as_long_as_bins_box_and_fit_say() {
         likelihood(&[&bins, &pulse, "estimator.kind=likelihood"])
     });
     assert_eq!(cycles, [2023, 2103, 2643, 4883, 8495]);
-}
-
-/// Returns the design of an array with so many rows, columns and banks, and other keys.
-fn array(set: &[&str]) -> CountedDesign {
-    let set: Vec<_> = set.iter().map(|line| (*line).to_owned()).collect();
-    CountedDesign::of(&Setting::of(scenario::load("array", &set).unwrap()).unwrap().setup)
-}
-
-/// Proves the promises of such an array; returns the numbers.
-fn scanned(set: &[&str]) -> Vec<u64> {
-    let folder = tempfile::tempdir().unwrap();
-    let rtl = Rtl::own(folder.path()).unwrap();
-    let design = array(set);
-    let promises = promises::of_scan(&design.scan.unwrap());
-    let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
-    counts.iter().for_each(|count| assert!(count.holds(), "{set:?}: {count:?}"));
-    counts.iter().map(|count| count.expected).collect()
-}
-
-/// Rows, columns, banks and estimator of an array of few shots.
-fn small_array([rows, columns, banks]: [u32; 3], estimator: &str) -> Vec<u64> {
-    let size = [("rows", rows), ("columns", columns), ("banks", banks)];
-    let mut set: Vec<_> = size.iter().map(|(key, n)| format!("array.{key}={n}")).collect();
-    set.extend([format!("estimator.kind={estimator}"), "firmware.shots_per_frame=300".to_owned()]);
-    scanned(&set.iter().map(String::as_str).collect::<Vec<_>>())
-}
-
-#[test]
-fn rows_and_images_take_as_long_as_shots_say_where_estimates_are_hidden() {
-    assert_eq!(small_array([4, 3, 2], "centroid"), [2073, 8292, 957]);
-}
-
-#[test]
-#[ignore = "long: ./check --full"]
-fn rows_and_images_take_as_long_as_estimates_say_where_those_last_longer_or_come_after() {
-    assert_eq!(small_array([3, 2, 2], "likelihood"), [7563, 22689, 13067]);
-    assert_eq!(small_array([2, 3, 1], "network"), [2880, 5760, 822]);
 }
 
 /// Counts and proves the promises of other lasers, each with its numbers.
@@ -199,7 +174,7 @@ fn other_laser_periods_pulses_and_clocks_are_counted_and_proven() {
         let design = of(set);
         let mut promises = promises::promises(&design);
         promises.retain(|promise| promise.properties.module != "check_estimator");
-        let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
+        let counts = recorded::count(&set.join(", "), &promises, &design, &rtl);
         for count in &counts {
             assert!(count.holds(), "{set:?}: {count:?}");
         }

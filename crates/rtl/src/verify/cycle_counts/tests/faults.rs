@@ -1,6 +1,7 @@
 //! Faults planted in our own Verilog are counted, and what they break is not proven.
 
-use super::{Edit, array, kc705, with_fault_in};
+use super::scan::array;
+use super::{Edit, kc705, with_fault_in};
 use crate::verify::cycle_counts::CountedDesign;
 
 /// A fault, what it is found by, and what is counted then.
