@@ -25,6 +25,7 @@ mod evaluate;
 mod fidelities;
 mod golden;
 mod grid;
+mod ila_array;
 mod ila_command;
 mod image;
 mod instruments;
