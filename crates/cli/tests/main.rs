@@ -28,6 +28,7 @@ mod grid;
 mod ila_array;
 mod ila_command;
 mod image;
+mod image_events;
 mod instruments;
 mod laser_delay;
 mod limits;
