@@ -8,7 +8,7 @@ use crate::error::{Result, poll_stop};
 use crate::firmware::tof_top::status::StatusSet;
 use crate::note::Note;
 
-use super::callback::Callback;
+use super::callback::{Callback, call};
 use super::fast::histogram::Histograms;
 use super::frames::Frame;
 use super::run::{Observers, Run};
@@ -121,7 +121,7 @@ pub fn simulate(
     setup: &Setup,
     fidelity: ImageFidelity,
     count: u64,
-    shots: Option<Callback<Shot>>,
+    mut shots: Option<Callback<Shot>>,
     stop: Option<&AtomicBool>,
 ) -> Result<Pixel> {
     let mut frames = Vec::new();
@@ -138,7 +138,14 @@ pub fn simulate(
                 frames.push(PixelFrame::of(frame));
                 Ok(())
             };
-            let observers = Observers { frames: Some(&mut take), shots, stop, waves: None };
+            let wants_shots = shots.is_some();
+            let mut take_shot = |shot: &Shot| call(&mut shots, shot);
+            let observers = Observers {
+                frames: Some(&mut take),
+                shots: wants_shots.then_some(&mut take_shot),
+                stop,
+                waves: None,
+            };
             Run::new(setup).stepping(stepping).observe(count, observers)?;
         }
     }
