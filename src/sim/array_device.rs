@@ -13,9 +13,7 @@ use super::oscillator::Oscillator;
 use super::photons::{Photons, Shown};
 use super::setup::array::ArraySetup;
 
-mod trace;
-
-pub use trace::{ArrayEnd, ArrayProbe};
+pub mod trace;
 
 /// A depth of an image, as the firmware outputs it.
 #[derive(Clone, Copy, Debug, PartialEq)]

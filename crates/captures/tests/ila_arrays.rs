@@ -6,7 +6,9 @@ use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::setup::array::ArraySetup;
-use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, sampler};
+use tofsim_captures::ila::{
+    Analyser, AnalyserPlan, AnalyserSetup, Capture, capture_array, sampler,
+};
 
 fn array(set: &[&str]) -> ArraySetup {
     let short = ["firmware.shots_per_frame=60", "array.rows=1"];
@@ -23,7 +25,7 @@ fn plan(text: &str, setup: &Setup) -> AnalyserPlan {
 fn of_array(array: &ArraySetup, text: &str) -> Capture {
     let setup = array.with_firmware().unwrap();
     let mut analyser = Analyser::new(&plan(text, &setup), &setup);
-    sampler::capture_array(array, 1, &mut analyser, None).unwrap();
+    capture_array(array, 1, &mut analyser, None).unwrap();
     analyser.finish()
 }
 

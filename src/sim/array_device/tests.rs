@@ -3,6 +3,7 @@ use crate::scenario;
 use crate::sim::Run;
 use crate::sim::device::Off;
 
+use super::trace::ArrayProbe;
 use super::*;
 
 /// A small array with bright pixels and short frames.

@@ -23,9 +23,7 @@ use super::core::Core;
 use super::plan::AnalyserPlan;
 use super::probe_values::ProbeValues;
 
-mod array;
-
-pub use array::capture_array;
+pub mod array;
 
 /// A logic analyser in a simulation.
 ///

@@ -4,7 +4,8 @@ use std::sync::atomic::AtomicBool;
 
 use tofsim::error::Result;
 use tofsim::kernel::Time;
-use tofsim::sim::array_device::{ArrayDevice, ArrayProbe};
+use tofsim::sim::array_device::ArrayDevice;
+use tofsim::sim::array_device::trace::ArrayProbe;
 use tofsim::sim::setup::array::ArraySetup;
 
 use super::{Analyser, Tap};
