@@ -48,12 +48,17 @@ impl ChannelIds {
 /// Lists every name of the channels, given those of the first column.
 pub(super) fn channel_entries(params: &Params, first: &[Entry]) -> Vec<Entry> {
     let scan = &params.frame_ctrl.scan;
-    (1..scan.columns as usize).flat_map(|column| one(column, scan.banks as usize, first)).collect()
+    if scan.columns == 1 {
+        return Vec::new();
+    }
+    let modules = ["tdc", "histogram_builder"].map(first_id);
+    let columns = 1..scan.columns as usize;
+    columns.flat_map(|column| one(column, scan.banks as usize, first, modules)).collect()
 }
 
-fn one(column: usize, banks: usize, first: &[Entry]) -> Vec<Entry> {
+/// Lists every name of a channel, given those of the first column and the first ids of its converter and histogram.
+fn one(column: usize, banks: usize, first: &[Entry], [tdc, histogram]: [usize; 2]) -> Vec<Entry> {
     let (scope, ids) = (format!("{TOP}.{CHANNEL}{column}"), ChannelIds::of(column));
-    let (tdc, histogram) = (first_id("tdc"), first_id("histogram_builder"));
     let of_tdc = |id| moved(id, tdc..tdc + Tdc::COUNT, ids.tdc());
     let find = |path: &str| first.iter().find(|entry| entry.below_top() == path);
     // What reaches the first column alone, and what reaches this one in its place.

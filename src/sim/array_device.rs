@@ -8,12 +8,12 @@ use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::{Time, U};
 use crate::scenario::effects::Method;
 
-use super::device::SignalProbe;
+use super::device::{Edge, SignalProbe};
 use super::oscillator::Oscillator;
 use super::photons::{Photons, Shown};
 use super::setup::array::ArraySetup;
 
-mod trace;
+pub mod trace;
 
 /// A depth of an image, as the firmware outputs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +40,8 @@ pub struct ArrayDevice {
     pixels: Vec<Photons>,
     /// Wires from the selected row.
     wires: Vec<Wire>,
+    /// Columns whose wire changes at the coming edge, which comes after that.
+    due: Vec<usize>,
     row: usize,
     /// The board's oscillator, advanced for a probe only.
     oscillator: Oscillator,
@@ -70,6 +72,7 @@ impl ArrayDevice {
             oscillator: Oscillator::new(common.pll().clk_in.clone()),
             pixels: places.map(|(row, column)| Photons::new(&setup.pixel(row, column))).collect(),
             wires: vec![Wire::default(); columns],
+            due: Vec::new(),
             row: 0,
             cycle: 0,
             params: params.clone(),
@@ -117,7 +120,13 @@ impl ArrayDevice {
             (middle, None),
             (middle + quarter, Some(TofTop::fall_laser as fn(&mut TofTop))),
         ] {
-            while let Some((when, column)) = changes.next_if(|change| change.0 <= at) {
+            while let Some((when, column)) = changes.next_if(|change| change.0 < at) {
+                self.change(when, column, probe);
+            }
+            if act.is_none() {
+                self.before_edge(Edge::Middle, at, probe);
+            }
+            while let Some((when, column)) = changes.next_if(|change| change.0 == at) {
                 self.change(when, column, probe);
             }
             self.show_oscillator(at, probe);
@@ -129,10 +138,11 @@ impl ArrayDevice {
             (self.top.clocks.clk_sys, self.top.clocks.clk_laser) = (at < middle, level);
             self.sample(at, probe);
         }
-        for (when, column) in changes {
-            debug_assert!(when <= next);
+        while let Some((when, column)) = changes.next_if(|change| change.0 < next) {
             self.change(when, column, probe);
         }
+        debug_assert!(changes.clone().all(|change| change.0 == next));
+        self.due.extend(changes.map(|(_, column)| column));
         self.cycle += 1;
         self.top.slot.algo_done.then(|| {
             let ctrl = &self.top.frame_ctrl;
@@ -143,6 +153,10 @@ impl ArrayDevice {
 
     /// Takes the edge at `now` at which both clocks rise; returns whether it selects another row.
     fn rise<T: SignalProbe>(&mut self, now: Time, probe: &mut T) -> bool {
+        self.before_edge(Edge::Both, now, probe);
+        for column in std::mem::take(&mut self.due) {
+            self.change(now, column, probe);
+        }
         self.show_oscillator(now, probe);
         let lit = self.top.nets.laser_on;
         let wires = self.wires.iter_mut().enumerate();
@@ -204,6 +218,14 @@ impl ArrayDevice {
             changes.extend(own.into_iter().map(|at| (at, column)));
         }
         changes
+    }
+
+    /// Shows the signals as the edge at `now` takes them, after all that happens strictly before it.
+    fn before_edge<T: SignalProbe>(&mut self, edge: Edge, now: Time, probe: &mut T) {
+        if T::EDGES && probe.looks_before(edge) {
+            self.show_oscillator(now.since(Time::from_fs(1)), probe);
+            probe.before_edge(edge, now, &self.top);
+        }
     }
 
     /// Changes the level of a wire, and shows it.

@@ -8,11 +8,13 @@ use crate::error::{Result, poll_stop};
 use crate::firmware::tof_top::status::StatusSet;
 use crate::note::Note;
 
+use super::callback::{Callback, call};
 use super::fast::histogram::Histograms;
 use super::frames::Frame;
 use super::run::{Observers, Run};
 use super::setup::Setup;
 use super::setup::array::ArraySetup;
+use super::shot_recorder::Shot;
 use super::stepping::Stepping;
 
 /// Simulation fidelity of an image.
@@ -103,7 +105,7 @@ impl ArraySetup {
         let pixel = |place: usize| {
             poll_stop(stop)?;
             let setup = self.pixel(place / columns, place % columns);
-            let pixel = simulate(&setup, fidelity, count, stop)?;
+            let pixel = simulate(&setup, fidelity, count, None, stop)?;
             done(count);
             Ok(pixel)
         };
@@ -111,14 +113,15 @@ impl ArraySetup {
     }
 }
 
-/// Simulates the frames of a pixel.
+/// Simulates the frames of a pixel. `shots` receives each of their shots, in order, where shots are simulated.
 ///
 /// # Errors
-/// When the fidelity does not apply, a frame never ends, or it is stopped.
+/// When the fidelity does not apply, a frame never ends, `shots` fails, or it is stopped.
 pub fn simulate(
     setup: &Setup,
     fidelity: ImageFidelity,
     count: u64,
+    mut shots: Option<Callback<Shot>>,
     stop: Option<&AtomicBool>,
 ) -> Result<Pixel> {
     let mut frames = Vec::new();
@@ -135,7 +138,14 @@ pub fn simulate(
                 frames.push(PixelFrame::of(frame));
                 Ok(())
             };
-            let observers = Observers { frames: Some(&mut take), stop, ..Observers::default() };
+            let wants_shots = shots.is_some();
+            let mut take_shot = |shot: &Shot| call(&mut shots, shot);
+            let observers = Observers {
+                frames: Some(&mut take),
+                shots: wants_shots.then_some(&mut take_shot),
+                stop,
+                waves: None,
+            };
             Run::new(setup).stepping(stepping).observe(count, observers)?;
         }
     }

@@ -17,5 +17,6 @@ pub mod write;
 
 pub use capture::{Capture, Probe, Radix};
 pub use plan::AnalyserPlan;
+pub use sampler::array::capture_array;
 pub use sampler::{Analyser, capture, capture_live};
 pub use setup::AnalyserSetup;

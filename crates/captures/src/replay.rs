@@ -16,6 +16,7 @@ use tofsim::scenario::Control;
 use tofsim::sim::setup::Setup;
 
 use crate::compare::{Probed, SampleClock, SignalMap, pulse};
+use crate::ila::probes::{below, column};
 use crate::source::Source;
 
 pub use kind::ReplayKind;
@@ -121,6 +122,13 @@ pub fn replay(capture: &Source, setup: &Setup, options: &ReplayOptions) -> Resul
     if !capture.is_capture() {
         let expected = "expected a capture of a logic analyser";
         return Err(Input::new(&capture.name, expected).value(capture.format).into());
+    }
+    let names = capture.signals.iter().map(|signal| &signal.name.text);
+    let mapped = options.map.signal.iter().flat_map(|rule| &rule.a);
+    if let Some(name) = names.chain(mapped).find(|name| column(&below(name)).is_some()) {
+        let expected =
+            "expected probes of a single pixel only: a list of photons or codes is of one pixel";
+        return Err(Input::new(&capture.name, expected).field(name).into());
     }
     let kinds = options.kind.as_ref().map_or(ReplayKind::ALL, std::slice::from_ref);
     let mut fault = None;

@@ -30,6 +30,7 @@ use std::sync::atomic::AtomicBool;
 
 use tofsim::error::Result;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
 
 use crate::ila::Radix;
 
@@ -67,6 +68,15 @@ impl Source {
     /// Creates a source that simulates `frames` frames or, without a number, as many as are read, up to
     /// [`LONGEST_SIMULATION`].
     pub fn simulation(setup: Setup, frames: Option<u64>) -> Source {
-        simulation::source(setup, frames)
+        simulation::source(setup, None, frames)
+    }
+
+    /// Creates a source that simulates the firmware of an array cycle by cycle, for `images` images or as
+    /// [`Source::simulation`] does.
+    ///
+    /// # Errors
+    /// If the firmware has no such array.
+    pub fn array_simulation(array: ArraySetup, images: Option<u64>) -> Result<Source> {
+        Ok(simulation::source(array.with_firmware()?, Some(array), images))
     }
 }

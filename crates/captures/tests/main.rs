@@ -7,6 +7,7 @@ mod fuzz;
 mod ghw;
 mod ila;
 mod ila_archives;
+mod ila_arrays;
 mod ila_capture;
 mod ila_files;
 mod ila_round_trip;

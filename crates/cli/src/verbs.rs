@@ -17,6 +17,7 @@ pub mod frames;
 pub mod host;
 pub mod ila;
 pub mod image;
+mod instrument;
 pub mod interrupt;
 pub mod man;
 pub mod new;

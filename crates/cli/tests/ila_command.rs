@@ -209,7 +209,7 @@ fn a_tap_beyond_the_widest_condition_is_refused() {
 fn set_ups_can_be_listed_and_shown_and_have_a_schema() {
     let folder = empty();
     let list = json(folder.path(), &["ila", "list", "--json"]);
-    assert_eq!((list.as_array().unwrap().len(), &list[0]["name"]), (6, &"fig_6_6".into()));
+    assert_eq!((list.as_array().unwrap().len(), &list[0]["name"]), (7, &"array".into()));
     assert!(stdout(folder.path(), &["ila", "list"]).contains("fig_6_21"));
     let text = stdout(folder.path(), &["ila", "show", "fig_6_12"]);
     std::fs::write(folder.path().join("own.toml"), &text).unwrap();

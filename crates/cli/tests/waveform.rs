@@ -1,59 +1,15 @@
 //! Waveforms as their users see them: read by `wellen` and by `vcd2fst`, which are not ours.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
-
-use wellen::VarRef;
-use wellen::simple::{Waveform, read};
 
 use crate::common;
 
 mod channels;
+mod row;
+mod wave;
 
-/// Changes of a signal: time [ps] and value as bits, most significant first.
-type Changes = Vec<(u64, String)>;
-
-struct Wave {
-    waveform: Waveform,
-    vars: BTreeMap<String, VarRef>,
-}
-
-impl Wave {
-    fn open(path: &Path) -> Self {
-        let mut waveform = read(path).unwrap();
-        let hierarchy = waveform.hierarchy();
-        let named = hierarchy.all_vars().map(|var| (hierarchy[var].full_name(hierarchy), var));
-        let vars: BTreeMap<_, _> = named.collect();
-        let signals: Vec<_> =
-            vars.values().map(|&var| waveform.hierarchy()[var].signal_ref()).collect();
-        waveform.load_signals(&signals);
-        Wave { waveform, vars }
-    }
-
-    fn changes(&self, name: &str) -> Changes {
-        let var = self.vars.get(&format!("tof_top.{name}")).or_else(|| self.vars.get(name));
-        let var = *var.unwrap_or_else(|| panic!("no signal {name}"));
-        let signal = self.waveform.get_signal(self.waveform.hierarchy()[var].signal_ref()).unwrap();
-        let times = self.waveform.time_table();
-        let changes = signal.iter_changes();
-        changes.map(|(k, value)| (times[k as usize], value.to_bit_string().unwrap())).collect()
-    }
-
-    fn rises(&self, name: &str) -> Vec<u64> {
-        self.edges(name, "0", "1")
-    }
-
-    fn falls(&self, name: &str) -> Vec<u64> {
-        self.edges(name, "1", "0")
-    }
-
-    fn edges(&self, name: &str, from: &str, to: &str) -> Vec<u64> {
-        let changes = self.changes(name);
-        let pairs = changes.windows(2).filter(|pair| pair[0].1 == from && pair[1].1 == to);
-        pairs.map(|pair| pair[1].0).collect()
-    }
-}
+pub use wave::Wave;
 
 fn run(folder: &Path, args: &[&str]) {
     common::stdout(folder, &[&["run", "-o", "."], args].concat());
@@ -115,71 +71,6 @@ fn mode_1_never_resets_the_spad() {
         let fall = stop.1.iter().find(|fall| *fall > rise).unwrap();
         assert!((19_999..=20_001).contains(&(fall - rise)), "dead time {}", fall - rise);
     }
-}
-
-#[test]
-fn the_outputs_of_the_row_are_shown_and_the_or_of_those_on_the_tdc_is_tdc_stop() {
-    for (keys, on_tdc) in [
-        (["spad.on_tdc=3", "firmware.mode=0"], 14..17),
-        (["spad.on_tdc=30", "firmware.mode=1"], 0..30),
-    ] {
-        let folder = tempfile::tempdir().unwrap();
-        let row = [
-            "spad.row_outputs=30",
-            "spad.crosstalk_probability=0.2",
-            "firmware.shots_per_frame=40",
-        ];
-        let keys = [&keys[..], &row].concat();
-        let set: Vec<_> = keys.iter().flat_map(|key| ["-s", *key]).collect();
-        for format in ["vcd", "fst"] {
-            run(
-                folder.path(),
-                &[&set[..], &["--waves", format, "--window", "shot:3..30"]].concat(),
-            );
-        }
-        let path = |ending| folder.path().join("kc705").with_extension(ending);
-        let [vcd, fst] = ["vcd", "fst"].map(|ending| Wave::open(&path(ending)));
-        let names: Vec<_> = (0..30).map(|output| format!("spad_row.spad_out_{output}")).collect();
-        let outputs: Vec<_> = names.iter().map(|name| vcd.changes(name)).collect();
-        for (name, output) in names.iter().zip(&outputs) {
-            assert_eq!(fst.changes(name), *output, "{name}");
-            assert!(vcd.rises(name).len() > 3, "{name}");
-        }
-        let at = |changes: &Changes, time: u64| {
-            let after = changes.partition_point(|(then, _)| *then <= time);
-            changes[after - 1].1.clone()
-        };
-        let stop = vcd.changes("tdc_stop");
-        let times = outputs.iter().chain([&stop]).flatten().map(|(time, _)| *time);
-        for time in times {
-            let levels = outputs[on_tdc.clone()].iter().map(|output| at(output, time));
-            let levels: Vec<_> = levels.collect();
-            let expected =
-                ["1", "x", "0"].into_iter().find(|level| levels.iter().any(|l| l == level));
-            assert_eq!(Some(&*at(&stop, time)), expected, "{time} ps: {levels:?}");
-        }
-        if keys[1] == "firmware.mode=0" {
-            let unwired = vcd.rises(&names[2]).len() + vcd.rises(&names[28]).len();
-            assert!(unwired > 10 && vcd.rises("tdc_stop").len() <= 27, "{unwired}");
-        }
-    }
-}
-
-#[test]
-fn outputs_of_the_row_are_chosen_by_name_where_they_are_simulated() {
-    let folder = tempfile::tempdir().unwrap();
-    let some = ["--window", "shot:0..4", "--signals", "spad_out_1?", "--signals", "tdc_stop"];
-    run(folder.path(), &[&["-s", "spad.row_outputs=30"], &some[..]].concat());
-    let wave = Wave::open(&folder.path().join("kc705.vcd"));
-    let row = wave.vars.keys().filter(|name| name.starts_with("spad_row."));
-    assert_eq!(row.count(), 10);
-    let views = std::fs::read_to_string(folder.path().join("kc705.gtkw")).unwrap();
-    assert!(views.contains("-Row of SPADs\n") && views.contains(" spad_row.spad_out_15\n"));
-    let error = common::refused(folder.path(), &[&["run"], &some[..]].concat());
-    assert!(error.contains("spad_out_1?: matches no signal"), "{error}");
-    run(folder.path(), &["--window", "shot:0..4", "-s", "spad.crosstalk_probability=0.5"]);
-    let wave = Wave::open(&folder.path().join("kc705.vcd"));
-    assert!(wave.vars.keys().all(|name| name.starts_with("tof_top.")));
 }
 
 #[test]

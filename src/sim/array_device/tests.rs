@@ -1,7 +1,9 @@
+use crate::firmware::tof_top::Clocks;
 use crate::scenario;
 use crate::sim::Run;
 use crate::sim::device::Off;
 
+use super::trace::ArrayProbe;
 use super::*;
 
 /// A small array with bright pixels and short frames.
@@ -76,6 +78,73 @@ fn a_single_pixel_is_an_array_of_one() {
     assert_eq!(found.iter().map(|depth| depth.words).collect::<Vec<_>>(), words);
     let periods: Vec<_> = found.windows(2).map(|pair| pair[1].cycle - pair[0].cycle).collect();
     assert_eq!(periods, [alone[0].frame_cycles + 1; 2]);
+}
+
+/// What each rising edge of the clocks takes, and how often the wire has changed at the instant of one.
+#[derive(Default)]
+struct Edges {
+    taken: Vec<(Time, Edge, bool, Clocks)>,
+    ties: usize,
+}
+
+impl SignalProbe for Edges {
+    const ON: bool = true;
+    const EDGES: bool = true;
+
+    fn sample(&mut self, now: Time, top: &TofTop) {
+        let last = self.taken.last();
+        let is_tie = |(at, _, stop, _): &(Time, Edge, bool, Clocks)| {
+            *at == now && *stop != top.pins.tdc_stop
+        };
+        self.ties += usize::from(last.is_some_and(is_tie));
+    }
+
+    fn before_edge(&mut self, edge: Edge, now: Time, top: &TofTop) {
+        self.taken.push((now, edge, top.pins.tdc_stop, top.clocks));
+    }
+}
+
+#[test]
+fn an_edge_takes_what_has_been_before_it() {
+    // A photon of the list arrives with an edge of clk_laser.
+    let setup = ArraySetup::new(scenario::load("tdc_validation", &[]).unwrap()).unwrap();
+    let pixel = setup.pixel(0, 0);
+    let (mut alone, mut own) = (Edges::default(), Edges::default());
+    let mut device = pixel.device();
+    device.power_up(&mut alone, &mut Off);
+    let mut array = ArrayDevice::new(&setup, &setup.firmware().unwrap()).unwrap();
+    array.power_up(&mut own);
+    for _ in 0..1500 {
+        device.step(&pixel.params, &mut alone, &mut Off);
+        array.step(&mut own);
+    }
+    assert!(own.ties > 0);
+    assert_eq!(own.taken.len(), 3000);
+    assert_eq!(own.taken, alone.taken);
+}
+
+#[test]
+fn a_row_that_the_control_signals_keep_from_ending_is_refused() {
+    struct Never;
+    impl SignalProbe for Never {
+        const ON: bool = false;
+        fn sample(&mut self, _: Time, _: &TofTop) {}
+    }
+    impl ArrayProbe for Never {
+        fn begin(&mut self, _: &ArrayDevice) {}
+        fn is_done(&self, _: &ArrayDevice) -> bool {
+            false
+        }
+    }
+    for (set, said) in [
+        ("firmware.dsp_en=false", "firmware.dsp_en = false: expected true"),
+        ("firmware.rst=true", "firmware.rst = true: expected false"),
+    ] {
+        let error = array(&[set]).traced(1, &mut Never, None).unwrap_err().to_string();
+        assert!(error.contains(said), "{error}");
+    }
+    let end = array(&[]).traced(2, &mut Never, None).unwrap();
+    assert_eq!(end.shots, 2 * 3 * 300);
 }
 
 #[test]

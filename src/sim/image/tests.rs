@@ -56,7 +56,7 @@ fn a_pixel_gives_the_same_alone_and_in_every_stepping() {
         assert_eq!(frames(pixels), frames(&images[0]), "{stepping:?}");
         for (place, pixel) in pixels.iter().enumerate() {
             let setup = array.pixel(place / 2, place % 2);
-            let alone = simulate(&setup, Shots(*stepping), 3, None).unwrap();
+            let alone = simulate(&setup, Shots(*stepping), 3, None, None).unwrap();
             assert_eq!((&alone.frames, alone.expected), (&pixel.frames, pixel.expected));
         }
     }
@@ -67,7 +67,7 @@ fn drawn_histograms_have_the_hits_of_shots_and_those_that_are_expected() {
     let count = 600;
     let setup = array().pixel(1, 1);
     let hits = |fidelity| {
-        let pixel = simulate(&setup, fidelity, count, None).unwrap();
+        let pixel = simulate(&setup, fidelity, count, None, None).unwrap();
         let hits = || pixel.frames.iter().map(|frame| frame.hits as f64);
         let mean = hits().sum::<f64>() / count as f64;
         let square = hits().map(|hits| (hits - mean).powi(2)).sum::<f64>() / (count - 1) as f64;
@@ -103,7 +103,7 @@ fn a_stop_ends_images_without_a_result() {
         let found = pool.install(|| array.images(fidelity, 2, Some(&stop), &after_one));
         assert!(matches!(found, Err(Error::Interrupted)), "{fidelity:?}");
         assert_eq!(done.into_inner(), 2);
-        let found = simulate(&array.pixel(0, 0), fidelity, 2, Some(&stop));
+        let found = simulate(&array.pixel(0, 0), fidelity, 2, None, Some(&stop));
         assert!(matches!(found, Err(Error::Interrupted)), "{fidelity:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! Built-in probe configurations: the thesis's screen captures, the likelihood estimator's, and a shot.
+//! Built-in probe configurations: an array's, the thesis's screen captures, the likelihood estimator's, and a shot.
 
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
@@ -11,7 +11,7 @@ macro_rules! files {
 
 /// Name and text of each built-in configuration.
 pub const SET_UPS: &[(&str, &str)] =
-    files!("fig_6_6", "fig_6_12", "fig_6_13", "fig_6_21", "likelihood_estimator", "shot");
+    files!("array", "fig_6_6", "fig_6_12", "fig_6_13", "fig_6_21", "likelihood_estimator", "shot");
 
 /// Returns the text of a built-in configuration.
 pub fn set_up(name: &str) -> Option<&'static str> {

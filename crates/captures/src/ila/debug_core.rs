@@ -4,8 +4,9 @@
 
 use std::fmt::Write;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::hierarchy::{self, TOP};
+use tofsim::kernel::scan::Scan;
 use tofsim::sim::setup::Setup;
 
 use super::clock::AnalyserClock;
@@ -19,8 +20,9 @@ const CORE: &str = "u_ila_0";
 /// Returns the Tcl, for the netlist of a board's top after `synth_design -flatten_hierarchy none`.
 ///
 /// # Errors
-/// If the core cannot have such a clock, or a probe's signal is a clock or has no net; with the position.
+/// If the scenario has an array, the core cannot have such a clock, or a probe's signal is a clock or has no net; with the position.
 pub fn tcl(set_up: &AnalyserSetup, plan: &AnalyserPlan, setup: &Setup) -> Result<String> {
+    one_pixel(setup)?;
     let (clock, clock_hz) = clock(set_up, plan, setup)?;
     let file = &set_up.file;
     let has_qualifier = file.capture.is_some();
@@ -60,6 +62,17 @@ pub fn tcl(set_up: &AnalyserSetup, plan: &AnalyserPlan, setup: &Setup) -> Result
          connect_debug_port dbg_hub/clk [get_nets [list {{{TOP}/{clock}}}]]\n"
     );
     Ok(text)
+}
+
+/// Refuses arrays.
+fn one_pixel(setup: &Setup) -> Result<()> {
+    let Scan { rows, columns, banks } = setup.params.frame_ctrl.scan;
+    let counts = [("array.rows", rows), ("array.columns", columns), ("array.banks", banks)];
+    let Some((key, count)) = counts.into_iter().find(|(_, count)| *count > 1) else {
+        return Ok(());
+    };
+    let expected = "expected 1: the tops of the boards have a single pixel";
+    Err(Input::new(format!("scenario {}", setup.name), expected).field(key).value(count).into())
 }
 
 /// Connects a port of the core to nets, the lowest bit first.

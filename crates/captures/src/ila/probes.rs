@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use tofsim::error::hint;
 use tofsim::firmware::tof_top::Params;
-use tofsim::hierarchy::{self, TOP};
+use tofsim::hierarchy::{self, CHANNEL, TOP};
 use tofsim::kernel::signals::{Signal, SignalFormat};
 
 use crate::condition::slice;
@@ -30,6 +30,8 @@ pub struct Design {
     signals: BTreeMap<String, (usize, Signal)>,
     /// Signals that exist only with other settings of the scenario.
     left_out: BTreeSet<String>,
+    /// Columns of the array, 1 of a single pixel.
+    columns: u32,
 }
 
 impl Design {
@@ -39,12 +41,15 @@ impl Design {
         let has_ram = entries.iter().any(|entry| entry.scope.ends_with(".histogram_builder"));
         let ram = hierarchy::ram_entries(&params.histogram);
         let here = entries.into_iter().chain(ram.iter().filter(|_| has_ram).cloned());
-        let signals: BTreeMap<_, _> =
-            here.map(|entry| (below(&entry.path()), (entry.id, entry.signal))).collect();
+        let columns = hierarchy::column_entries(params);
+        let signals: BTreeMap<_, _> = here
+            .chain(columns)
+            .map(|entry| (below(&entry.path()), (entry.id, entry.signal)))
+            .collect();
         let every = hierarchy::every_entry().into_iter().chain(ram);
         let mut left_out: BTreeSet<_> = every.map(|entry| below(&entry.path())).collect();
         left_out.retain(|path| !signals.contains_key(path));
-        Design { signals, left_out }
+        Design { signals, left_out, columns: params.frame_ctrl.scan.columns }
     }
 
     /// Looks up a whole signal by its path, with dots or slashes, with or without the top.
@@ -98,6 +103,23 @@ impl Design {
         Ok((probe, bits))
     }
 
+    /// Returns what was expected of a path of a channel that the design does not have.
+    fn no_channel(&self, path: &str) -> Option<String> {
+        let last = self.columns - 1;
+        match (column(path)?, last) {
+            (0, _) => Some(
+                "no such signal; expected the names of a single pixel for column 0, such as tdc_code"
+                    .to_owned(),
+            ),
+            (_, 0) => Some("no such signal: the scenario has one column (array.columns)".to_owned()),
+            (column, _) if column > last => Some(format!(
+                "no such signal: the array has {} columns (array.columns); expected {CHANNEL}1 to {CHANNEL}{last}",
+                self.columns
+            )),
+            _ => None,
+        }
+    }
+
     fn look_up(&self, path: &str) -> Result<(usize, &Signal), String> {
         let path = below(&path.replace('/', "."));
         if let Some((id, signal)) = self.signals.get(&path) {
@@ -106,9 +128,17 @@ impl Design {
         if self.left_out.contains(&path) {
             return Err("the scenario's design leaves this module out".to_owned());
         }
+        if let Some(expected) = self.no_channel(&path) {
+            return Err(expected);
+        }
         let (hint, _) = hint(&path, self.signals.keys().map(String::as_str));
         Err(format!("no such signal{hint}; expected a path below {TOP}"))
     }
+}
+
+/// Returns the column of a path of another column's channel, below the top.
+pub(crate) fn column(path: &str) -> Option<u32> {
+    path.strip_prefix(CHANNEL)?.split(['.', '/']).next()?.parse().ok()
 }
 
 /// Converts a path with or without the top to one below the top.
@@ -120,6 +150,7 @@ pub(crate) fn below(path: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tofsim::kernel::scan::Scan;
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 
@@ -138,5 +169,37 @@ mod tests {
         let (probe, bits) = design.probe(&format!("{path}[3]"), None, None).unwrap();
         assert_eq!((probe.lsb, probe.vector, bits.low), (0, false, 3));
         assert!(probe.name.ends_with("[3]"));
+    }
+
+    #[test]
+    fn a_channel_that_the_design_lacks_is_told_from_a_misspelt_signal() {
+        let of = |columns| {
+            let mut params = Setup::load("kc705", &[]).unwrap().params;
+            params.frame_ctrl.scan = Scan { rows: 2, columns, banks: 1 };
+            Design::new(&params)
+        };
+        let (array, single) = (of(4), of(1));
+        let (probe, bits) =
+            array.probe("channel_3/tdc.tdc_decoder.tdc_code[4:1]", None, None).unwrap();
+        assert_eq!(
+            (probe.name.as_str(), bits.low, bits.width),
+            ("channel_3/tdc/tdc_decoder/tdc_code", 1, 4)
+        );
+        assert_eq!(array.signal("tof_top.channel_3.code").unwrap().id, bits.id);
+        for (design, path, said) in [
+            (
+                &array,
+                "channel_4.code",
+                "the array has 4 columns (array.columns); expected channel_1 to channel_3",
+            ),
+            (&array, "tof_top/channel_64/tdc_stop", "expected channel_1 to channel_3"),
+            (&array, "channel_0.code", "expected the names of a single pixel for column 0"),
+            (&array, "channel_2.cod", "no such signal, did you mean"),
+            (&array, "channel_2.bank_1.counting", "no such signal"),
+            (&single, "channel_1.code", "the scenario has one column (array.columns)"),
+        ] {
+            let error = design.signal(path).unwrap_err();
+            assert!(error.contains(said), "{path}: {error}");
+        }
     }
 }

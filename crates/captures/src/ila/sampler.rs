@@ -23,6 +23,8 @@ use super::core::Core;
 use super::plan::AnalyserPlan;
 use super::probe_values::ProbeValues;
 
+pub mod array;
+
 /// A logic analyser in a simulation.
 ///
 /// With input stages, a sample has the values from that many edges earlier, and zero if there was no such edge.

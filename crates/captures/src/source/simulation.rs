@@ -1,4 +1,4 @@
-//! A scenario as a source, simulated while it is read.
+//! A scenario as a source, simulated while it is read: a single pixel, or the firmware that scans an array.
 
 use std::sync::Arc;
 
@@ -7,10 +7,13 @@ use tofsim::firmware::tof_top::{Params, TofTop};
 use tofsim::hierarchy::{self, IDS, Part};
 use tofsim::kernel::signals::Sink;
 use tofsim::kernel::{Thermometer, Time};
+use tofsim::sim::array_device::ArrayDevice;
+use tofsim::sim::array_device::trace::ArrayProbe;
 use tofsim::sim::device::SignalProbe;
 use tofsim::sim::frames::Frames;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
 use tofsim::sim::{Device, Run, WindowedProbe};
 use tofsim::waves::TapDigits;
 
@@ -26,15 +29,19 @@ pub const LONGEST_SIMULATION: Time = Time::from_ns(100_000_000);
 #[derive(Clone, Debug)]
 struct SimulationOrigin {
     setup: Arc<Setup>,
+    array: Option<Arc<ArraySetup>>,
+    /// Frames, or images of an array.
     frames: Option<u64>,
 }
 
-/// Creates a source that simulates `frames` frames or, without a number, as many as are read.
-pub(super) fn source(setup: Setup, frames: Option<u64>) -> Source {
+/// Creates a source that simulates `frames` frames or, without a number, as many as are read; with an array, images
+/// of it, whose setup with the firmware is `setup`.
+pub(super) fn source(setup: Setup, array: Option<ArraySetup>, frames: Option<u64>) -> Source {
     let mut entries = hierarchy::entries(&setup.params);
     if entries.iter().any(|entry| entry.scope == "tof_top.histogram_builder") {
         entries.extend(hierarchy::ram_entries(&setup.params.histogram));
     }
+    entries.extend(hierarchy::column_entries(&setup.params));
     let signals = entries.iter().map(|entry| Signal {
         name: Name::new(entry.path()),
         width: entry.signal.width,
@@ -46,13 +53,13 @@ pub(super) fn source(setup: Setup, frames: Option<u64>) -> Source {
         id: entry.id,
     });
     let (name, axis) = (format!("scenario {}", setup.name), Axis::Time(Tick::FEMTOSECOND));
-    let origin = SimulationOrigin { setup: Arc::new(setup), frames };
+    let origin = SimulationOrigin { setup: Arc::new(setup), array: array.map(Arc::new), frames };
     Source::new(name, SourceFormat::Simulation, axis, signals.collect(), origin)
 }
 
 impl signals::Origin for SimulationOrigin {
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
-        let SimulationOrigin { setup, frames } = self.clone();
+        let SimulationOrigin { setup, array, frames } = self.clone();
         let mut places = vec![Vec::new(); IDS];
         for (signal, (&id, &width)) in ids.iter().zip(widths).enumerate() {
             places[id].push((signal, u64::MAX >> (64 - width.min(64))));
@@ -64,7 +71,10 @@ impl signals::Origin for SimulationOrigin {
             let mut probe =
                 ChangeFeed { values, part: Part::of(0..IDS).of_whole_edges(), until, gone: false };
             let frames = frames.unwrap_or(u64::MAX);
-            let end = Run::new(&setup).traced(frames, &mut probe, None)?.end;
+            let end = match array {
+                None => Run::new(&setup).traced(frames, &mut probe, None)?.end,
+                Some(array) => array.traced(frames, &mut probe, None)?.end,
+            };
             // That nobody listens any more is no fault.
             let _ = feed.at(end.fs());
             Ok(())
@@ -74,6 +84,11 @@ impl signals::Origin for SimulationOrigin {
     fn searched(&self) -> Result<Option<u64>> {
         if self.frames.is_some() {
             return Ok(None);
+        }
+        if let Some(array) = &self.array {
+            let timing = array.timing()?;
+            let first = self.setup.pll().clk_sys.rise(timing.image + timing.latency);
+            return Ok(Some(first.fs()));
         }
         let first = Run::new(&self.setup).observe(1, Observers::default())?;
         Ok(Some(first.end.fs()))
@@ -141,6 +156,16 @@ impl WindowedProbe for ChangeFeed<'_> {
     }
 
     fn is_done(&self) -> bool {
+        self.gone
+    }
+}
+
+impl ArrayProbe for ChangeFeed<'_> {
+    fn begin(&mut self, device: &ArrayDevice) {
+        self.sample(Time::ZERO, &device.top);
+    }
+
+    fn is_done(&self, _: &ArrayDevice) -> bool {
         self.gone
     }
 }

@@ -1,8 +1,9 @@
 //! A row for each shot, as CSV or Parquet.
 //!
 //! Columns: `frame`, `shot` (both from 0), `arrival_ps` (from the laser edge), `cause`, `n` (ones
-//! count), `coarse`, `code`, `bin`; where frames come in pairs also `laser_en` (1 in lit frames). What
-//! a shot does not have is empty (CSV) or null (Parquet). A photon that is given has no cause.
+//! count), `coarse`, `code`, `bin`; where frames come in pairs also `laser_en` (1 in lit frames). Of images, `row`,
+//! `column` and `image` (from 0) stand in place of `frame`. What a shot does not have is empty (CSV) or null
+//! (Parquet). A photon that is given has no cause.
 
 use std::path::{Path, PathBuf};
 
@@ -17,32 +18,52 @@ use tofsim_studies::table::csv_file::CsvFile;
 
 use super::causes;
 
-/// The columns, by name; the last one only where frames come in pairs.
-const COLUMNS: [(&str, Values); 9] = [
-    ("frame", Values::Number(|shot| shot.frame)),
-    ("shot", Values::Number(|shot| shot.shot)),
-    ("arrival_ps", Values::Time(|shot| shot.arrival_fs)),
-    ("cause", Values::Word(|shot| shot.cause.map(|cause| causes::name(Some(cause))))),
-    ("n", Values::Count(|shot| shot.n)),
-    ("coarse", Values::Count(|shot| shot.coarse)),
-    ("code", Values::Count(|shot| shot.code)),
-    ("bin", Values::Count(|shot| shot.code)),
-    ("laser_en", Values::Flag(|shot| shot.laser_en)),
+/// A shot of a pixel.
+#[derive(Clone, Copy)]
+struct Event {
+    /// Row and column of the pixel.
+    place: [usize; 2],
+    shot: Shot,
+}
+
+/// A column: its name and values.
+type Column = (&'static str, Values);
+
+/// Which frame it is of, in a run.
+const OF_RUN: [Column; 1] = [("frame", Values::Number(|event| event.shot.frame))];
+
+/// Which pixel and image it is of.
+const OF_IMAGES: [Column; 3] = [
+    ("row", Values::Number(|event| event.place[0] as u64)),
+    ("column", Values::Number(|event| event.place[1] as u64)),
+    ("image", Values::Number(|event| event.shot.frame)),
+];
+
+/// What each shot has; the last one only where frames come in pairs.
+const OF_SHOT: [Column; 8] = [
+    ("shot", Values::Number(|event| event.shot.shot)),
+    ("arrival_ps", Values::Time(|event| event.shot.arrival_fs)),
+    ("cause", Values::Word(|event| event.shot.cause.map(|cause| causes::name(Some(cause))))),
+    ("n", Values::Count(|event| event.shot.n)),
+    ("coarse", Values::Count(|event| event.shot.coarse)),
+    ("code", Values::Count(|event| event.shot.code)),
+    ("bin", Values::Count(|event| event.shot.code)),
+    ("laser_en", Values::Flag(|event| event.shot.laser_en)),
 ];
 
 /// The values of a column.
 #[derive(Clone, Copy)]
 enum Values {
     /// A number that every shot has.
-    Number(fn(&Shot) -> u64),
+    Number(fn(&Event) -> u64),
     /// A time, if there is one [fs].
-    Time(fn(&Shot) -> Option<i64>),
+    Time(fn(&Event) -> Option<i64>),
     /// A word, if there is one.
-    Word(fn(&Shot) -> Option<&'static str>),
+    Word(fn(&Event) -> Option<&'static str>),
     /// A number, if there is one.
-    Count(fn(&Shot) -> Option<u64>),
+    Count(fn(&Event) -> Option<u64>),
     /// A level that every shot has.
-    Flag(fn(&Shot) -> bool),
+    Flag(fn(&Event) -> bool),
 }
 
 impl Values {
@@ -58,31 +79,29 @@ impl Values {
     }
 
     /// Writes the column of some shots.
-    fn fill(self, group: &mut RowGroup, shots: &[Shot]) -> Written<()> {
-        let shots = shots.iter();
+    fn fill(self, group: &mut RowGroup, events: &[Event]) -> Written<()> {
+        let events = events.iter();
         match self {
-            Values::Number(of) => group.required::<Int64Type>(shots.map(|shot| of(shot) as i64)),
-            Values::Time(of) => {
-                group.optional::<DoubleType>(shots.map(|shot| of(shot).map(|fs| fs as f64 / 1e3)))
-            }
+            Values::Number(of) => group.required::<Int64Type>(events.map(|event| of(event) as i64)),
+            Values::Time(of) => group
+                .optional::<DoubleType>(events.map(|event| of(event).map(|fs| fs as f64 / 1e3))),
             Values::Word(of) => {
-                group.optional::<ByteArrayType>(shots.map(|shot| of(shot).map(ByteArray::from)))
+                group.optional::<ByteArrayType>(events.map(|event| of(event).map(ByteArray::from)))
             }
-            Values::Count(of) => {
-                group.optional::<Int32Type>(shots.map(|shot| of(shot).map(|number| number as i32)))
-            }
-            Values::Flag(of) => group.required::<BoolType>(shots.map(of)),
+            Values::Count(of) => group
+                .optional::<Int32Type>(events.map(|event| of(event).map(|number| number as i32))),
+            Values::Flag(of) => group.required::<BoolType>(events.map(of)),
         }
     }
 
     /// Returns the value of a shot, as CSV has it.
-    fn text(self, shot: &Shot) -> String {
+    fn text(self, event: &Event) -> String {
         match self {
-            Values::Number(of) => of(shot).to_string(),
-            Values::Time(of) => of(shot).map_or(String::new(), picoseconds),
-            Values::Word(of) => of(shot).unwrap_or_default().to_owned(),
-            Values::Count(of) => of(shot).map_or(String::new(), |number| number.to_string()),
-            Values::Flag(of) => u8::from(of(shot)).to_string(),
+            Values::Number(of) => of(event).to_string(),
+            Values::Time(of) => of(event).map_or(String::new(), picoseconds),
+            Values::Word(of) => of(event).unwrap_or_default().to_owned(),
+            Values::Count(of) => of(event).map_or(String::new(), |number| number.to_string()),
+            Values::Flag(of) => u8::from(of(event)).to_string(),
         }
     }
 }
@@ -91,31 +110,41 @@ impl Values {
 pub struct Events {
     path: PathBuf,
     file: EventFile,
-    columns: &'static [(&'static str, Values)],
+    columns: Vec<Column>,
 }
 
 enum EventFile {
     Csv(Box<CsvFile>),
-    Parquet(Box<ParquetTable<Shot>>),
+    Parquet(Box<ParquetTable<Event>>),
 }
 
 impl Events {
-    /// Begins the file; its ending decides the format. With `pairs` it says of each shot whether the
+    /// Begins the file of a run; its ending decides the format. With `pairs` it says of each shot whether the
     /// laser was on. `record` goes into the first line of a CSV and into Parquet's metadata.
-    pub fn create(path: &Path, pairs: bool, record: &str) -> Result<Self> {
+    pub fn of_run(path: &Path, pairs: bool, record: &str) -> Result<Self> {
+        Events::create(path, &OF_RUN, pairs, record)
+    }
+
+    /// Begins the file of images, as [`Events::of_run`] does.
+    pub fn of_images(path: &Path, record: &str) -> Result<Self> {
+        Events::create(path, &OF_IMAGES, false, record)
+    }
+
+    fn create(path: &Path, first: &[Column], pairs: bool, record: &str) -> Result<Self> {
         let ending = path.extension().unwrap_or_default();
         let device = std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
         if !device && ending != "csv" && ending != "parquet" {
             let expected = "expected a name that ends in .csv or .parquet";
             return Err(Input::new("--events", expected).value(path.display()).into());
         }
-        let columns = &COLUMNS[..COLUMNS.len() - usize::from(!pairs)];
+        let columns = [first, &OF_SHOT[..OF_SHOT.len() - usize::from(!pairs)]].concat();
         let file = if ending == "parquet" {
             let declared = columns.iter().map(|(name, values)| values.declaration(name));
             let schema = format!("message shots {{ {} }}", declared.collect::<String>());
             let provenance = ("provenance", record.to_owned());
-            let fill = |group: &mut RowGroup, shots: &[Shot]| {
-                columns.iter().try_for_each(|(_, values)| values.fill(group, shots))
+            let filled = columns.clone();
+            let fill = move |group: &mut RowGroup, events: &[Event]| {
+                filled.iter().try_for_each(|(_, values)| values.fill(group, events))
             };
             let file = OutputFile::create(path)?;
             EventFile::Parquet(Box::new(ParquetTable::create(file, &schema, [provenance], fill)?))
@@ -126,13 +155,14 @@ impl Events {
         Ok(Events { path: path.to_owned(), file, columns })
     }
 
-    /// Adds a row.
-    pub fn write(&mut self, shot: &Shot) -> Result<()> {
+    /// Adds a shot of a pixel, which is that at row and column 0 in a run.
+    pub fn write(&mut self, place: [usize; 2], shot: &Shot) -> Result<()> {
+        let event = Event { place, shot: *shot };
         match &mut self.file {
             EventFile::Csv(file) => {
-                file.record(self.columns.iter().map(|(_, values)| values.text(shot)))
+                file.record(self.columns.iter().map(|(_, values)| values.text(&event)))
             }
-            EventFile::Parquet(table) => table.write(&[*shot]),
+            EventFile::Parquet(table) => table.write(&[event]),
         }
     }
 

@@ -25,7 +25,7 @@ use super::summary::Summary;
 const NAMES: [&str; 4] = ["summary.json", "histogram.csv", "histogram.svg", "difference.csv"];
 
 /// Whether two paths lead to one place in one folder.
-fn is_same(a: &Path, b: &Path) -> bool {
+pub fn is_same(a: &Path, b: &Path) -> bool {
     let folder = |path: &Path| match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.canonicalize().ok(),
         _ => Path::new(".").canonicalize().ok(),
@@ -59,7 +59,7 @@ impl<'a> RunFiles<'a> {
             let expected = "expected another name: the run writes a file of its own there";
             return Err(Input::new("--events", expected).value(events.display()).into());
         }
-        let create = |path| Events::create(path, setup.has_pairs(), &record.line());
+        let create = |path| Events::of_run(path, setup.has_pairs(), &record.line());
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
         let causes = std::array::from_fn(|_| vec![0; setup.params.histogram.bins]);
@@ -89,7 +89,7 @@ impl<'a> RunFiles<'a> {
         if self.wants_tdc {
             self.tdc.push(*shot);
         }
-        self.events.as_mut().map_or(Ok(()), |events| events.write(shot))
+        self.events.as_mut().map_or(Ok(()), |events| events.write([0, 0], shot))
     }
 
     /// Puts the files in place, beside those that are `written` already, and lists all of them in the

@@ -10,7 +10,6 @@ use values::{latency, time, tolerance, valid};
 
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::kernel::Time;
-use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode, NoteValue};
 use tofsim_captures::compare::map::Rule;
 use tofsim_captures::compare::{
@@ -27,6 +26,7 @@ use crate::report::writer::Report;
 
 use super::draws::load;
 use super::host::host;
+use super::instrument::Instrument;
 use super::terminal::Console;
 
 /// Compare two waveforms or captures: A is the reference, B the capture under test
@@ -87,7 +87,7 @@ struct Simulated {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", requires = "scenario", value_parser = seed())]
     seed: Option<u64>,
-    /// How many frames to simulate at most [default: as far as a capture goes, to 100 ms, of
+    /// How many frames, or images of an array, to simulate at most [default: as far as a capture goes, to 100 ms, of
     /// which a search for the best fit takes the first frame; one frame for a waveform]
     #[arg(long, value_name = "N", requires = "scenario",
         value_parser = clap::value_parser!(u64).range(1..))]
@@ -172,14 +172,19 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     let (mut notes, mut record) = (Vec::new(), None);
     let (a, b) = match (scenario, &args.files[..]) {
         (Some(scenario), [b]) => {
-            let setup = Setup::new(load(scenario, set, *seed)?)?;
-            notes = setup.notes()?;
+            let instrument = Instrument::new(load(scenario, set, *seed)?)?;
+            notes = instrument.notes()?;
             console.print_notes(&notes)?;
+            let Instrument { setup, array } = instrument;
             let b = open(b)?;
             let frames = frames.or((!b.is_capture()).then_some(1));
             super::frames::check("--frames", frames.unwrap_or(1), &setup)?;
             record = Some(Record::new(&setup, &console.command).into());
-            (Source::simulation(setup, frames).stopped_by(Arc::clone(&stop)), b)
+            let a = match array {
+                None => Source::simulation(setup, frames),
+                Some(array) => Source::array_simulation(array, frames)?,
+            };
+            (a.stopped_by(Arc::clone(&stop)), b)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
         (given, _) => {

@@ -1,18 +1,22 @@
 //! `tofsim image`: depth images of an array of pixels.
 
+use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::note::merged;
-use tofsim::sim::image::simulate;
+use tofsim::sim::image::{Pixel, simulate};
 use tofsim::sim::setup::array::ArraySetup;
+use tofsim::sim::shot_recorder::Shot;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
 use crate::choice::{self, Fidelity, WaveformChoice, seed, threads, words};
 use crate::record::Record;
+use crate::report::events::Events;
 use crate::report::image::{DepthImages, ImagePixel};
 use crate::report::link_budget::LinkBudget;
+use crate::report::run_files::is_same;
 use crate::report::writer::Report;
 
 use super::draws::{load, use_threads};
@@ -31,6 +35,7 @@ use super::wave_plan::{SignalArgs, WavePlan};
     tofsim image -o out             40 x 30 pixels\n  \
     tofsim image -s array.rows=8 -s array.columns=6 --images 100\n  \
     tofsim image --pixel 20,15      one pixel of them, the same frames\n  \
+    tofsim image -s array.rows=8 -s array.columns=6 --events shots.parquet\n  \
     tofsim image --waves fst --window shot:0..8 --signals 'channel_7.*'\n  \
     tofsim image mine.toml --fidelity histogram -o out")]
 pub struct Args {
@@ -57,6 +62,9 @@ pub struct Args {
     /// Simulate this pixel alone: its row from the top and its column from the left, from 0
     #[arg(long, value_name = "ROW,COL")]
     pixel: Option<PixelPlace>,
+    /// Write a row per shot of every pixel, as .csv or .parquet; one thread simulates them, pixel by pixel
+    #[arg(long, value_name = "FILE")]
+    events: Option<PathBuf>,
     /// Threads; the results are the same for any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads())]
     threads: Option<u16>,
@@ -68,23 +76,19 @@ pub struct Args {
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let array = ArraySetup::new(load(&args.scenario, &args.set, args.seed)?)?;
     let setup = array.common();
-    let fidelity = args.fidelity.of_images();
     frames::check("--images", args.images, setup)?;
     let place = args.pixel.map(|pixel| pixel.within(&array)).transpose()?;
     use_threads(args.threads)?;
 
     let stop = stop_signal();
+    let mut events = args.events(&array, console)?;
     let waves = args.trace(&array, stop.as_deref(), console)?;
     let [rows, columns] = place.map_or(array.size(), |_| [1, 1]);
     let progress = console.progress(args.images * (rows * columns) as u64, "frames");
     let done = |frames| progress.inc(frames);
-    let simulated = match place {
-        None => array.images(fidelity, args.images, stop.as_deref(), &done)?,
-        Some([row, column]) => {
-            vec![simulate(&array.pixel(row, column), fidelity, args.images, stop.as_deref())?]
-        }
-    };
+    let simulated = args.simulate((&array, place), events.as_mut(), stop.as_deref(), &done)?;
     progress.finish_and_clear();
+    let written = events.map(Events::finish).transpose()?;
 
     let mut notes = merged(simulated.iter().map(|pixel| &pixel.notes[..]));
     notes.extend(notes_of_firmware(setup));
@@ -98,10 +102,58 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     };
     let (fidelity, images) = (args.fidelity.name(), args.images);
     let images = DepthImages { array: &array, fidelity, images, waves, pixels };
-    args.result.deliver(&Report::new(images, setup, &notes, console), console)
+    args.result.deliver(&Report::new(images, setup, &notes, console), console)?;
+    written.iter().for_each(|path| console.wrote(path));
+    Ok(())
 }
 
 impl Args {
+    /// Begins the file of events, if it is wanted.
+    fn events(&self, array: &ArraySetup, console: &Console) -> Result<Option<Events>> {
+        let Some(path) = &self.events else { return Ok(None) };
+        let fault = |expected| Err(Input::new("--events", expected).value(path.display()).into());
+        if self.fidelity == Fidelity::Histogram {
+            return fault(
+                "--fidelity histogram has no single shots: expected --fidelity shot or cycle",
+            );
+        }
+        let own = self.result.output.as_ref().map(|folder| folder.join("pixels.csv"));
+        if own.is_some_and(|own| is_same(&own, path)) {
+            return fault("expected another name: the images have a file of their own there");
+        }
+        let record = Record::new(array.common(), &console.command);
+        Ok(Some(Events::of_images(path, &record.line())?))
+    }
+
+    /// Simulates the pixels on all threads, or one after the other where their shots are written.
+    fn simulate(
+        &self,
+        (array, place): (&ArraySetup, Option<[usize; 2]>),
+        mut events: Option<&mut Events>,
+        stop: Option<&AtomicBool>,
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Result<Vec<Pixel>> {
+        let (fidelity, [rows, columns]) = (self.fidelity.of_images(), array.size());
+        let places = match place {
+            Some(place) => vec![place],
+            None if events.is_none() => return array.images(fidelity, self.images, stop, done),
+            None => (0..rows * columns).map(|place| [place / columns, place % columns]).collect(),
+        };
+        let pixel = |place: [usize; 2]| {
+            let setup = array.pixel(place[0], place[1]);
+            let pixel = match &mut events {
+                None => simulate(&setup, fidelity, self.images, None, stop)?,
+                Some(events) => {
+                    let mut write = |shot: &Shot| events.write(place, shot);
+                    simulate(&setup, fidelity, self.images, Some(&mut write), stop)?
+                }
+            };
+            done(self.images);
+            Ok(pixel)
+        };
+        places.into_iter().map(pixel).collect()
+    }
+
     /// Writes the waveform of the firmware, if it is wanted, and returns its path.
     fn trace(
         &self,

@@ -13,7 +13,9 @@ use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::export::{CaptureFormat, export};
-use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, capture};
+use tofsim_captures::ila::{
+    Analyser, AnalyserPlan, AnalyserSetup, Capture, capture, capture_array,
+};
 
 use crate::choice::{self, seed, words};
 use crate::record::Record;
@@ -21,6 +23,7 @@ use crate::report::writer::{Findings, Report};
 use crate::text::table::facts;
 use crate::verbs::draws::load;
 use crate::verbs::frames::check as check_frames;
+use crate::verbs::instrument::Instrument;
 use crate::verbs::interrupt::look_no_more;
 use crate::verbs::terminal::{Console, stop_signal};
 
@@ -30,12 +33,16 @@ use crate::verbs::terminal::{Console, stop_signal};
 /// Conditions are as `state == 5 && (start rising || code[7:4] != 0b1x0x)`, over names of probes and paths of
 /// signals. A sample is the value just before the edge.
 ///
+/// Of an array, the firmware that scans it is simulated, until the buffer is full. channel_7.code is a signal of
+/// column 7, and frames are images.
+///
 /// The files have the format of real captures, but have not been opened in Vivado yet.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim ila capture --probes fig_6_21 -o out\n  \
-    tofsim ila capture near --probes my_ila.toml --trigger 'hit rising' -o out\n\n\
-    Built-in probe configurations: fig_6_6, fig_6_12, fig_6_13, fig_6_21 (screen captures of the thesis), likelihood_estimator, shot")]
+    tofsim ila capture near --probes my_ila.toml --trigger 'hit rising' -o out\n  \
+    tofsim ila capture --probes array -s array.rows=8 -s array.columns=6 -o out\n\n\
+    Built-in probe configurations: array, fig_6_6, fig_6_12, fig_6_13, fig_6_21 (screen captures of the thesis), likelihood_estimator, shot")]
 pub struct Args {
     /// Built-in scenario or the path of a scenario file [default: that of the probe configuration]
     scenario: Option<String>,
@@ -51,7 +58,7 @@ pub struct Args {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", value_parser = seed())]
     seed: Option<u64>,
-    /// Largest number of frames to simulate [default: that of the probe configuration]
+    /// Largest number of frames, or of images of an array, to simulate [default: that of the probe configuration]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     frames: Option<u64>,
     #[command(flatten)]
@@ -118,19 +125,27 @@ impl Instead {
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let mut set_up = AnalyserSetup::load(&args.probes)?;
     args.instead.lay_over(&mut set_up);
-    let setup = simulated(&set_up, args.scenario.as_deref(), &args.set, args.seed)?;
-    let mut notes = setup.notes()?;
+    let instrument = simulated(&set_up, args.scenario.as_deref(), &args.set, args.seed)?;
+    let mut notes = instrument.notes()?;
     console.print_notes(&notes)?;
+    let Instrument { setup, array } = instrument;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
-    plan.stop_when_full = args.stop_when_full;
+    plan.stop_when_full = args.stop_when_full || array.is_some();
     let frames = args.frames.unwrap_or(set_up.file.frames);
     check_frames("--frames", frames, &setup)?;
     let _held = FolderLock::take(&args.output)?;
     let mut analyser = Analyser::new(&plan, &setup);
-    let outcome = capture(Run::new(&setup), frames, &mut analyser, stop_signal().as_deref())?;
+    let stop = stop_signal();
+    let (end, late) = match &array {
+        None => {
+            let outcome = capture(Run::new(&setup), frames, &mut analyser, stop.as_deref())?;
+            (outcome.end, outcome.notes)
+        }
+        Some(array) => (capture_array(array, frames, &mut analyser, stop.as_deref())?, Vec::new()),
+    };
     let (triggers, full) = (analyser.triggers(), analyser.is_full());
     if triggers.is_empty() {
-        return Err(never(&set_up, &analyser, outcome.end));
+        return Err(never(&set_up, &analyser, end));
     }
     look_no_more();
     let capture = analyser.finish();
@@ -138,8 +153,8 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
         console.note(format_args!("note: the run ended with {}", missing(&plan, &capture)));
     }
     if !args.stop_when_full {
-        console.print_notes(&outcome.notes)?;
-        notes.extend(outcome.notes);
+        console.print_notes(&late)?;
+        notes.extend(late);
     }
     let formats = if args.format.is_empty() { CaptureFormat::ALL } else { &args.format };
     let stage = StagedFolder::new(&args.output)?;
@@ -161,7 +176,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
         capture: &capture,
         trigger_times_us: triggers.into_iter().map(microseconds).collect(),
         full,
-        end: outcome.end,
+        end,
         files,
     };
     Report::new(findings, &setup, &notes, console).deliver(None, args.json, console)
@@ -173,11 +188,11 @@ pub(super) fn simulated(
     scenario: Option<&str>,
     set: &[String],
     seed: Option<u64>,
-) -> Result<Setup> {
+) -> Result<Instrument> {
     // What the configuration sets is meant for its own scenario.
     let own = if scenario.is_none() { &set_up.file.set[..] } else { &[] };
     let name = scenario.unwrap_or(&set_up.file.scenario);
-    Setup::new(load(name, &[own, set].concat(), seed)?)
+    Instrument::new(load(name, &[own, set].concat(), seed)?)
 }
 
 /// Returns the error that nothing triggered, and the trigger.

@@ -37,7 +37,7 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     let set_up = AnalyserSetup::load(&args.probes)?;
-    let setup = simulated(&set_up, args.scenario.as_deref(), &args.set, None)?;
+    let setup = simulated(&set_up, args.scenario.as_deref(), &args.set, None)?.setup;
     let plan = AnalyserPlan::new(&set_up, &setup)?;
     let text = tcl(&set_up, &plan, &setup)?;
     let text = Record::new(&setup, &console.command).comment_line() + &text;
