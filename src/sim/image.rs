@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::error::{Result, poll_stop};
 use crate::firmware::tof_top::status::StatusSet;
-use crate::note::Note;
+use crate::note::{Note, merged};
 
 use super::fast::histogram::Histograms;
 use super::frames::Frame;
@@ -14,6 +14,10 @@ use super::run::{Observers, Run};
 use super::setup::Setup;
 use super::setup::array::ArraySetup;
 use super::stepping::Stepping;
+
+mod live_images;
+
+pub use live_images::LiveImages;
 
 /// Simulation fidelity of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,6 +113,27 @@ impl ArraySetup {
         };
         (0..rows * columns).into_par_iter().map(pixel).collect()
     }
+
+    /// Returns the notes of all pixels on depths outside of the model's validity, each cause once.
+    ///
+    /// # Errors
+    /// When the network's file has a domain that is none.
+    pub fn notes(&self) -> Result<Vec<Note>> {
+        let [rows, columns] = self.size();
+        let notes = |place: usize| self.pixel(place / columns, place % columns).notes();
+        let notes: Vec<_> = (0..rows * columns).into_par_iter().map(notes).collect::<Result<_>>()?;
+        Ok(merged(notes.iter().map(|notes| &notes[..])))
+    }
+}
+
+/// Returns the least of some numbers, their median, and the largest.
+pub fn ends_and_median(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
+    let mut sorted: Vec<_> = values.collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (&least, &most) = (sorted.first()?, sorted.last()?);
+    let half = sorted.len() / 2;
+    let median = (sorted[half] + sorted[sorted.len() - 1 - half]) / 2.0;
+    Some([least, median, most])
 }
 
 /// Simulates the frames of a pixel.
