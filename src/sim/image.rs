@@ -121,7 +121,8 @@ impl ArraySetup {
     pub fn notes(&self) -> Result<Vec<Note>> {
         let [rows, columns] = self.size();
         let notes = |place: usize| self.pixel(place / columns, place % columns).notes();
-        let notes: Vec<_> = (0..rows * columns).into_par_iter().map(notes).collect::<Result<_>>()?;
+        let notes: Vec<_> =
+            (0..rows * columns).into_par_iter().map(notes).collect::<Result<_>>()?;
         Ok(merged(notes.iter().map(|notes| &notes[..])))
     }
 }
