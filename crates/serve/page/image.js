@@ -118,7 +118,7 @@ function paint(values, scale) {
   $("pixels").style.maxWidth = `${(33 * image.columns) / Math.max(image.rows, image.columns)}rem`;
   const data = new ImageData(image.columns, image.rows);
   values.forEach((value, place) => data.data.set([...(scale ? colour(value, scale) : INVALID), 255], 4 * place));
-  picture.getContext("2d").putImageData(data, 0, 0);
+  picture.getContext("2d", { willReadFrequently: true }).putImageData(data, 0, 0);
 }
 
 // Marks a pixel in the picture, and lists its values.

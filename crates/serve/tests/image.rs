@@ -96,9 +96,9 @@ fn a_changed_scene_begins_again_with_its_image_0() {
     let after = images(&server, 1);
     assert_eq!((&after["scene_coming"], &after["image"]["number"]), (&false.into(), &0.into()));
     assert_ne!(after["image"]["hash"], before["image"]["hash"]);
-    let set = ["target.distance_m=0.3"];
-    let mut loaded =
-        scenario::load("array", &[&SMALL[..], &set].concat().map(str::to_owned)).unwrap();
+    let set: Vec<_> =
+        SMALL.into_iter().chain(["target.distance_m=0.3"]).map(str::to_owned).collect();
+    let mut loaded = scenario::load("array", &set).unwrap();
     loaded.scenario.seed = 5;
     let array = ArraySetup::new(loaded).unwrap();
     assert_is(&server, &array.images(SHOT, 1, None, &|_| ()).unwrap(), 0);
@@ -114,14 +114,14 @@ fn a_changed_scene_begins_again_with_its_image_0() {
 
 #[test]
 fn an_image_that_is_stopped_goes_on_where_it_was() {
-    let long = "firmware.shots_per_frame=200000";
+    let long = "firmware.shots_per_frame=60000";
     let server = server(&["--stopped", "--fidelity", "cycle", "-s", long]);
     let mut state = Value::Null;
     for _ in 0..100 {
         server.act("run", "{\"running\":true}");
         std::thread::sleep(Duration::from_millis(20));
         state = server.act("run", "{\"running\":false}");
-        if state["progress"]["pixels"].as_u64() > Some(0) || state["image"].is_object() {
+        if state["progress"]["pixels"].as_u64() > Some(0) {
             break;
         }
     }

@@ -137,7 +137,7 @@ impl ImageSession {
 
     /// Begins again with image 0 of a scenario.
     fn restart(&mut self, scenario: Loaded) {
-        self.worker.interrupt();
+        self.worker.abandon();
         self.present = scenario;
         self.begins = true;
         self.restarts += 1;

@@ -38,21 +38,30 @@ pub struct Outcome {
 /// Request for the next image: of the scenario, if it is a new one.
 struct Task {
     begin: Option<Loaded>,
-    stop: Arc<AtomicBool>,
+    stops: Stops,
+}
+
+/// Flags that stop a task.
+#[derive(Clone, Default)]
+struct Stops {
+    /// Stops the image, which goes on from there in the next task.
+    image: Arc<AtomicBool>,
+    /// Stops the elaboration of the pixels, which begins again.
+    elaboration: Arc<AtomicBool>,
 }
 
 /// Handle of the thread, which ends after its last task once the handle is dropped.
 pub struct Worker {
     tasks: Sender<Task>,
     outcomes: Receiver<Outcome>,
-    /// Stops the present task.
-    stop: Option<Arc<AtomicBool>>,
+    /// Flags of the present task.
+    stops: Option<Stops>,
     simulated: Arc<AtomicU64>,
 }
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        self.interrupt();
+        self.abandon();
     }
 }
 
@@ -75,26 +84,34 @@ impl Worker {
         };
         let thread = thread::Builder::new().name("images".to_owned()).spawn(run);
         thread.map_err(|error| Input::new("simulation", error))?;
-        Ok(Worker { tasks, outcomes, stop: None, simulated })
+        Ok(Worker { tasks, outcomes, stops: None, simulated })
     }
 
     /// Begins the next image, or the first one of a scenario.
     pub fn simulate(&mut self, begin: Option<Loaded>) {
-        let stop = Arc::new(AtomicBool::new(false));
-        self.stop = Some(Arc::clone(&stop));
+        let stops = Stops::default();
+        self.stops = Some(stops.clone());
         // Without the thread, waiting for it fails.
-        drop(self.tasks.send(Task { begin, stop }));
+        drop(self.tasks.send(Task { begin, stops }));
     }
 
     /// Returns whether the outcome of a task has not been taken.
     pub fn is_busy(&self) -> bool {
-        self.stop.is_some()
+        self.stops.is_some()
     }
 
-    /// Stops the present task, if there is one; its outcome is still to be taken.
+    /// Stops the image of the present task, if there is one; its outcome is still to be taken.
     pub fn interrupt(&self) {
-        if let Some(stop) = &self.stop {
-            stop.store(true, Ordering::Relaxed);
+        if let Some(stops) = &self.stops {
+            stops.image.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Stops the present task, if there is one, because its scenario is not wanted any more.
+    pub fn abandon(&self) {
+        self.interrupt();
+        if let Some(stops) = &self.stops {
+            stops.elaboration.store(true, Ordering::Relaxed);
         }
     }
 
@@ -113,7 +130,7 @@ impl Worker {
                 Outcome { image, busy: Duration::ZERO }
             }
         };
-        self.stop = None;
+        self.stops = None;
         Some(outcome)
     }
 }
@@ -135,25 +152,27 @@ struct Array {
 }
 
 impl Simulation {
-    fn run(&mut self, Task { begin, stop }: Task) -> Outcome {
+    fn run(&mut self, Task { begin, stops }: Task) -> Outcome {
         let began = Instant::now();
         if begin.is_some() {
             (self.loaded, self.array) = (begin, None);
             self.simulated.store(0, Ordering::Relaxed);
         }
-        let image = self.next_image(&stop);
+        let image = self.next_image(&stops);
         Outcome { image, busy: began.elapsed() }
     }
 
-    fn next_image(&mut self, stop: &AtomicBool) -> Result<Image> {
+    fn next_image(&mut self, stops: &Stops) -> Result<Image> {
         let array = match (&mut self.array, &self.loaded) {
             (Some(array), _) => array,
-            (none, Some(loaded)) => none.insert(Array::new(loaded, self.fidelity, stop)?),
+            (none, Some(loaded)) => {
+                none.insert(Array::new(loaded, self.fidelity, &stops.elaboration)?)
+            }
             (None, None) => return Err(Input::new("simulation", "expected a scenario").into()),
         };
         let number = array.images.done();
         let simulated = || _ = self.simulated.fetch_add(1, Ordering::Relaxed);
-        let frames = array.images.next_image(Some(stop), &simulated)?;
+        let frames = array.images.next_image(Some(&stops.image), &simulated)?;
         self.simulated.store(0, Ordering::Relaxed);
         let Array { hash, expected, notes, .. } = array;
         let (hash, expected, notes) = (Arc::clone(hash), Arc::clone(expected), Arc::clone(notes));
