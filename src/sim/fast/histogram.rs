@@ -57,6 +57,7 @@ pub struct Histograms<'a> {
 pub struct FrameDistribution {
     /// The kinds of frame, in turn.
     kinds: Vec<Kind>,
+    seed: u64,
     shots: u64,
     frame_cycles: u64,
 }
@@ -91,15 +92,16 @@ impl FrameDistribution {
         };
         let dark = setup.has_pairs().then(|| kind(false));
         Ok(FrameDistribution {
+            seed: setup.seed,
             kinds: dark.into_iter().chain([kind(firmware.laser_en)]).collect(),
             shots: setup.shots(1),
             frame_cycles: setup.frame_cycles(setup.laser_period()),
         })
     }
 
-    /// Draws a frame of the same setup.
+    /// Draws a frame, whose firmware is that of `setup`.
     pub fn frame(&self, setup: &Setup, index: u64) -> Frame {
-        let mut random = stream(setup.seed, Source::Histogram, index);
+        let mut random = stream(self.seed, Source::Histogram, index);
         let kind = &self.kinds[index as usize % self.kinds.len()];
         let counts = kind.codes.draw(self.shots, &mut random);
         let coded: u64 = counts.iter().sum();

@@ -16,6 +16,8 @@ use super::{Expected, ImageFidelity, PixelFrame};
 
 /// The pixels of an array, ready for their next image. Image `n` is that of [`ArraySetup::images`].
 pub struct LiveImages {
+    /// What all pixels have in common, as their firmware.
+    common: Setup,
     pixels: Vec<LivePixel>,
     notes: Vec<Note>,
     done: u64,
@@ -31,7 +33,7 @@ struct LivePixel {
 /// Source of a pixel's frames.
 enum PixelFrames {
     Shots(Box<Live>),
-    Histograms(Box<Setup>, FrameDistribution),
+    Histograms(FrameDistribution),
 }
 
 impl LiveImages {
@@ -54,7 +56,7 @@ impl LiveImages {
             (0..rows * columns).into_par_iter().map(pixel).collect::<Result<_>>()?;
         let notes = merged(pixels.iter().map(|(notes, _)| &notes[..]));
         let pixels = pixels.into_iter().map(|(_, pixel)| pixel).collect();
-        Ok(LiveImages { pixels, notes, done: 0 })
+        Ok(LiveImages { common: array.common().clone(), pixels, notes, done: 0 })
     }
 
     /// Returns what the frames of each pixel can be expected to hold, by row, then column.
@@ -82,11 +84,11 @@ impl LiveImages {
         stop: Option<&AtomicBool>,
         simulated: &(dyn Fn() + Sync),
     ) -> Result<Vec<PixelFrame>> {
-        let index = self.done;
+        let (common, index) = (&self.common, self.done);
         self.pixels.par_iter_mut().try_for_each(|pixel| {
             if pixel.frame.is_none() {
                 poll_stop(stop)?;
-                pixel.frame = Some(pixel.frames.simulate(index, stop)?);
+                pixel.frame = Some(pixel.frames.simulate(common, index, stop)?);
                 simulated();
             }
             Ok::<_, crate::Error>(())
@@ -103,10 +105,7 @@ impl LivePixel {
             ImageFidelity::Shots(stepping) => {
                 PixelFrames::Shots(Box::new(Live::new(Arc::new(setup), stepping)))
             }
-            ImageFidelity::Histograms => {
-                let frames = FrameDistribution::new(&setup)?;
-                PixelFrames::Histograms(Box::new(setup), frames)
-            }
+            ImageFidelity::Histograms => PixelFrames::Histograms(FrameDistribution::new(&setup)?),
         };
         Ok(LivePixel { expected, frames, frame: None })
     }
@@ -114,10 +113,15 @@ impl LivePixel {
 
 impl PixelFrames {
     /// Simulates the frame with such an index, the next one.
-    fn simulate(&mut self, index: u64, stop: Option<&AtomicBool>) -> Result<PixelFrame> {
+    fn simulate(
+        &mut self,
+        common: &Setup,
+        index: u64,
+        stop: Option<&AtomicBool>,
+    ) -> Result<PixelFrame> {
         let frame = match self {
             PixelFrames::Shots(live) => live.next_frame(stop)?,
-            PixelFrames::Histograms(setup, frames) => frames.frame(setup, index),
+            PixelFrames::Histograms(frames) => frames.frame(common, index),
         };
         Ok(PixelFrame::of(&frame))
     }
