@@ -5,7 +5,6 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use crate::error::{Result, poll_stop};
-use crate::firmware::tof_top::status::StatusSet;
 use crate::note::{Note, merged};
 
 use super::fast::histogram::Histograms;
@@ -13,20 +12,14 @@ use super::frames::Frame;
 use super::run::{Observers, Run};
 use super::setup::Setup;
 use super::setup::array::ArraySetup;
-use super::stepping::Stepping;
 
+mod fidelity;
 mod live_images;
+mod pixel_frame;
 
+pub use fidelity::ImageFidelity;
 pub use live_images::LiveImages;
-
-/// Simulation fidelity of an image.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ImageFidelity {
-    /// Shots are simulated.
-    Shots(Stepping),
-    /// Histograms are drawn from their distribution.
-    Histograms,
-}
+pub use pixel_frame::{Expected, PixelFrame};
 
 /// A pixel of some images.
 #[derive(Clone, Debug)]
@@ -37,56 +30,6 @@ pub struct Pixel {
     pub frames: Vec<PixelFrame>,
     /// Notes on depths outside of the model's validity.
     pub notes: Vec<Note>,
-}
-
-/// What the frames of a pixel can be expected to hold.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Expected {
-    /// Mean distance of what returns the pixel's light, along the line of sight; `None` if nothing does [m].
-    pub radial_m: Option<f64>,
-    /// Hits of laser photons in the histogram; `None` where shots depend on each other [1].
-    pub signal_hits: Option<f64>,
-    /// Other hits in the histogram; `None` where shots depend on each other [1].
-    pub ambient_hits: Option<f64>,
-}
-
-/// Result of a pixel in one image.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PixelFrame {
-    /// Estimated distance along the line of sight [m].
-    pub radial_m: f64,
-    /// Its standard deviation, from an estimator that states one [m].
-    pub sigma_m: Option<f64>,
-    /// Whether the status has no reason to reject the distance.
-    pub valid: bool,
-    /// Reasons to reject it.
-    pub status: StatusSet,
-    /// Hits in the histogram.
-    pub hits: u64,
-}
-
-impl PixelFrame {
-    fn of(frame: &Frame) -> Self {
-        let estimate = frame.estimate();
-        PixelFrame {
-            radial_m: frame.depth_m(),
-            sigma_m: estimate.sigma_m,
-            valid: estimate.valid,
-            status: estimate.status,
-            hits: frame.hits(),
-        }
-    }
-}
-
-impl Expected {
-    fn of(setup: &Setup) -> Self {
-        let radial_m = setup.mean_radial_m();
-        let (chances, shots) = (setup.chances(), setup.shots(1) as f64);
-        let signal = chances.map(|chances| chances.counted_signal);
-        let ambient = chances.map(|chances| (chances.counted - chances.counted_signal).max(0.0));
-        let [signal_hits, ambient_hits] = [signal, ambient].map(|hits| Some(hits? * shots));
-        Expected { radial_m, signal_hits, ambient_hits }
-    }
 }
 
 impl ArraySetup {

@@ -14,8 +14,10 @@ const QUANTITIES = {
 };
 const STEPS = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] };
 // The image and its scale, the pixel that is selected, and the one under the pointer, by row and column.
-let [image, scale, loading, loaded] = [null, {}, false, null];
+let [image, scale] = [null, {}];
 let [selected, hovered] = [null, null];
+// The newest image of the server, and whether it is on its way.
+let [wanted, loading] = [null, false];
 
 const quantity = () => document.querySelector("[name=quantity]:checked").value;
 const within = (value, count) => Math.min(Math.max(value, 0), count - 1);
@@ -33,6 +35,7 @@ export function setUp() {
     select(selected.map((value, k) => value + step[k]));
   };
   for (const id of ["pixel-row", "pixel-column"]) $(id).onchange = () => select([Number($("pixel-row").value), Number($("pixel-column").value)]);
+  document.addEventListener("visibilitychange", load);
 }
 
 // Selects the quantity that is shown.
@@ -47,6 +50,7 @@ function pixelAt({ clientX, clientY }) {
 function select(pixel) {
   if (!image || !pixel) return;
   [selected, hovered] = [[within(Math.round(pixel[0]), image.rows), within(Math.round(pixel[1]), image.columns)], null];
+  [$("pixel-row").value, $("pixel-column").value] = selected;
   mark();
   say($("pixel-words"), words(image, selected));
 }
@@ -62,30 +66,32 @@ export function show(state) {
   const next = state.image && !state.scene_coming ? state.image.number + 1 : 0;
   say($("image-next"), fault ? "" : `Image ${next}: ${progress.pixels} of ${progress.of} pixels simulated`);
   say($("image-fidelity"), state.fidelity === "histogram" ? "Fidelity histogram: each pixel's histogram is drawn from its distribution." : `Fidelity ${state.fidelity}: each pixel's shots are simulated.`);
-  if (!state.image) clear();
-  else load(`${state.image.restart} ${state.image.number}`);
+  wanted = state.image;
+  if (wanted) load(); else clear();
 }
 
 function clear() {
-  [image, loaded, scale] = [null, null, {}];
+  [image, scale] = [null, {}];
   say($("image-facts"), "No image has ended yet.");
   for (const id of ["picture-bar", "pixel-facts"]) $(id).replaceChildren();
   $("picture").width = $("picture").width;
   $("image-command").hidden = $("pixel-mark").hidden = true;
 }
 
-async function load(wanted) {
-  if (loading || loaded === wanted || document.hidden) return;
+const isThere = ({ restart, number }) => image !== null && (image.restart > restart || (image.restart === restart && image.number >= number));
+
+async function load() {
+  if (loading || !wanted || isThere(wanted) || document.hidden) return;
   loading = true;
   const found = await text("image", { quiet: true });
   loading = false;
-  if (found === null) return;
+  if (found === null || !wanted) return;
   const next = JSON.parse(found);
   if (image?.restart !== next.restart) scale = {};
   image = next;
-  loaded = `${image.restart} ${image.number}`;
   selected ??= [Math.floor(image.rows / 2), Math.floor(image.columns / 2)];
   draw();
+  load();
 }
 
 function draw() {
@@ -132,7 +138,8 @@ function mark() {
   $("pixel-mark").hidden = false;
   for (const [id, value, count] of [["pixel-row", row, image.rows], ["pixel-column", column, image.columns]]) {
     $(id).max = count - 1;
-    if (document.activeElement !== $(id) || hovered === null) $(id).value = value;
+    // What is being typed stays.
+    if (document.activeElement !== $(id)) $(id).value = value;
   }
   $("pixel-facts").replaceChildren(...facts(image, pixel).flatMap(([name, value]) => [html("dt", {}, name), html("dd", {}, value)]));
 }

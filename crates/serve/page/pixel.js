@@ -1,6 +1,6 @@
 // The values of one pixel, as text.
 
-const number = (value, decimals, unit) => (value === null ? "–" : `${value.toFixed(decimals).replace("-", "−")}${unit}`);
+const number = (value, decimals, unit) => (value === null ? "–" : value.toLocaleString("en", { minimumFractionDigits: decimals, maximumFractionDigits: decimals }).replace("-", "−") + unit);
 const status = (image, place) => (image.valid[place] ? "valid" : `rejected: ${image.status[place].join(", ")}`);
 
 // Names and values of what a pixel has measured, and what it can expect.
@@ -13,7 +13,7 @@ export function facts(image, [row, column]) {
     ["depth", number(depth, 4, " m")],
     ["sigma", number(sigma === null ? null : 1e3 * sigma, 2, " mm")],
     ["status", status(image, place)],
-    ["hits", of(image.hits).toLocaleString("en")],
+    ["hits", number(of(image.hits), 0, "")],
     ["expected signal", number(of(image.signal_hits), 1, " hits")],
     ["expected ambient", number(of(image.ambient_hits), 1, " hits")],
     ["true depth", number(truth, 4, " m")],

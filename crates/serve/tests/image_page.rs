@@ -44,7 +44,10 @@ fn the_image_and_the_values_of_its_pixels_appear() {
     assert_eq!(fact(&mut browser, "depth"), format!("{:.4} m", number("depth_m")));
     assert_eq!(fact(&mut browser, "sigma"), format!("{:.2} mm", 1e3 * number("sigma_m")));
     assert_eq!(fact(&mut browser, "true depth"), format!("{:.4} m", number("true_m")));
-    assert_eq!(fact(&mut browser, "expected signal"), format!("{:.1} hits", number("signal_hits")));
+    assert_eq!(
+        fact(&mut browser, "expected signal"),
+        with_commas(&format!("{:.1} hits", number("signal_hits")))
+    );
     let rejected =
         image["valid"].as_array().unwrap().iter().position(|valid| valid == false).unwrap();
     select(&mut browser, rejected / 30, rejected % 30);
@@ -85,7 +88,7 @@ fn the_image_and_the_values_of_its_pixels_appear() {
         "(() => { const at = document.getElementById('picture').getBoundingClientRect(); \
          document.getElementById('pixels').dispatchEvent(new PointerEvent('pointermove', { pointerType: 'mouse', clientX: at.right - 1, clientY: at.bottom - 1 })); })()",
     );
-    assert_eq!(fact(&mut browser, "hits"), with_commas(image["hits"][1199].as_u64().unwrap()));
+    assert_eq!(fact(&mut browser, "hits"), with_commas(&image["hits"][1199].to_string()));
     browser.value("document.activeElement.blur()");
     browser.press("h");
     browser.wait("document.getElementById('picture').getAttribute('aria-label').startsWith('Hits in the histogram, image 1')");
@@ -102,8 +105,14 @@ fn the_image_and_the_values_of_its_pixels_appear() {
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
-fn with_commas(hits: u64) -> String {
-    if hits < 1000 { hits.to_string() } else { format!("{},{:03}", hits / 1000, hits % 1000) }
+/// Separates the thousands of a number below a million.
+fn with_commas(number: &str) -> String {
+    let whole = number.find(|c: char| !c.is_ascii_digit()).unwrap_or(number.len());
+    if whole < 4 {
+        return number.to_owned();
+    }
+    let (thousands, rest) = number.split_at(whole - 3);
+    format!("{thousands},{rest}")
 }
 
 #[test]
@@ -120,7 +129,12 @@ fn the_page_of_an_array_fits_a_phone_and_a_wide_screen_in_the_light_and_in_the_d
              e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + '#' + e.id)",
         );
         if let Some(folder) = pictures() {
-            browser.screenshot(&folder.join(format!("array-{width}-{scheme}.png")));
+            for (key, quantity) in [("h", "hits"), ("s", "sigma"), ("d", "depth")] {
+                browser.press(key);
+                browser.wait(&format!("document.getElementById('show-{quantity}').checked"));
+                let name = format!("array-{width}-{scheme}-{quantity}.png");
+                browser.screenshot(&folder.join(name));
+            }
         }
         assert_eq!((wide.as_u64(), over), (Some(u64::from(width)), Value::Array(vec![])));
         let unnamed = browser.value(

@@ -5,14 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use crate::error::{Result, poll_stop};
+use crate::error::{Error, Result, poll_stop};
 use crate::note::{Note, merged};
 use crate::sim::fast::histogram::FrameDistribution;
 use crate::sim::live::Live;
 use crate::sim::setup::Setup;
 use crate::sim::setup::array::ArraySetup;
 
-use super::{Expected, ImageFidelity, PixelFrame};
+use super::fidelity::ImageFidelity;
+use super::pixel_frame::{Expected, PixelFrame};
 
 /// The pixels of an array, ready for their next image. Image `n` is that of [`ArraySetup::images`].
 pub struct LiveImages {
@@ -91,7 +92,7 @@ impl LiveImages {
                 pixel.frame = Some(pixel.frames.simulate(common, index, stop)?);
                 simulated();
             }
-            Ok::<_, crate::Error>(())
+            Ok::<_, Error>(())
         })?;
         self.done += 1;
         Ok(self.pixels.iter_mut().filter_map(|pixel| pixel.frame.take()).collect())
@@ -132,7 +133,6 @@ mod tests {
     use std::sync::atomic::{AtomicU64, Ordering};
 
     use super::*;
-    use crate::error::Error;
     use crate::scenario::load;
     use crate::sim::Stepping;
 

@@ -18,6 +18,7 @@ use super::request::RunRequest;
 use super::scene;
 
 mod command;
+mod simulation;
 mod source;
 mod view;
 mod worker;

@@ -8,7 +8,7 @@ use tofsim::firmware::tof_top::status::StatusSet;
 use tofsim::sim::image::ends_and_median;
 
 use super::super::scene::Slider;
-use super::worker::Image;
+use super::simulation::Image;
 
 /// Schema version of the state.
 pub const SCHEMA: &str = "tofsim.page_array/1";
