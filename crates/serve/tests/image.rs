@@ -33,7 +33,9 @@ fn pixels(further: &[&str], fidelity: ImageFidelity, images: u64) -> Vec<Pixel> 
 fn assert_is(server: &Server, pixels: &[Pixel], number: usize) {
     let answer = server.get("image");
     assert_eq!(answer.status, 200, "{}", String::from_utf8_lossy(&answer.body));
-    assert_eq!(answer.json()["number"], number);
+    let image = answer.json();
+    assert_eq!(image["number"], number);
+    assert_eq!(image["rows"].as_u64().zip(image["columns"].as_u64()), Some(size(pixels)));
     let text = String::from_utf8(answer.body).unwrap();
     let frame = |pixel: &Pixel| pixel.frames[number];
     let has = |name: &str, values: String| {
@@ -48,6 +50,11 @@ fn assert_is(server: &Server, pixels: &[Pixel], number: usize) {
     has("signal_hits", each(pixels, |pixel| pixel.expected.signal_hits));
     has("ambient_hits", each(pixels, |pixel| pixel.expected.ambient_hits));
     has("true_m", each(pixels, |pixel| pixel.expected.radial_m));
+}
+
+/// The rows and columns of an array of so many pixels.
+fn size(pixels: &[Pixel]) -> (u64, u64) {
+    if pixels.len() == 12 { (4, 3) } else { (8, 9) }
 }
 
 fn each<T: Serialize>(pixels: &[Pixel], value: impl Fn(&Pixel) -> T) -> String {
@@ -113,22 +120,47 @@ fn a_changed_scene_begins_again_with_its_image_0() {
 }
 
 #[test]
+fn a_changed_scene_drops_the_image_that_is_being_simulated() {
+    let server = server(&["--rate", "1000"]);
+    for k in 0..6 {
+        let key = format!("target.distance_m={}", 0.3 + 0.01 * f64::from(k));
+        let (name, value) = key.split_once('=').unwrap();
+        server.act("scene", &format!("{{\"{name}\":{value}}}"));
+        let state =
+            server.wait(|state| state["scene_coming"] == false && !state["image"].is_null());
+        let set: Vec<_> = SMALL.into_iter().chain([&*key]).map(str::to_owned).collect();
+        let array = ArraySetup::new(scenario::load("array", &set).unwrap()).unwrap();
+        assert_eq!(state["image"]["hash"], array.common().hash(), "{key}");
+    }
+}
+
+#[test]
 fn an_image_that_is_stopped_goes_on_where_it_was() {
-    let long = "firmware.shots_per_frame=60000";
-    let server = server(&["--stopped", "--fidelity", "cycle", "-s", long]);
-    let mut state = Value::Null;
-    for _ in 0..100 {
+    let more = ["array.rows=8", "array.columns=9"];
+    let server = server(&[
+        "--stopped",
+        "--fidelity",
+        "cycle",
+        "-s",
+        more[0],
+        "-s",
+        more[1],
+        "--rate",
+        "1000",
+    ]);
+    let simulated = |state: &Value| state["progress"]["pixels"].as_u64().unwrap();
+    let stopped = (0..200).map(|_| {
         server.act("run", "{\"running\":true}");
         std::thread::sleep(Duration::from_millis(20));
-        state = server.act("run", "{\"running\":false}");
-        if state["progress"]["pixels"].as_u64() > Some(0) {
-            break;
-        }
-    }
-    assert!(state["progress"]["pixels"].as_u64() > Some(0), "{state}");
+        simulated(&server.act("run", "{\"running\":false}"))
+    });
+    let pixels_done = stopped.into_iter().find(|done| (1..36).contains(done)).unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    let later = simulated(&server.state());
+    assert!((pixels_done..72).contains(&later), "{pixels_done}, {later}");
     let number = images(&server, 1)["image"]["number"].as_u64().unwrap() as usize;
     let fidelity = ImageFidelity::Shots(Stepping::SkipIdle);
-    assert_is(&server, &pixels(&[long], fidelity, 1 + number as u64), number);
+    assert_is(&server, &pixels(&more, fidelity, 1 + number as u64), number);
 }
 
 #[test]
