@@ -1,8 +1,9 @@
 //! A run without an end, whose control signals and scene can be changed on the way.
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
-use crate::error::Result;
+use crate::error::{Result, poll_stop};
 use crate::kernel::Time;
 use crate::scenario::Control;
 use crate::scenario::window::Window;
@@ -12,6 +13,7 @@ use super::callback::Callback;
 use super::clockwork::{Clockwork, Event};
 use super::device::{Device, Off};
 use super::frames::Frame;
+use super::run::{POLL_INTERVAL, never_ends};
 use super::setup::Setup;
 use super::shot_recorder::{Recording, Shot, ShotListener, ShotRecorder};
 use super::stepping::{FastForward, Stepping};
@@ -156,6 +158,23 @@ impl Live {
         let progress = self.go(cycles, probe, &mut recording);
         self.recorder = recording.recorder;
         progress
+    }
+
+    /// Runs until a frame has ended. A run that is stopped in the middle of a frame goes on from there at the next call.
+    ///
+    /// # Errors
+    /// When the control signals keep the frame from ending, or the run is stopped.
+    pub fn next_frame(&mut self, stop: Option<&AtomicBool>) -> Result<Frame> {
+        let limit = self.clockwork.cycle() + self.setup.longest_run(1);
+        loop {
+            if let Progress::Frame(frame, _) = self.advance(POLL_INTERVAL, &mut Off, None)? {
+                return Ok(frame);
+            }
+            poll_stop(stop)?;
+            if self.clockwork.cycle() > limit {
+                return Err(never_ends(&self.setup, &self.device().top.pins, self.done()));
+            }
+        }
     }
 
     /// Runs to the end of the present frame, at most for `cycles`, and writes windows of it as a waveform.

@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::error::{Error, Input, Result, poll_stop};
+use crate::firmware::tof_top::Pins;
 use crate::kernel::Time;
 use crate::note::Note;
 use crate::scenario::window::Window;
@@ -18,7 +19,7 @@ use super::stepping::Stepping;
 use super::wave_tracer::{WaveTracer, WindowedProbe};
 
 /// Cycles between two polls of whether to stop, a part of a second.
-const POLL_INTERVAL: u64 = 1 << 18;
+pub(super) const POLL_INTERVAL: u64 = 1 << 18;
 
 /// Observers of a run, and the flag that stops it.
 #[derive(Default)]
@@ -175,7 +176,8 @@ impl<'a> Run<'a> {
                     poll_stop(stop)?;
                     let cycle = self.clockwork.cycle();
                     if cycle > self.limit {
-                        return Err(self.stuck());
+                        let Clockwork { device, frames, .. } = &self.clockwork;
+                        return Err(never_ends(self.setup, &device.top.pins, frames.done()));
                     }
                     next_poll = cycle + POLL_INTERVAL;
                 }
@@ -188,27 +190,25 @@ impl<'a> Run<'a> {
         let (end, cycles, shots) = (device.next_edge(), device.cycle(), frames.shots());
         Outcome { end, cycles, shots, marks, notes: device.unused() }
     }
+}
 
-    /// Returns the error that the control signals keep a frame from ending, and which of them does.
-    fn stuck(&self) -> Error {
-        let pins = &self.clockwork.device.top.pins;
-        let (pin, held) = match (pins.rst, pins.dsp_rst, pins.dsp_en) {
-            (true, ..) => ("rst", "stays high"),
-            (_, true, _) => ("dsp_rst", "stays high"),
-            (.., false) => ("dsp_en", "stays low"),
-            _ => ("control", "begins it again and again"),
-        };
-        let changes = self.setup.scenario.control.iter().rposition(|change| match pin {
-            "rst" => change.rst.is_some(),
-            "dsp_rst" => change.dsp_rst.is_some(),
-            _ => change.dsp_en.is_some(),
-        });
-        let field = match changes {
-            Some(last) => format!("control.{last}.{pin}"),
-            None => format!("firmware.{pin}"),
-        };
-        let done = self.clockwork.frames.done();
-        let expected = format!("frame {done} never ends: {pin} {held}");
-        Input::new(format!("scenario {}", self.setup.name), expected).field(field).into()
-    }
+/// Returns the error that the control signals keep frame `done` from ending, and which of them does.
+pub(super) fn never_ends(setup: &Setup, pins: &Pins, done: u64) -> Error {
+    let (pin, held) = match (pins.rst, pins.dsp_rst, pins.dsp_en) {
+        (true, ..) => ("rst", "stays high"),
+        (_, true, _) => ("dsp_rst", "stays high"),
+        (.., false) => ("dsp_en", "stays low"),
+        _ => ("control", "begins it again and again"),
+    };
+    let changes = setup.scenario.control.iter().rposition(|change| match pin {
+        "rst" => change.rst.is_some(),
+        "dsp_rst" => change.dsp_rst.is_some(),
+        _ => change.dsp_en.is_some(),
+    });
+    let field = match changes {
+        Some(last) => format!("control.{last}.{pin}"),
+        None => format!("firmware.{pin}"),
+    };
+    let expected = format!("frame {done} never ends: {pin} {held}");
+    Input::new(format!("scenario {}", setup.name), expected).field(field).into()
 }

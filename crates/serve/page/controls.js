@@ -2,6 +2,7 @@
 
 import { $, html, say } from "./svg.js";
 import { ask } from "./server.js";
+import { choose } from "./image.js";
 
 const SWITCHES = ["laser_en", "dsp_en", "dsp_rst"];
 let state = null;
@@ -32,13 +33,16 @@ function key(event) {
   // A pressed button takes the space bar itself.
   if (is === " " && event.target.closest("button, a, summary")) return;
   const rate = Number(is) - 1;
-  const act = {
-    " ": start, n: oneFrame, r: pulse,
+  const ofBoth = { " ": start, n: oneFrame, "?": () => $("help").showModal() };
+  const ofArray = { d: () => choose("depth"), s: () => choose("sigma"), h: () => choose("hits") };
+  const ofPixel = {
+    r: pulse,
     l: () => flip("laser_en"), e: () => flip("dsp_en"),
     m: () => ask("control", { mode: 1 - state.control.mode }),
     a: () => $("ila-form").requestSubmit(), w: () => $("shot-draw").click(),
-    "?": () => $("help").showModal(),
-  }[is] ?? (is !== "0" && is !== " " && state.rates[rate] ? () => ask("control", { laser_freq: rate }) : null);
+  };
+  const ofRate = is !== "0" && is !== " " && state.rates?.[rate] ? () => ask("control", { laser_freq: rate }) : null;
+  const act = ofBoth[is] ?? (state.array ? ofArray[is] : ofPixel[is] ?? ofRate);
   if (!act) return;
   event.preventDefault();
   act();
@@ -47,6 +51,19 @@ function key(event) {
 export function show(next) {
   const first = !state;
   state = next;
+  say($("start"), state.running ? "Stop" : "Start");
+  $("run-state").classList.toggle("on", state.running && !state.held);
+  say($("run-state"), state.fault ? "fault" : !state.running ? "stopped" : state.held ? "held" : "running");
+  say($("held"), state.fault ?? state.held ?? state.laser_fixed ?? "");
+  const size = state.array ? `, ${state.array.rows} × ${state.array.columns} pixels, ${state.estimator}` : "";
+  const origin = state.board ? `board at ${state.board}` : `seed ${state.seed}, fidelity ${state.fidelity}${size}`;
+  say($("about"), `scenario ${state.scenario}, ${origin}`);
+  document.body.classList.toggle("of-board", Boolean(state.board));
+  document.body.classList.toggle("of-array", Boolean(state.array));
+  if (!state.array) showSignals(first);
+}
+
+function showSignals(first) {
   const { control, rates, time, progress } = state;
   if (first || $("laser_freq").options.length !== rates.length) {
     const option = ({ mhz, cycles }, code) => html("option", { value: code }, `${code}: ${mhz.toFixed(3)} MHz, ${cycles} cycles`);
@@ -56,13 +73,6 @@ export function show(next) {
   $("laser_en").disabled = Boolean(state.laser_fixed);
   if (document.activeElement !== $("laser_freq")) $("laser_freq").value = control.laser_freq;
   if (document.activeElement !== $("mode")) $("mode").value = control.mode;
-  say($("start"), state.running ? "Stop" : "Start");
-  $("run-state").classList.toggle("on", state.running && !state.held);
-  say($("run-state"), state.fault ? "fault" : !state.running ? "stopped" : state.held ? "held" : "running");
-  say($("held"), state.fault ?? state.held ?? state.laser_fixed ?? "");
-  const origin = state.board ? `board at ${state.board}` : `seed ${state.seed}, fidelity ${state.fidelity}`;
-  say($("about"), `scenario ${state.scenario}, ${origin}`);
-  document.body.classList.toggle("of-board", Boolean(state.board));
   say($("time-here-name"), state.board ? "taken in" : "simulated in");
   say($("time-board"), seconds(time.board_s));
   say($("time-here"), seconds(time.here_s));

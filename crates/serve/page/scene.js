@@ -63,10 +63,10 @@ export function show(state) {
     input.value = toPosition(slider, slider.value);
     put(slider, input, output, slider.value);
   });
-  say($("scene-hint"), state.scene_fixed ? `The scene is fixed: ${state.scene_fixed}.` : state.scene_coming ? "The next frame is of the new scene." : "");
-  const notes = state.notes.join("\n");
+  say($("scene-hint"), state.scene_fixed ? `The scene is fixed: ${state.scene_fixed}.` : state.scene_coming ? `The next ${state.array ? "image" : "frame"} is of the new scene.` : "");
+  const notes = [Boolean(state.image), ...state.notes].join("\n");
   if ($("notes").dataset.notes === notes) return;
   $("notes").dataset.notes = notes;
-  const none = html("li", { class: "none" }, "None: the answers hold.");
+  const none = html("li", { class: "none" }, state.array && !state.image ? "They come with the first image." : "None: the answers hold.");
   $("notes").replaceChildren(...(state.notes.length ? state.notes.map((note) => html("li", {}, note.replace(/^note: /, ""))) : [none]));
 }

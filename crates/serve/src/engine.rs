@@ -11,7 +11,7 @@ use tofsim::error::{Error, Input, Result};
 
 use crate::options::Options;
 use crate::session::request::{Request, RunRequest};
-use crate::session::{BoardSession, Reply, Session, Source};
+use crate::session::{BoardSession, ImageSession, Reply, Session, Source};
 
 /// Capacity of the request queue.
 const WAITING: usize = 64;
@@ -45,16 +45,19 @@ pub enum RequestError {
 }
 
 impl Engine {
-    /// Starts a run at power-up, or a board's frames. The thread ends once all handles have been dropped; a board is
+    /// Starts a run at power-up, the images of an array, or a board's frames. The thread ends once all handles have been dropped; a board is
     /// then left with the laser off.
     ///
     /// # Errors
     /// If the scenario cannot be run, or the board does not answer.
     pub fn start(options: Options) -> Result<(Self, JoinHandle<()>)> {
         let pause = Duration::from_secs(1) / options.rate;
-        let mut source: Box<dyn Source> = match &options.board.board {
-            None => Box::new(Session::new(options)?),
-            Some(_) => Box::new(BoardSession::new(options)?),
+        let mut source: Box<dyn Source> = if options.board.board.is_some() {
+            Box::new(BoardSession::new(options)?)
+        } else if options.shows_images(&options.load(&[])?) {
+            Box::new(ImageSession::new(options)?)
+        } else {
+            Box::new(Session::new(options)?)
         };
         let (show, states) = watch::channel(source.state());
         let (asked, requests) = sync_channel(WAITING);

@@ -74,6 +74,7 @@ fn router(engine: Engine, guard: &Arc<Guard>) -> Router {
     let page = Router::new()
         .route("/page/{name}", get(assets::asset))
         .route("/state", get(requests::state))
+        .route("/image", get(requests::image))
         .route("/events", get(events))
         .route("/run", post(requests::run))
         .route("/control", post(requests::control))

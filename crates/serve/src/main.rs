@@ -10,10 +10,10 @@ use serde_json::json;
 use tokio::signal::unix::{SignalKind, signal};
 
 use tofsim::error::{Error, Input, Result, tell};
-use tofsim::sim::setup::Setup;
 use tofsim_serve::Options;
 use tofsim_serve::engine::Engine;
 use tofsim_serve::http::Server;
+use tofsim_serve::served::Served;
 
 /// Exit status for a usage or input error.
 const FAULT: u8 = 2;
@@ -34,9 +34,9 @@ fn main() -> ExitCode {
 }
 
 fn serve(options: &Options) -> Result<()> {
-    let setup = Setup::new(options.load(&[])?)?;
+    let served = Served::of(options)?;
     if !options.quiet && !options.without_notes {
-        setup.notes()?.iter().for_each(tell);
+        served.notes()?.iter().for_each(tell);
     }
     let (engine, thread) = Engine::start(options.clone())?;
     let threads = tokio::runtime::Builder::new_current_thread().enable_all().build();
@@ -46,7 +46,7 @@ fn serve(options: &Options) -> Result<()> {
         let mut interrupt = stop(SignalKind::interrupt())?;
         let mut terminate = stop(SignalKind::terminate())?;
         let server = Server::bind(engine, options.port).await?;
-        say(options, &setup, &server.url())?;
+        say(options, &served, &server.url())?;
         tokio::select! {
             never = server.run() => never,
             _ = interrupt.recv() => Err(Error::Interrupted),
@@ -60,17 +60,18 @@ fn serve(options: &Options) -> Result<()> {
 }
 
 /// Prints the page's URL.
-fn say(options: &Options, setup: &Setup, url: &str) -> Result<()> {
+fn say(options: &Options, served: &Served, url: &str) -> Result<()> {
+    let setup = served.setup();
     let line = if options.json {
         json!({
             "schema": "tofsim.serve/1",
             "url": url,
             "scenario": setup.name,
             "seed": setup.scenario.seed,
-            "fidelity": options.fidelity.name(),
+            "fidelity": served.fidelity.name(),
             "set": setup.set,
             "hash": setup.hash(),
-            "notes": setup.notes()?,
+            "notes": served.notes()?,
         })
         .to_string()
     } else {

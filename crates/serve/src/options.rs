@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::Stepping;
+use tofsim::sim::image::ImageFidelity;
 use tofsim_board::PortOptions;
 use tofsim_board::port::{BAUD, BAUDS};
 
@@ -24,15 +25,15 @@ pub struct Options {
     /// Seed of all random streams, instead of the scenario's
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Simulation fidelity
-    #[arg(long, value_enum, default_value_t = Fidelity::Cycle)]
-    pub fidelity: Fidelity,
+    /// Simulation fidelity [default: cycle, and histogram for an array]
+    #[arg(long, value_enum)]
+    pub fidelity: Option<Fidelity>,
     /// Port on 127.0.0.1; 0 selects any free one
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub port: u16,
     #[command(flatten)]
     pub(crate) board: BoardOptions,
-    /// Largest number of frames per second
+    /// Largest number of frames, or of images, per second
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub rate: u32,
     /// Wait for Start to be pressed before the first frame
@@ -76,13 +77,15 @@ impl BoardOptions {
     }
 }
 
-/// Simulation fidelity of a run. It does not affect the frames.
+/// Simulation fidelity. Frames of cycle and shot are identical.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Fidelity {
     /// Simulate every cycle, with the cause of every avalanche
     Cycle,
     /// Skip cycles between events; causes are expected values
     Shot,
+    /// Draw each frame's histogram; for arrays only
+    Histogram,
 }
 
 impl Fidelity {
@@ -91,14 +94,23 @@ impl Fidelity {
         match self {
             Fidelity::Cycle => "cycle",
             Fidelity::Shot => "shot",
+            Fidelity::Histogram => "histogram",
         }
     }
 
     /// Returns the stepping to use while no signals are observed.
     pub fn stepping(self) -> Stepping {
         match self {
-            Fidelity::Cycle => Stepping::SkipIdle,
+            Fidelity::Cycle | Fidelity::Histogram => Stepping::SkipIdle,
             Fidelity::Shot => Stepping::LeapShots,
+        }
+    }
+
+    /// Returns how images are simulated.
+    pub fn of_images(self) -> ImageFidelity {
+        match self {
+            Fidelity::Cycle | Fidelity::Shot => ImageFidelity::Shots(self.stepping()),
+            Fidelity::Histogram => ImageFidelity::Histograms,
         }
     }
 }
@@ -112,5 +124,58 @@ impl Options {
         let mut loaded = scenario::load(&self.scenario, &[&self.set, further].concat())?;
         loaded.scenario.seed = self.seed.unwrap_or(loaded.scenario.seed);
         Ok(loaded)
+    }
+
+    /// Loads the scenario again, with `further` overrides.
+    ///
+    /// # Errors
+    /// If it is not `base` any more, or a key or value is invalid.
+    pub fn reload(&self, base: &Loaded, further: &[String]) -> Result<Loaded> {
+        if self.load(&[])? != *base {
+            let expected = "the file has changed since the start: start again to have it as it is";
+            return Err(Input::new("scenario", expected).value(&self.scenario).into());
+        }
+        self.load(further)
+    }
+
+    /// Returns whether the page shows the images of an array.
+    pub fn shows_images(&self, loaded: &Loaded) -> bool {
+        self.board.board.is_none() && loaded.scenario.array.count() > 1
+    }
+
+    /// Returns the simulation fidelity of a scenario: the given one, or the default.
+    ///
+    /// # Errors
+    /// If it does not apply.
+    pub fn fidelity(&self, loaded: &Loaded) -> Result<Fidelity> {
+        match (self.fidelity, self.shows_images(loaded)) {
+            (Some(Fidelity::Histogram), false) => {
+                let expected = "expected cycle or shot for a single pixel: a drawn histogram has no inputs to control";
+                Err(Input::new("--fidelity", expected).value("histogram").into())
+            }
+            (Some(given), _) => Ok(given),
+            (None, true) => Ok(Fidelity::Histogram),
+            (None, false) => Ok(Fidelity::Cycle),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[test]
+    fn the_default_fidelity_is_live_for_a_pixel_and_for_an_array() {
+        let fidelity = |words: &[&str]| {
+            let options = Options::parse_from([&["tofsim-serve"], words].concat());
+            options.fidelity(&options.load(&[]).unwrap()).map_err(|fault| fault.to_string())
+        };
+        assert_eq!(fidelity(&[]), Ok(Fidelity::Cycle));
+        assert_eq!(fidelity(&["array"]), Ok(Fidelity::Histogram));
+        assert_eq!(fidelity(&["array", "--fidelity", "shot"]), Ok(Fidelity::Shot));
+        let fault = fidelity(&["--fidelity", "histogram"]).unwrap_err();
+        assert!(fault.starts_with("--fidelity: histogram: expected cycle or shot"), "{fault}");
     }
 }

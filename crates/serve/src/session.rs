@@ -2,14 +2,17 @@
 
 mod actions;
 mod analyser;
+mod awaited;
 mod batch;
 mod board;
 mod causes;
 mod clock;
+mod image;
 mod instrument;
 mod reply;
 pub mod request;
 mod scene;
+mod shell;
 mod shot;
 mod source;
 mod strip;
@@ -36,7 +39,7 @@ use batch::Batch;
 use causes::{Causes, expected};
 use clock::Clock;
 use instrument::Instrument;
-use request::Request;
+use request::{Request, no_image};
 use shot::{Finished, Keyframe};
 use strip::Strip;
 use view::{FrameView, RateView};
@@ -46,6 +49,7 @@ mod state;
 
 pub use board::BoardSession;
 pub use file::File;
+pub use image::ImageSession;
 pub use reply::Reply;
 pub use source::Source;
 
@@ -55,6 +59,7 @@ const LONGEST: Time = Time::from_ns(8 << 40);
 /// The run that all browsers see.
 pub struct Session {
     options: Options,
+    fidelity: Fidelity,
     /// Scenario as loaded at the start.
     base: Loaded,
     /// Changes of the scene, by key.
@@ -110,6 +115,7 @@ impl Source for Session {
                 return Ok(Reply::File(self.waves(shot, format, &signals)?));
             }
             Request::Scenario => return Ok(Reply::File(self.scenario())),
+            Request::Image => return Err(no_image()),
         }
         Ok(Reply::State(self.show()))
     }
@@ -162,9 +168,10 @@ impl Session {
     /// If the scenario cannot be run.
     pub fn new(options: Options) -> Result<Self> {
         let base = options.load(&[])?;
+        let fidelity = options.fidelity(&base)?;
         let setup = Arc::new(Setup::new(base.clone())?);
         let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
-        let live = Live::new(Arc::clone(&setup), options.fidelity.stepping());
+        let live = Live::new(Arc::clone(&setup), fidelity.stepping());
         let rate = |&cycles: &u64| RateView {
             cycles,
             mhz: 1e-6 / (cycles as f64 * setup.cycle().seconds()),
@@ -195,6 +202,7 @@ impl Session {
             fault: None,
             version: 0,
             base,
+            fidelity,
             options,
         })
     }
@@ -210,9 +218,9 @@ impl Session {
             causes.add(shot);
             Ok(())
         };
-        let shots: Option<tofsim::Callback<Shot>> = match self.options.fidelity {
+        let shots: Option<tofsim::Callback<Shot>> = match self.fidelity {
             Fidelity::Cycle => Some(&mut take),
-            Fidelity::Shot => None,
+            Fidelity::Shot | Fidelity::Histogram => None,
         };
         let progress = if self.ila.is_armed() {
             self.ila.advance(&mut self.live, cycles, shots)?
@@ -246,7 +254,7 @@ impl Session {
                     .to_owned(),
             );
         }
-        let causes_seen = self.options.fidelity == Fidelity::Cycle;
+        let causes_seen = self.fidelity == Fidelity::Cycle;
         let layers = if causes_seen { self.causes.seen(frame) } else { expected(&now, frame) };
         self.frame = Some(FrameView {
             layers,

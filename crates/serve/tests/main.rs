@@ -5,6 +5,8 @@ mod common;
 mod analyser;
 mod board;
 mod guard;
+mod image;
+mod image_page;
 mod instrument;
 mod load;
 mod page;

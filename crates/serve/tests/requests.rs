@@ -178,7 +178,9 @@ fn a_wrong_command_line_says_what_was_expected() {
     };
     assert!(fault(&["no_such"]).contains("no such file or built-in scenario"));
     assert!(fault(&["-s", "target.distance_m=-1"]).contains("target.distance_m = -1"));
-    assert!(fault(&["--fidelity", "histogram"]).contains("cycle, shot"));
+    assert!(
+        fault(&["--fidelity", "histogram"]).contains("expected cycle or shot for a single pixel")
+    );
     let server = Server::small(&[]);
     let port = server.host().rsplit(':').next().unwrap();
     let taken = fault(&["--port", port]);

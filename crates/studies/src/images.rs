@@ -3,6 +3,8 @@
 use tofsim::sim::image::{Pixel, PixelFrame};
 use tofsim::sim::setup::array::ArraySetup;
 
+pub use tofsim::sim::image::ends_and_median;
+
 use crate::figure::{Figure, mean};
 
 /// Depth images of an array.
@@ -146,16 +148,6 @@ impl Images {
         };
         self.pixels.iter().enumerate().filter_map(of_pixel).collect()
     }
-}
-
-/// Returns the least of some numbers, their median, and the largest.
-pub fn ends_and_median(values: impl Iterator<Item = f64>) -> Option<[f64; 3]> {
-    let mut sorted: Vec<_> = values.collect();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let (&least, &most) = (sorted.first()?, sorted.last()?);
-    let half = sorted.len() / 2;
-    let median = (sorted[half] + sorted[sorted.len() - 1 - half]) / 2.0;
-    Some([least, median, most])
 }
 
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {

@@ -49,8 +49,15 @@ pub fn independent_shots<'a>(setup: &'a Setup, user: &str) -> Result<(&'a Optics
 #[derive(Clone, Debug)]
 pub struct Histograms<'a> {
     setup: &'a Setup,
+    frames: FrameDistribution,
+}
+
+/// Distribution of a setup's frames.
+#[derive(Clone, Debug)]
+pub struct FrameDistribution {
     /// The kinds of frame, in turn.
     kinds: Vec<Kind>,
+    seed: u64,
     shots: u64,
     frame_cycles: u64,
 }
@@ -64,12 +71,12 @@ struct Kind {
     no_code: [f64; 2],
 }
 
-impl<'a> Histograms<'a> {
-    /// For the frames of `setup`.
+impl FrameDistribution {
+    /// Computes the distribution of the frames of `setup`.
     ///
     /// # Errors
     /// When more than a shot's first avalanche decides what becomes of it, or a frame never ends.
-    pub fn new(setup: &'a Setup) -> Result<Self> {
+    pub fn new(setup: &Setup) -> Result<Self> {
         let (optics, outcomes) = independent_shots(setup, "--fidelity histogram")?;
         let firmware = &setup.scenario.firmware;
         let bins = setup.bins();
@@ -84,17 +91,17 @@ impl<'a> Histograms<'a> {
             Kind { lit, codes, no_code }
         };
         let dark = setup.has_pairs().then(|| kind(false));
-        Ok(Histograms {
-            setup,
+        Ok(FrameDistribution {
+            seed: setup.seed(),
             kinds: dark.into_iter().chain([kind(firmware.laser_en)]).collect(),
             shots: setup.shots(1),
             frame_cycles: setup.frame_cycles(setup.laser_period()),
         })
     }
 
-    /// Draws a frame.
-    pub fn frame(&self, index: u64) -> Frame {
-        let mut random = stream(self.setup.seed(), Source::Histogram, index);
+    /// Draws a frame, whose firmware is that of `setup`.
+    pub fn frame(&self, setup: &Setup, index: u64) -> Frame {
+        let mut random = stream(self.seed, Source::Histogram, index);
         let kind = &self.kinds[index as usize % self.kinds.len()];
         let counts = kind.codes.draw(self.shots, &mut random);
         let coded: u64 = counts.iter().sum();
@@ -103,12 +110,12 @@ impl<'a> Histograms<'a> {
         Frame {
             index,
             laser_en: kind.lit,
-            estimator: self.setup.params.estimator,
-            words: self.setup.estimate_words(&histogram),
+            estimator: setup.params.estimator,
+            words: setup.estimate_words(&histogram),
             shots: self.shots,
             tdc_hits,
             histogram,
-            estimator_cycles: self.setup.params.estimator_cycles(),
+            estimator_cycles: setup.params.estimator_cycles(),
             frame_cycles: self.frame_cycles,
         }
     }
@@ -120,6 +127,21 @@ impl<'a> Histograms<'a> {
         let drawn = [draw(shots - last, kind.no_code[0]), draw(last, kind.no_code[1])];
         drawn.into_iter().flatten().map(|draw| draw.sample(random)).sum()
     }
+}
+
+impl<'a> Histograms<'a> {
+    /// For the frames of `setup`.
+    ///
+    /// # Errors
+    /// When more than a shot's first avalanche decides what becomes of it, or a frame never ends.
+    pub fn new(setup: &'a Setup) -> Result<Self> {
+        Ok(Histograms { setup, frames: FrameDistribution::new(setup)? })
+    }
+
+    /// Draws a frame.
+    pub fn frame(&self, index: u64) -> Frame {
+        self.frames.frame(self.setup, index)
+    }
 
     /// Draws frames on all threads of the current pool; of `observers`, every frame is shown, in order.
     ///
@@ -128,7 +150,7 @@ impl<'a> Histograms<'a> {
     pub fn many(&self, count: u64, observers: Observers) -> Result<Outcome> {
         let Observers { frames, stop, .. } = observers;
         deliver(0..count, frames, stop, |index| Ok(self.frame(index)))?;
-        let cycles = count.saturating_mul(self.frame_cycles + 1);
+        let cycles = count.saturating_mul(self.frames.frame_cycles + 1);
         Ok(Outcome {
             end: self.setup.end(count).unwrap_or(Time::NEVER),
             cycles,

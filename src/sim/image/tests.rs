@@ -7,6 +7,7 @@ use rayon::ThreadPoolBuilder;
 use super::*;
 use crate::error::Error;
 use crate::scenario;
+use crate::sim::Stepping;
 
 use ImageFidelity::{Histograms, Shots};
 

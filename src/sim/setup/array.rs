@@ -78,6 +78,15 @@ impl ArraySetup {
         self.pixels().map_or([0.0, 0.0, 1.0], |pixels| pixels.sight(row, column))
     }
 
+    /// Returns the part that the pixels of a column have in common: with the chain of its TDC.
+    pub fn column(&self, column: usize) -> Setup {
+        let common = self.common.clone();
+        match self.common.pixel_files.columns.get(column) {
+            Some(own) => common.with_column(own),
+            None => common,
+        }
+    }
+
     /// Returns the setup of a pixel. Its random streams have a seed of their own, by row and column, and those that it shares
     /// with its row a seed of the row: the first 64 bits of the streams [`Source::Pixel`] and [`Source::Row`], of which 63
     /// count.
@@ -85,7 +94,7 @@ impl ArraySetup {
         let Some(budgets) = &self.budgets else { return self.common.clone() };
         let (common, [_, columns]) = (&self.common, self.size());
         let (scenario, place) = (&common.scenario, row * columns + column);
-        let PixelFiles { offsets_ps, columns: own, measured } = &*common.pixel_files;
+        let PixelFiles { offsets_ps, measured, .. } = &*common.pixel_files;
         let offset_ps = offsets_ps.get(place).copied().unwrap_or_default();
         let budget = budgets.of(scenario, common.budget.pulse.clone(), place, offset_ps);
         let is_alone = scenario.array.count() == 1;
@@ -101,11 +110,7 @@ impl ArraySetup {
             let (pixel, row) = (seed(Source::Pixel, number), seed(Source::Row, row));
             (dark, Seeds { pixel, row })
         };
-        let setup = match own.get(column) {
-            Some(own) => common.clone().with_column(own),
-            None => common.clone(),
-        };
-        setup.with_light(budget.with_dark_rates(&dark), dark, seeds)
+        self.column(column).with_light(budget.with_dark_rates(&dark), dark, seeds)
     }
 }
 

@@ -6,7 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 use tofsim::error::{Error, Input, Result, tell};
+use tofsim::note::Note;
+use tofsim::scenario::Loaded;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
+use tofsim_learn::estimation::notes::notes_of_firmware;
 
 use crate::choice::seed;
 
@@ -21,12 +25,13 @@ const PROGRAM: &str = "tofsim-serve";
 /// Serve the acquisition computer as a web page on this computer, for a simulated run or a board
 ///
 /// The page shows control signals, which act on the running model; the histogram by cause; the depths and their
-/// bound; the scene; a logic analyser; and the waveform of a shot. The command prints its URL, which contains a
+/// bound; the scene; a logic analyser; and the waveform of a shot. Of an array, it shows the depth image. The command prints its URL, which contains a
 /// secret, and runs until Ctrl-C.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim serve\n  \
     tofsim serve far -s target.reflectance=0.6 --fidelity shot --port 8080\n  \
+    tofsim serve array              depth images, one after the other\n  \
     tofsim serve -s tdc.recalibrate_frames=64 --board /dev/ttyUSB0")]
 pub struct Args {
     #[command(flatten)]
@@ -34,9 +39,9 @@ pub struct Args {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", value_parser = seed())]
     seed: Option<u64>,
-    /// Simulation fidelity; the frames are the same
-    #[arg(long, value_enum, default_value_t = Way::Cycle)]
-    fidelity: Way,
+    /// Simulation fidelity; cycle and shot give identical frames [default: cycle, and histogram for an array]
+    #[arg(long, value_enum)]
+    fidelity: Option<Way>,
     /// Port on 127.0.0.1; 0 selects a free one
     #[arg(long, value_name = "N", default_value_t = 0)]
     port: u16,
@@ -52,7 +57,7 @@ pub struct Args {
     /// Accept a board that was built with other parameters than those of the scenario
     #[arg(long, requires = "board")]
     any_parameters: bool,
-    /// Largest number of frames per second
+    /// Largest number of frames, or of images, per second
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rate: u32,
     /// Wait for Start to be pressed before the first frame
@@ -70,6 +75,8 @@ enum Way {
     Cycle,
     /// Skips idle cycles; causes are expected values
     Shot,
+    /// Draws each frame's histogram; for arrays only
+    Histogram,
 }
 
 /// Runs the command.
@@ -79,8 +86,7 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
             `cargo install --path crates/cli` and `cargo install --path crates/serve`";
         return Err(Input::new("serve", expected).into());
     }
-    let setup = Setup::new(args.scenario.load(args.seed)?)?;
-    console.print_notes(&setup.notes()?)?;
+    console.print_notes(&args.notes(args.scenario.load(args.seed)?)?)?;
     let program = program()?;
     if !program.is_file() {
         tell(format_args!("tofsim: {} is missing: {}", program.display(), advice(&program)));
@@ -91,17 +97,24 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
 }
 
 impl Args {
+    /// Checks the scenario, and returns the notes on its results.
+    fn notes(&self, loaded: Loaded) -> Result<Vec<Note>> {
+        if self.board.is_some() || loaded.scenario.array.count() == 1 {
+            return Setup::new(loaded)?.notes();
+        }
+        let array = ArraySetup::new(loaded)?;
+        Ok([array.notes()?, notes_of_firmware(array.common())].concat())
+    }
+
     /// Returns the options of the program.
     fn words(&self, console: &Console) -> Vec<String> {
-        let fidelity = match self.fidelity {
+        let fidelity = self.fidelity.map(|fidelity| match fidelity {
             Way::Cycle => "cycle",
             Way::Shot => "shot",
-        };
-        let mut words = vec![
-            format!("--fidelity={fidelity}"),
-            format!("--port={}", self.port),
-            format!("--rate={}", self.rate),
-        ];
+            Way::Histogram => "histogram",
+        });
+        let mut words: Vec<_> = fidelity.iter().map(|word| format!("--fidelity={word}")).collect();
+        words.extend([format!("--port={}", self.port), format!("--rate={}", self.rate)]);
         words.extend(self.scenario.set.iter().map(|set| format!("--set={set}")));
         words.extend(self.seed.map(|seed| format!("--seed={seed}")));
         words.extend(self.board.iter().map(|port| format!("--board={port}")));

@@ -18,6 +18,11 @@ pub async fn state(State(shared): State<Shared>) -> Response {
     ask(&shared, Request::State).await
 }
 
+/// Returns the last image.
+pub async fn image(State(shared): State<Shared>) -> Response {
+    ask(&shared, Request::Image).await
+}
+
 /// Starts, stops, runs a number of frames, or restarts at power-up.
 pub async fn run(State(shared): State<Shared>, body: Bytes) -> Response {
     read(&shared, "run", &body, Request::Run).await
@@ -53,8 +58,8 @@ async fn read<T: DeserializeOwned>(
 /// Sends a request to the simulating thread, and returns its answer.
 pub async fn ask(shared: &Shared, request: Request) -> Response {
     match shared.engine.ask(request).await {
-        Ok(Reply::State(state)) => {
-            ([(CONTENT_TYPE, "application/json")], state.to_string()).into_response()
+        Ok(Reply::State(json) | Reply::Image(json)) => {
+            ([(CONTENT_TYPE, "application/json")], json.to_string()).into_response()
         }
         Ok(Reply::File(file)) => attachment(&file),
         Err(RequestError::Refused(error)) => fault(StatusCode::BAD_REQUEST, &error.to_string()),

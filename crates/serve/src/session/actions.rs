@@ -48,7 +48,7 @@ impl Session {
     fn power_up(&mut self) -> Result<()> {
         let setup = self.setup_now()?;
         let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
-        self.live = Live::new(Arc::clone(&setup), self.options.fidelity.stepping());
+        self.live = Live::new(Arc::clone(&setup), self.fidelity.stepping());
         (self.now, self.next, self.origin) = (instrument, None, setup);
         (self.changes, self.exact, self.mixed) = (Vec::new(), true, false);
         (self.frame, self.finished, self.fault) = (None, None, None);

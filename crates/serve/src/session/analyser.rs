@@ -16,6 +16,7 @@ use tofsim_captures::ila::setup::AnalyserSetupFile;
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, capture_live};
 
 use super::request::IlaRequest;
+use super::shell::quoted;
 
 /// Cycles from arming to the first sample, more than the largest number of input stages.
 const AHEAD: u64 = 16;
@@ -264,14 +265,4 @@ fn command(set_up: &AnalyserSetup, frames: u64, setup: &Setup) -> String {
     words.push(format!("--arm-at-us {} --frames {frames}", file.arm_at_us));
     words.push("--stop-when-full -o ila".to_owned());
     words.join(" ")
-}
-
-/// Quotes a word for a shell.
-fn quoted(text: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
-    if text.chars().all(is_plain) {
-        text.to_owned()
-    } else {
-        format!("'{}'", text.replace('\'', "'\\''"))
-    }
 }

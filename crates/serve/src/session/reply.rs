@@ -9,6 +9,8 @@ use super::file::File;
 pub enum Reply {
     /// The state as JSON.
     State(Arc<str>),
+    /// An image as JSON.
+    Image(Arc<str>),
     /// A file to save.
     File(File),
 }

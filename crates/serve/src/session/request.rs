@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use tofsim::WaveFormat;
-use tofsim::error::{Input, Result};
+use tofsim::error::{Error, Input, Result};
 use tofsim::firmware::tof_top::Pins;
 use tofsim::kernel::U;
 use tofsim::scenario::{Control, QuenchMode};
@@ -38,6 +38,8 @@ pub enum Request {
     },
     /// Return the run so far as a scenario.
     Scenario,
+    /// Return the last image with its pixels.
+    Image,
     /// Return the state.
     State,
 }
@@ -139,6 +141,12 @@ pub fn changed(pins: &Pins, change: &Control) -> Pins {
         dsp_rst: change.dsp_rst.unwrap_or(pins.dsp_rst),
         ..*pins
     }
+}
+
+/// Returns the error that a single pixel has no image.
+pub fn no_image() -> Error {
+    let expected = "expected a scenario with several pixels (array.rows, array.columns)";
+    Input::new("image", expected).into()
 }
 
 /// Request to the logic analyser.

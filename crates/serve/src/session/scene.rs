@@ -79,15 +79,15 @@ pub struct Slider {
     zero_is_far: bool,
 }
 
-/// Returns the sliders of a scene.
-pub fn sliders(setup: &Setup) -> Vec<Slider> {
+/// Returns the sliders of a scene, for the histogram of a setup.
+pub fn sliders(setup: &Setup, scene: &Scenario) -> Vec<Slider> {
     let window_m =
         setup.bins().spans().last().map_or(1.0, |span| span.until.seconds()) * LIGHT_M_S / 2.0;
     let slider = |key: &Key| {
         let [least, most, step] = key.range;
         let most = if key.key == DISTANCE { (window_m * 20.0).floor() / 20.0 } else { most };
         let (key, label, unit, zero_is_far) = (key.key, key.label, key.unit, key.zero_is_far);
-        let value = (of(key))(&setup.scenario);
+        let value = (of(key))(scene);
         Slider { key, label, unit, value, least, most, step, zero_is_far }
     };
     KEYS.iter().map(slider).collect()

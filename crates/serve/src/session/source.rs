@@ -1,4 +1,4 @@
-//! Sources of frames: a simulated run, or a board.
+//! Sources of frames: a simulated run, images of an array, or a board.
 
 use std::sync::Arc;
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::firmware::frame_ctrl::State;
 use tofsim::firmware::tof_top::Pins;
 use tofsim::optics::budget::LIGHT_M_S;
@@ -33,7 +33,7 @@ impl Session {
             version: self.version,
             scenario: &self.origin.name,
             seed: self.origin.scenario.seed,
-            fidelity: self.options.fidelity.name(),
+            fidelity: self.fidelity.name(),
             board: None,
             hash: &setup.hash(),
             running: self.running,
@@ -45,7 +45,7 @@ impl Session {
                 .origin
                 .has_pairs()
                 .then_some("firmware.dark_frames switches the laser from frame to frame"),
-            scene: scene::sliders(setup),
+            scene: scene::sliders(setup, &setup.scenario),
             scene_coming: scene::differ(setup, &self.now.setup),
             scene_fixed: self.scene_fixed(),
             frame: self.frame.as_ref(),
@@ -113,10 +113,6 @@ impl Session {
 
     /// Returns the setup with the present scene and control signals.
     pub(super) fn setup_now(&self) -> Result<Arc<Setup>> {
-        if self.options.load(&[])? != self.base {
-            let expected = "the file has changed since the start: start again to have it as it is";
-            return Err(Input::new("scenario", expected).value(&self.options.scenario).into());
-        }
         let (base, pins) = (&self.base.scenario.firmware, &self.pins);
         let mut further = scene::overrides(&self.scene);
         let mut switch = |key: &str, value: u64, base: u64, is_flag: bool| {
@@ -133,7 +129,7 @@ impl Session {
         }
         switch("dsp_en", pins.dsp_en.into(), base.dsp_en.into(), true);
         switch("dsp_rst", pins.dsp_rst.into(), base.dsp_rst.into(), true);
-        Ok(Arc::new(Setup::new(self.options.load(&further)?)?))
+        Ok(Arc::new(Setup::new(self.options.reload(&self.base, &further)?)?))
     }
 }
 

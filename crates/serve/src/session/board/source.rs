@@ -9,7 +9,7 @@ use tofsim::optics::budget::LIGHT_M_S;
 
 use super::super::analyser::Ila;
 use super::super::reply::Reply;
-use super::super::request::Request;
+use super::super::request::{Request, no_image};
 use super::super::source::Source;
 use super::super::view::{BinsView, ControlView, ProgressView, SCHEMA, TimeView, View};
 use super::BoardSession;
@@ -77,6 +77,7 @@ impl Source for BoardSession {
             Request::Run(request) => self.run(&request)?,
             Request::Control(request) => self.control(&request)?,
             Request::State => {}
+            Request::Image => return Err(no_image()),
             Request::Scene(_) => {
                 return refused("scene", "the scene is the one in front of the board");
             }

@@ -55,7 +55,7 @@ fn inputs(promise: &Promise, rtl: &Rtl) -> Result<Inputs> {
         .text("script", prove::script(promise, promise.expected, properties.steps))
         .text("options", format!("{:?}", rtl.options))
         .verilog(properties.module, &property)
-        .text(program.name, program.text);
+        .text(&program.name, program.text);
     for source in rtl.needed(properties.text)? {
         let name = source.path.file_name().unwrap_or_default().to_string_lossy();
         inputs = inputs.verilog(&name, &fs::read_to_string(&source.path).unwrap());
