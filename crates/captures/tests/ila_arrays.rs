@@ -11,7 +11,7 @@ use tofsim_captures::ila::{
 };
 
 fn array(set: &[&str]) -> ArraySetup {
-    let short = ["firmware.shots_per_frame=160", "array.rows=1"];
+    let short = ["firmware.shots_per_frame=220", "array.rows=1"];
     let set: Vec<_> = short.iter().chain(set).map(|set| (*set).to_owned()).collect();
     ArraySetup::new(scenario::load("bright", &set).unwrap()).unwrap()
 }
@@ -51,11 +51,12 @@ fn an_array_of_one_pixel_is_captured_as_the_pixel() {
         "frame_ctrl.state",
         "clk_sys",
     ];
+    // From the first edge on: an array shows what its wires do between lock and that edge with the edge.
     let heads = [
         "clock = \"clk_sys\"",
         "clock = \"clk_laser\"\ntrigger = \"tdc_stop rising\"\narm_at_us = 3.1",
-        "clock = \"100MHz + 250ps\"\ntrigger = \"tdc_valid == 1\"\ninput_stages = 3",
-        "clock = \"clk_in\"\nwindows = 4\ntrigger = \"start rising\"",
+        "clock = \"100MHz + 250ps\"\ntrigger = \"tdc_valid == 1\"\ninput_stages = 3\narm_at_us = 1.1",
+        "clock = \"clk_in\"\nwindows = 4\ntrigger = \"start rising\"\narm_at_us = 1.1",
         "clock = \"clk_sys\"\ncapture = \"tdc_valid == 1\"\nposition = 0",
     ];
     for probes_clk_in in [false, true] {
