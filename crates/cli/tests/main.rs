@@ -16,6 +16,7 @@ mod compare;
 mod conditions;
 mod control;
 mod dataset;
+mod dataset_array;
 mod dpi;
 mod drift_note;
 mod edges;

@@ -249,6 +249,7 @@ impl Args {
             reflectance: grid.reflectances.middle(),
             irradiance_w_m2_nm: grid.irradiances_w_m2_nm.middle(),
             setting,
+            pixel: 0,
         };
         let (loaded, source) = (&scenes.loaded[setting], &scenes.source);
         let check = |scene| CrossCheck::new(loaded, source, &scene, self.check, stop);

@@ -60,6 +60,7 @@ impl Origin {
             });
         }
         let scenes = Scenes::new(&args.grid, &args.set, GridPurpose::Training, load)?;
+        scenes.check_single("training over a grid")?;
         if matches!(scenes.option, GridOption::ThesisOf(_)) {
             let expected =
                 "expected thesis, which has a grid for training and one for tests, or KEY=...";

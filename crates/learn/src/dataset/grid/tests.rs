@@ -15,7 +15,7 @@ fn the_grids_are_those_of_the_thesis() {
             distance_m,
             reflectance,
             irradiance_w_m2_nm,
-            setting: 0,
+            ..Scene::default()
         };
         assert_eq!(grid.scene(0), scene(0.1, 0.08, 0.0));
         assert_eq!(grid.scene(4), grid.scene(0));
@@ -36,7 +36,7 @@ fn what_an_own_grid_does_not_have_is_the_scenario_s() {
         distance_m: 0.7,
         reflectance: target.reflectance,
         irradiance_w_m2_nm: ambient.irradiance_w_m2_nm,
-        setting: 0,
+        ..Scene::default()
     };
     assert_eq!(grid.scene(9), scene);
     assert_eq!(grid.ranges()[0], ("target.distance_m", [0.2, 0.7]));
