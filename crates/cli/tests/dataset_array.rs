@@ -238,7 +238,7 @@ fn what_an_array_does_not_have_is_refused_and_leaves_nothing() {
 #[test]
 fn training_over_a_grid_takes_single_pixels_only() {
     let folder = empty();
-    let args = ["train", "--scenario", "array", "-o", "out"];
+    let args = ["train", "array", "-o", "out"];
     let error = refused(folder.path(), &args);
     assert!(error.contains("array.rows = 40") && error.contains("single pixels"), "{error}");
 }

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::dataset::Scene;
+
 use super::errors::{EstimatorErrors, Evaluation};
 use super::images::{ImageDepths, PixelDepths, RadialDepth};
 use super::spread::Spread;
@@ -102,7 +104,7 @@ pub fn images(
 }
 
 impl SceneImages {
-    fn of(scene: &crate::dataset::Scene) -> Self {
+    fn of(scene: &Scene) -> Self {
         SceneImages {
             setting: scene.setting,
             reflectance: scene.reflectance,
@@ -140,7 +142,6 @@ impl SceneImages {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::Scene;
 
     /// Two pixels, of which the second has no distance, with two histograms in each of two settings.
     fn evaluation() -> (Evaluation, EstimatorErrors) {

@@ -178,10 +178,8 @@ mod tests {
     #[test]
     fn a_depth_flies_between_the_surfaces_of_pixel_and_neighbours() {
         let depth = |radial_m| Some(RadialDepth { radial_m, sigma_m: None });
-        let pixel = |true_m, radial_m| PixelDepths {
-            true_m: Some(true_m),
-            depths: vec![depth(radial_m)],
-        };
+        let pixel =
+            |true_m, radial_m| PixelDepths { true_m: Some(true_m), depths: vec![depth(radial_m)] };
         // Two rows of three: the surfaces differ between the columns 0 and 1.
         let near_and_far = |at: f64| {
             vec![
