@@ -13,11 +13,11 @@ use tofsim::optics::BinProbabilities;
 use tofsim::scenario;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::setup::array::ArraySetup;
-use tofsim_learn::dataset::{Axis, Grid, GridPurpose, HistogramSource, Rows};
+use tofsim_learn::dataset::{Grid, GridPurpose, HistogramSource, Rows};
 
 use crate::common::{empty, files, json, output, refused, stdout};
 
-/// An array of 2 x 3 pixels that look at a tilted plane, whose corners see past it.
+/// An array of 2 x 3 pixels that look at a tilted plane, whose sides see past it.
 const SMALL: [&str; 18] = [
     "kc705",
     "-s",
@@ -29,7 +29,7 @@ const SMALL: [&str; 18] = [
     "-s",
     "target.length_m=0.5",
     "-s",
-    "target.width_m=0.1",
+    "target.width_m=0.04",
     "-s",
     "target.tilt_deg=35",
     "-s",

@@ -102,7 +102,7 @@ fn images_have_the_statistics_of_a_sweep() {
 fn the_pixels_of_a_dataset_are_read_from_both_formats() {
     let folder = empty();
     let sizes = &SMALL[..10];
-    let dark = ["-s", "target.width_m=0.1", "-s", "estimator.kind=likelihood"];
+    let dark = ["-s", "target.width_m=0.04", "-s", "estimator.kind=likelihood"];
     let more = ["--repeats", "3", "--format", "npy,parquet", "-o", "both", "kc705"];
     let sizes = [&sizes[..6], &sizes[8..]].concat();
     stdout(folder.path(), &[&["dataset"], &sizes[..], &dark, &more].concat());
@@ -117,7 +117,7 @@ fn the_pixels_of_a_dataset_are_read_from_both_formats() {
     let counts = table[0]["by_pixel"].as_array().unwrap().iter();
     let counts =
         counts.map(|of| of["estimates"].as_u64().unwrap() + of["failures"].as_u64().unwrap());
-    // The corners see past the target, and have no distance.
+    // The sides see past the target, and have no distance.
     assert_eq!(counts.collect::<Vec<_>>(), [0, 3, 0, 0, 3, 0]);
     assert_eq!(table[0]["images"][0]["images"], 3);
 }

@@ -5,7 +5,7 @@ use plotters::style::{BLACK, RED};
 use tofsim::error::Result;
 use tofsim_learn::dataset::Grid;
 use tofsim_learn::dataset::axis::thinned;
-use tofsim_learn::evaluation::{Figures, Group, PixelSpread, Spread, thesis};
+use tofsim_learn::evaluation::{Figures, Group, Spread, thesis};
 
 use super::box_plot::{BoxPlot, Limit, Series};
 use super::curves::{Curve, curves};
@@ -29,8 +29,8 @@ pub fn groups(figures: &[Figures]) -> String {
 
 /// Returns a row for each estimator and pixel of an array.
 pub fn pixels(figures: &[Figures]) -> String {
-    let of_each = |one: &'_ Figures| one.by_pixel.iter().map(|of| (one.name, of)).collect();
-    let rows: Vec<(&str, &PixelSpread)> = figures.iter().flat_map::<Vec<_>, _>(of_each).collect();
+    let of_each = figures.iter().map(|one| one.by_pixel.iter().map(move |of| (one.name, of)));
+    let rows: Vec<_> = of_each.flatten().collect();
     let sheet = Sheet::of(&rows)
         .column("estimator", Shortest, |(name, _)| *name)
         .column("pixel_row", Shortest, |(_, of)| of.row as u64)
@@ -52,8 +52,8 @@ pub fn scenes(figures: &[Figures], grid: Option<&Grid>) -> String {
     let places = figures.first().map_or(&[][..], |one| &one.by_pixel);
     if !places.is_empty() {
         sheet = sheet
-            .column("pixel_row", Shortest, |(_, of)| places[of.scene.pixel].row as u64)
-            .column("pixel_column", Shortest, |(_, of)| places[of.scene.pixel].column as u64);
+            .column("pixel_row", Shortest, move |(_, of)| places[of.scene.pixel].row as u64)
+            .column("pixel_column", Shortest, move |(_, of)| places[of.scene.pixel].column as u64);
     }
     let setting = |setting| grid.map_or(Vec::new(), |grid| grid.setting(setting));
     for (k, (key, _)) in setting(0).into_iter().enumerate() {
