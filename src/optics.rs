@@ -2,6 +2,7 @@
 
 mod air;
 pub mod budget;
+pub mod camera;
 pub mod cause_parts;
 pub mod chances;
 pub mod closed_form;
@@ -19,6 +20,7 @@ mod spread;
 pub mod variation;
 
 pub use budget::Budget;
+pub use camera::Camera;
 pub use chances::Chances;
 pub use closed_form::{BinProbabilities, Bins};
 pub use hazard::{Cause, Hazard};

@@ -215,6 +215,13 @@ impl Budget {
         self.mean_arrival - self.delay
     }
 
+    /// Returns the mean distance of what returns the laser's light, along the lines of sight; `None` if nothing does
+    /// [m].
+    pub fn mean_radial_m(&self) -> Option<f64> {
+        let returns = self.signal_per_shot + self.retro_per_shot > 0.0;
+        returns.then(|| self.flight().seconds() * LIGHT_M_S / 2.0)
+    }
+
     /// Returns the rate of avalanches from ambient light and dark counts [1/s].
     pub fn background_rate_hz(&self) -> f64 {
         self.ambient_light_hz() + self.dark_rate_hz

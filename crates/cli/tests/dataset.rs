@@ -57,7 +57,7 @@ fn arrays(folder: &Path) -> Vec<Sample> {
 
 fn scene(truth: &[f64]) -> Scene {
     let &[distance_m, reflectance, irradiance_w_m2_nm] = truth else { panic!("{truth:?}") };
-    Scene { distance_m, reflectance, irradiance_w_m2_nm, setting: 0 }
+    Scene { distance_m, reflectance, irradiance_w_m2_nm, ..Scene::default() }
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn spread(
         distance_m: scenario.target.distance_m,
         reflectance: scenario.target.reflectance,
         irradiance_w_m2_nm: scenario.ambient.irradiance_w_m2_nm,
-        setting: 0,
+        ..Scene::default()
     };
     let codes = source.probabilities(&scene);
     let errors_m = rows.map(|row| {

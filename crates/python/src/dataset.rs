@@ -10,7 +10,7 @@ use serde_json::json;
 
 use tofsim::error::{Input, poll_stop};
 use tofsim_cli::verbs::scenes::Scenes;
-use tofsim_learn::dataset::grid::{DISTANCE, IRRADIANCE, MOST_ROWS, REFLECTANCE};
+use tofsim_learn::dataset::grid::MOST_ROWS;
 use tofsim_learn::dataset::{BLOCK, Grid, GridPurpose, Rows, Sample, Subset};
 
 use crate::arrays::table;
@@ -162,16 +162,17 @@ impl Dataset {
         found.set_item("histograms", self.counts_of(py, &samples)?)?;
         let rows = samples.iter().map(|sample| sample.row).collect();
         found.set_item("row", PyArray1::<u64>::from_vec(py, rows))?;
-        let column = |of: &dyn Fn(&Sample) -> f64| {
-            PyArray1::<f64>::from_vec(py, samples.iter().map(of).collect())
-        };
-        found.set_item(DISTANCE, column(&|sample| sample.scene.distance_m))?;
-        found.set_item(REFLECTANCE, column(&|sample| sample.scene.reflectance))?;
-        found.set_item(IRRADIANCE, column(&|sample| sample.scene.irradiance_w_m2_nm))?;
         let grid = self.drawn.rows.grid();
-        for (place, axis) in grid.others.iter().enumerate() {
-            let value = |sample: &Sample| grid.setting(sample.scene.setting)[place].1;
-            found.set_item(&axis.key, column(&value))?;
+        let values: Vec<_> = samples.iter().map(|sample| grid.values(&sample.scene)).collect();
+        for (place, column) in grid.columns().into_iter().enumerate() {
+            let name = column.key.unwrap_or(column.name);
+            let numbers = values.iter().map(|of_row| of_row[place]);
+            if column.is_index {
+                let indices = numbers.map(|index| index as u64).collect();
+                found.set_item(name, PyArray1::<u64>::from_vec(py, indices))?;
+            } else {
+                found.set_item(name, PyArray1::<f64>::from_vec(py, numbers.collect()))?;
+            }
         }
         Ok(found)
     }

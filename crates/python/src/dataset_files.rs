@@ -6,7 +6,6 @@ use std::sync::{Mutex, PoisonError};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use tofsim::Setup;
 use tofsim::error::Input;
 use tofsim::files::folder::FolderLock;
 use tofsim_cli::choice::DATASET_FORMAT;
@@ -55,9 +54,9 @@ impl DatasetFiles {
             command.splice(place..place, words);
         }
         let (source, grid): (_, &Grid) = (&set.scenes.source, set.rows.grid());
-        let setup = Setup::of_counts(set.scenes.loaded[0].clone())?;
+        let setup = &set.scenes.setups[0];
         let about =
-            DatasetDescription::new(&setup, (&command, &wanted), source, &set.rows, set.seed);
+            DatasetDescription::new(setup, (&command, &wanted), source, &set.rows, set.seed);
         let held = FolderLock::take(&folder)?;
         let files = Files::create(&folder, &wanted, &about, grid)?;
         let begun = Mutex::new(Some(Begun { files, rows: 0, _held: held }));

@@ -7,7 +7,7 @@ use rand_chacha::rand_core::Rng;
 use crate::error::Result;
 use crate::firmware::tof_top::Params;
 use crate::optics::dark::DarkRates;
-use crate::optics::{Budget, PixelBudgets, Pixels};
+use crate::optics::{Budget, Camera, PixelBudgets, Pixels};
 use crate::scenario::builtin::Source as FileSource;
 use crate::scenario::{Loaded, MOST_SEED, Scenario, dark, offsets};
 use crate::sensor::streams::{Seeds, Source, stream};
@@ -37,16 +37,29 @@ impl ArraySetup {
     /// # Errors
     /// When one of the files cannot be read or used, or the estimator is a network for another histogram.
     pub fn new(loaded: Loaded) -> Result<Self> {
+        let array = ArraySetup::of_counts(loaded)?;
+        array.common.check_estimator()?;
+        for own in &array.common.pixel_files.columns {
+            array.common.clone().with_column(own).check_estimator()?;
+        }
+        Ok(array)
+    }
+
+    /// Elaborates the same for histograms without depths: unlike [`ArraySetup::new`], it accepts a network for another
+    /// histogram.
+    ///
+    /// # Errors
+    /// When one of the files cannot be read or used.
+    pub fn of_counts(loaded: Loaded) -> Result<Self> {
         let files = loaded.files.clone();
         let Some(pixels) = Pixels::of(&loaded.scenario) else {
-            return Ok(ArraySetup { common: Setup::new(loaded)?, budgets: None });
+            return Ok(ArraySetup { common: Setup::of_counts(loaded)?, budgets: None });
         };
         let without_light = |scenario: &Scenario, pulse, _: Option<&_>| {
             let pulse_energy_j = scenario.laser.pulse_energy_j();
             Budget { pulse, pulse_energy_j, ..Budget::default() }
         };
         let mut common = Setup::elaborated(loaded, without_light)?;
-        common.check_estimator()?;
         let pixel_files = PixelFiles {
             offsets_ps: offsets::load(&common.scenario, &files)?,
             columns: common.columns(&files)?,
@@ -65,6 +78,12 @@ impl ArraySetup {
     /// Returns the directions of the pixels; `None` for a single one that sees a cone.
     pub fn pixels(&self) -> Option<&Pixels> {
         self.budgets.as_ref().map(PixelBudgets::pixels)
+    }
+
+    /// Returns the pixels as a camera; `None` for a single one that sees a cone.
+    pub fn camera(&self) -> Option<Camera> {
+        let distortion = self.common.scenario.array.distortion;
+        self.pixels().map(|pixels| Camera::of(pixels, distortion))
     }
 
     /// Returns the number of rows and of columns.
@@ -92,26 +111,57 @@ impl ArraySetup {
     /// count.
     pub fn pixel(&self, row: usize, column: usize) -> Setup {
         let Some(budgets) = &self.budgets else { return self.common.clone() };
-        let (common, [_, columns]) = (&self.common, self.size());
-        let (scenario, place) = (&common.scenario, row * columns + column);
-        let PixelFiles { offsets_ps, measured, .. } = &*common.pixel_files;
-        let offset_ps = offsets_ps.get(place).copied().unwrap_or_default();
-        let budget = budgets.of(scenario, common.budget.pulse.clone(), place, offset_ps);
-        let is_alone = scenario.array.count() == 1;
-        let (dark, seeds) = if is_alone {
-            (common.dark.clone(), scenario.seed.into())
+        let scenario = &self.common.scenario;
+        let seeds = if scenario.array.count() == 1 {
+            scenario.seed.into()
         } else {
-            let measured = measured.as_ref().and_then(|rates| rates.rate(row, column));
-            let number = row * MOST_COLUMNS + column;
-            let dark = DarkRates::of_pixel(&scenario.spad, measured, number);
             let seed = |source, number: usize| {
                 stream(scenario.seed, source, number as u64).next_u64() & MOST_SEED
             };
-            let (pixel, row) = (seed(Source::Pixel, number), seed(Source::Row, row));
-            (dark, Seeds { pixel, row })
+            Seeds { pixel: seed(Source::Pixel, number(row, column)), row: seed(Source::Row, row) }
         };
-        self.column(column).with_light(budget.with_dark_rates(&dark), dark, seeds)
+        let (budget, dark) = self.light(budgets, scenario, [row, column]);
+        self.column(column).with_light(budget, dark, seeds)
     }
+
+    /// Returns the budget of a pixel that sees white surfaces in an irradiance of 1 W/m^2/nm, from which
+    /// [`Budget::of_white`] makes others.
+    pub fn white(&self, row: usize, column: usize) -> Budget {
+        let mut scenario = self.common.scenario.clone();
+        (scenario.target.reflectance, scenario.ambient.irradiance_w_m2_nm) = (1.0, 1.0);
+        match &self.budgets {
+            Some(budgets) => self.light(budgets, &scenario, [row, column]).0,
+            None => {
+                let (pulse, mesh) = (self.common.budget.pulse.clone(), self.common.mesh.as_deref());
+                Budget::of_scene(&scenario, pulse, mesh).with_dark_rates(&self.common.dark)
+            }
+        }
+    }
+
+    /// Returns the budget and the dark count rates of a pixel, in the light of a scenario.
+    fn light(
+        &self,
+        budgets: &PixelBudgets,
+        scenario: &Scenario,
+        [row, column]: [usize; 2],
+    ) -> (Budget, DarkRates) {
+        let (common, place) = (&self.common, row * self.size()[1] + column);
+        let PixelFiles { offsets_ps, measured, .. } = &*common.pixel_files;
+        let offset_ps = offsets_ps.get(place).copied().unwrap_or_default();
+        let budget = budgets.of(scenario, common.budget.pulse.clone(), place, offset_ps);
+        let dark = if scenario.array.count() == 1 {
+            common.dark.clone()
+        } else {
+            let measured = measured.as_ref().and_then(|rates| rates.rate(row, column));
+            DarkRates::of_pixel(&scenario.spad, measured, number(row, column))
+        };
+        (budget.with_dark_rates(&dark), dark)
+    }
+}
+
+/// Returns the number of a pixel, which does not depend on the size of its array.
+fn number(row: usize, column: usize) -> usize {
+    row * MOST_COLUMNS + column
 }
 
 impl Setup {
@@ -131,7 +181,6 @@ impl Setup {
             let column = Column { converter, edges: None };
             let setup = self.clone().with_column(&column);
             setup.check_fits()?;
-            setup.check_estimator()?;
             let shots = setup.params.frame_ctrl.shots_per_frame.into();
             let edges = setup.likelihood(shots).ok().map(|own| own.edges);
             Ok(Column { edges, ..column })

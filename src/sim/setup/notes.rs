@@ -31,8 +31,7 @@ impl Setup {
     /// Returns the mean distance of what returns the laser's light, along the lines of sight; `None` if nothing does
     /// [m].
     pub fn mean_radial_m(&self) -> Option<f64> {
-        let returns = self.budget.signal_per_shot + self.budget.retro_per_shot > 0.0;
-        returns.then(|| self.budget.flight().seconds() * LIGHT_M_S / 2.0)
+        self.budget.mean_radial_m()
     }
 
     /// Returns notes on depths outside of the model's validity: impossible ones, or else those outside of the

@@ -10,9 +10,7 @@ mod statistics;
 use serde_json::{Value, json};
 
 use tofsim::error::Result;
-use tofsim::optics::Pixels;
-use tofsim::sim::image::Pixel;
-use tofsim_studies::images::ends_and_median;
+use tofsim::sim::image::{Pixel, ends_and_median};
 
 use crate::text::table::{facts, fixed, grouped, number_or_dash};
 
@@ -28,26 +26,8 @@ pub use readings::{DepthImages, ImagePixel};
 
 impl DepthImages<'_> {
     fn statistics(&self) -> Vec<ImageStatistics> {
-        (0..self.images as usize).map(|image| ImageStatistics::of(self.image(image))).collect()
-    }
-
-    /// Returns what the pixels look at and how: as a pinhole camera of OpenCV, whose pixels have their middles at whole
-    /// numbers, and whose axes point to the right, down and forward.
-    fn geometry(&self) -> Option<Value> {
-        let (array, pixels) = (&self.array.common().scenario.array, self.array.pixels()?);
-        let Pixels { rows, columns, .. } = *pixels;
-        let [fx, fy] = pixels.focal_pixels();
-        let middle = |count: usize| (count as f64 - 1.0) / 2.0;
-        let [k1, k2] = array.distortion;
-        Some(json!({
-            "field_of_view_deg": pixels.field_of_view_deg(),
-            "axes": "x to the right, y down, z forward",
-            "fx": fx,
-            "fy": fy,
-            "cx": middle(columns),
-            "cy": middle(rows),
-            "distortion": [k1, k2, 0.0, 0.0],
-        }))
+        let depths = self.depths();
+        (0..self.images as usize).map(|image| ImageStatistics::of(&depths, image)).collect()
     }
 
     /// Returns the image rate of the firmware, if it can scan the array.
@@ -135,7 +115,7 @@ impl Findings for DepthImages<'_> {
             "estimator": setup.params.estimator.estimator(),
             "rows": rows,
             "columns": columns,
-            "geometry": self.geometry(),
+            "geometry": self.array.camera(),
             "firmware": self.firmware(),
             "waves": self.waves,
             "signal_hits": ends(self.signal_hits()),

@@ -29,7 +29,8 @@ impl View {
     /// When the thesis's instrument cannot be made.
     pub fn new(study: &Study, distance_m: f64, reflectance: f64, irradiance: f64) -> Result<Self> {
         let source = study.source()?;
-        let scene = Scene { distance_m, reflectance, irradiance_w_m2_nm: irradiance, setting: 0 };
+        let scene =
+            Scene { distance_m, reflectance, irradiance_w_m2_nm: irradiance, setting: 0, pixel: 0 };
         let codes = source.probabilities(&scene);
         Ok(View { scene, source, codes })
     }

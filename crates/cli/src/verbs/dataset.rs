@@ -10,7 +10,6 @@ use tofsim::Note;
 use tofsim::error::{Result, poll_stop};
 use tofsim::files::folder::FolderLock;
 use tofsim::scenario;
-use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
 use tofsim_learn::dataset::{Axis, DatasetDescription, Grid, GridPurpose, Sample};
 
@@ -27,12 +26,14 @@ use super::terminal::{Console, stop_signal};
 #[command(
     after_help = "By default, the scenes are those of the thesis: irradiance 0 to 0.4 W/m^2/nm in 9 \
     steps, reflectance 0.08 to 0.60 in 53, distance 0.1 to 0.6 m in 201 (train) or 51 (test), 5 histograms each. --grid \
-    KEY=... sets your own scenes; keys without --grid are those of the scenario.\n\nExamples:\n  \
+    KEY=... sets your own scenes; keys without --grid are those of the scenario. An array has a row for each pixel of \
+    each scene, by default of its own scene.\n\nExamples:\n  \
     tofsim dataset -o train                          479,385 histograms, Parquet\n  \
     tofsim dataset --grid test --seed 2 -o test      121,635 histograms\n  \
     tofsim dataset --rows 24000 --format npy -o few  random scenes\n  \
     tofsim dataset --profile my-chain.toml -o own    a measured chain\n  \
-    tofsim dataset --grid target.distance_m=0.05..0.9:0.05 -o far"
+    tofsim dataset --grid target.distance_m=0.05..0.9:0.05 -o far\n  \
+    tofsim dataset array --repeats 100 -o pixels     40 x 30 pixels, 100 histograms each"
 )]
 pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
@@ -65,13 +66,12 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Training, load)?;
     let notes = scenes.notes()?;
     console.print_notes(&notes)?;
-    let (source, loaded) = (&scenes.source, &scenes.loaded[0]);
-    let seed = loaded.scenario.seed;
-    let setup = Setup::of_counts(loaded.clone())?;
+    let (source, setup) = (&scenes.source, &scenes.setups[0]);
+    let seed = setup.scenario.seed;
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
     let rows = args.draws.rows(None, &grid, seed)?;
     let description =
-        DatasetDescription::new(&setup, (&console.command, &args.format), source, &rows, seed);
+        DatasetDescription::new(setup, (&console.command, &args.format), source, &rows, seed);
     let _held = FolderLock::take(&args.output)?;
     let files = DatasetFiles::create(&args.output, &args.format, &description, &grid)?;
     let stop = stop_signal();
@@ -136,10 +136,18 @@ impl Findings for DatasetFindings {
         let axes = description.axes.iter().flatten();
         let axes = axes.map(|Axis { key, text, .. }| ("", format!("{key} = {text}")));
         let files = self.files.iter().map(|file| ("file", file.clone()));
+        let array = description.array.iter();
+        let array = array.map(|of| ("array", format!("{} x {} pixels", of.rows, of.columns)));
         let (head, tail) = rows.split_at(3);
         format!(
             "{}\n",
-            facts(head.iter().cloned().chain(axes).chain(tail.iter().cloned()).chain(files))
+            facts(
+                array
+                    .chain(head.iter().cloned())
+                    .chain(axes)
+                    .chain(tail.iter().cloned())
+                    .chain(files)
+            )
         )
     }
 }

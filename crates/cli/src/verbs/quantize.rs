@@ -159,8 +159,9 @@ fn quantize(args: &Args, path: &Path, console: &Console) -> Result<()> {
 impl Args {
     fn explore(&self, network: Option<&str>, console: &Console) -> Result<()> {
         let load = |set: &[String]| self.draws.load_with(&self.scenario, network, set);
-        let Scenes { grid, setups, source, .. } =
-            Scenes::new(&[], &self.draws.set, GridPurpose::Test, load)?;
+        let scenes = Scenes::new(&[], &self.draws.set, GridPurpose::Test, load)?;
+        scenes.check_single("--explore")?;
+        let Scenes { grid, setups, source, .. } = scenes;
         let (setup, network) = (&setups[0], &setups[0].network);
         setup.check_network()?;
         let (seed, profile) = (setup.scenario.seed, &setup.scenario.tdc.profile);

@@ -52,9 +52,9 @@ impl HistogramSource {
         let mut codes = Last(None);
         let sample = |index| {
             let (row, scene) = rows.row(index);
-            let white = white.or((scene.distance_m, scene.setting), |_| self.white(&scene));
+            let white = white.or(scene.surfaces(), |_| self.white(&scene));
             let is_lit = self.is_lit_in(&scene);
-            let codes = codes.or(scene, |scene| self.probabilities_with(white, scene, is_lit));
+            let codes = codes.or(scene.key(), |_| self.probabilities_with(white, &scene, is_lit));
             let histogram = self.draw_from(codes, &scene, seed, row);
             Sample { seed, row, scene, histogram }
         };

@@ -2,8 +2,10 @@
 
 use serde::Serialize;
 
+use tofsim::optics::Camera;
 use tofsim::scenario::Scenario;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
 
 use super::axis::Axis;
 use super::format::DatasetFormat;
@@ -43,12 +45,33 @@ pub struct DatasetDescription {
     pub rows: u64,
     /// Seed of every random stream.
     pub seed: u64,
+    /// The pixels, of an array.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub array: Option<ArrayDescription>,
     /// Shots of a histogram; none where the grid has several numbers of them.
     pub shots_per_frame: Option<u32>,
     /// Columns with the scene of each histogram, of every file that has them.
     pub labels: Vec<Label>,
     /// All keys of the scenario; those of the grid are not used.
     pub settings: Scenario,
+}
+
+/// Pixels of a dataset, by row from the top, then column from the left.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ArrayDescription {
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// The camera that they are, as `tofsim image` states it.
+    pub geometry: Option<Camera>,
+}
+
+impl ArrayDescription {
+    fn of(array: &ArraySetup) -> Self {
+        let [rows, columns] = array.size();
+        ArrayDescription { rows, columns, geometry: array.camera() }
+    }
 }
 
 impl DatasetDescription {
@@ -80,6 +103,7 @@ impl DatasetDescription {
             subset: matches!(rows, Rows::Subset(_)),
             rows: rows.count(),
             seed,
+            array: source.array().map(ArrayDescription::of),
             shots_per_frame: source.shots_of_all(),
             labels: Label::list(formats, grid, rows.count(), settings.tdc.bins),
             settings: Scenario { seed, ..settings },

@@ -5,6 +5,7 @@ use tofsim::error::{Input, Result};
 use tofsim::scenario::Scenario;
 
 use super::axis::Axis;
+use super::grid_array::GridArray;
 
 /// Key of the distance, what an estimator is to find [m].
 pub const DISTANCE: &str = "target.distance_m";
@@ -13,13 +14,14 @@ pub const REFLECTANCE: &str = "target.reflectance";
 /// Key of the ambient light [W/m^2/nm].
 pub const IRRADIANCE: &str = "ambient.irradiance_w_m2_nm";
 
-/// Columns of the scenes, the first one necessary.
-pub(super) const TRUTH: [&str; 3] = ["distance_m", "reflectance", "irradiance_w_m2_nm"];
+/// Keys of the size of an array.
+const SIZES: [&str; 2] = ["array.rows", "array.columns"];
 
 /// Variable part of the scene; everything else is the scenario's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// Distance of the target, what an estimator is to find (`target.distance_m`) [m].
+    /// Distance of the target, what an estimator is to find (`target.distance_m`). That of a pixel of an array is its
+    /// true radial depth, and NaN where no light returns [m].
     pub distance_m: f64,
     /// Reflectance of the target (`target.reflectance`) [1].
     pub reflectance: f64,
@@ -27,6 +29,22 @@ pub struct Scene {
     pub irradiance_w_m2_nm: f64,
     /// Index of the values of the grid's other keys, from 0 ([`Grid::setting`]).
     pub setting: usize,
+    /// Index of the pixel by row, then column ([`GridArray::place`]); 0 of a single one.
+    pub pixel: usize,
+}
+
+impl Scene {
+    /// Returns a key that two scenes share if light comes to them from the same surfaces.
+    pub(crate) fn surfaces(&self) -> (u64, usize, usize) {
+        (self.distance_m.to_bits(), self.setting, self.pixel)
+    }
+
+    /// Returns a key that is each scene's own, also without a distance.
+    pub(crate) fn key(&self) -> (usize, usize, [u64; 3]) {
+        // The bits of numbers from 0 on are in the order of the numbers.
+        let numbers = [self.distance_m, self.reflectance, self.irradiance_w_m2_nm];
+        (self.setting, self.pixel, numbers.map(f64::to_bits))
+    }
 }
 
 /// Purpose of a custom grid; different purposes have independent random numbers.
@@ -40,13 +58,14 @@ pub enum GridPurpose {
 
 /// A grid of scenes, each repeated.
 ///
-/// The index counts repeats first, then reflectances, irradiances, the other keys and distances: rows
+/// The index counts repeats first, then pixels, reflectances, irradiances, the other keys and distances: rows
 /// of one scene are neighbours, and those of one distance are together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// The thesis's `train` or `test`, or `own`.
     pub name: &'static str,
-    /// Distances of the target [m].
+    /// Distances of the target [m]. The pixels of an array have distances of their own: several of the target are among
+    /// the other keys, and this one stands for nothing.
     pub distances_m: Axis,
     /// Spectral irradiances of the target [W/m^2/nm].
     pub irradiances_w_m2_nm: Axis,
@@ -54,6 +73,8 @@ pub struct Grid {
     pub reflectances: Axis,
     /// Other keys of the scenario, the last one changing fastest.
     pub others: Vec<Axis>,
+    /// Pixels of each scene, if there are several.
+    pub array: Option<GridArray>,
     /// Histograms of each scene [1].
     pub repeats: u64,
     /// Row number of index 0; no two grids share row numbers.
@@ -78,6 +99,7 @@ impl Grid {
             irradiances_w_m2_nm: Axis::steps(IRRADIANCE, 0, 5, 9, 100),
             reflectances: Axis::steps(REFLECTANCE, 8, 1, 53, 100),
             others: Vec::new(),
+            array: None,
             repeats: 5,
             first_row: 0,
         }
@@ -91,28 +113,41 @@ impl Grid {
     }
 
     /// Of axes of one's own; distance, reflectance and irradiance are the scenario's where no axis has
-    /// them.
+    /// them. Of an array, every scene has all pixels, whose distances are still to come
+    /// ([`GridArray::with_depths`]).
     ///
     /// # Errors
-    /// When two axes have the same key, or there are too many rows.
+    /// When two axes have the same key, one has the size of the array, or there are too many rows.
     pub fn own(axes: &[Axis], scenario: &Scenario, purpose: GridPurpose) -> Result<Self> {
         let same = |(k, axis): (usize, &Axis)| axes[..k].iter().any(|one| one.key == axis.key);
         if let Some(k) = axes.iter().enumerate().position(same) {
             return Err(Input::new("--grid", "expected each key once").field(&axes[k].key).into());
+        }
+        if let Some(axis) = axes.iter().find(|axis| SIZES.contains(&&*axis.key)) {
+            let expected = "expected no axis: the rows of a grid are the pixels of one array, whose size -s sets";
+            return Err(Input::new("--grid", expected).field(&axis.key).value(&axis.text).into());
         }
         let axis = |key, value| {
             let own = axes.iter().find(|axis| axis.key == key);
             own.cloned().unwrap_or_else(|| Axis::single(key, value))
         };
         let Scenario { target, ambient, .. } = scenario;
-        let others =
-            axes.iter().filter(|axis| ![DISTANCE, REFLECTANCE, IRRADIANCE].contains(&&*axis.key));
+        let array = GridArray::of(scenario);
+        let is_other = |axis: &&Axis| match &*axis.key {
+            DISTANCE => array.is_some(),
+            key => ![REFLECTANCE, IRRADIANCE].contains(&key),
+        };
+        let others = axes.iter().filter(is_other).cloned().collect();
         let grid = Grid {
             name: OWN,
-            distances_m: axis(DISTANCE, target.distance_m),
+            distances_m: match array {
+                Some(_) => Axis::single(DISTANCE, target.distance_m),
+                None => axis(DISTANCE, target.distance_m),
+            },
             irradiances_w_m2_nm: axis(IRRADIANCE, ambient.irradiance_w_m2_nm),
             reflectances: axis(REFLECTANCE, target.reflectance),
-            others: others.cloned().collect(),
+            others,
+            array,
             repeats: 5,
             first_row: match purpose {
                 GridPurpose::Training => 4 * ROWS,
@@ -157,22 +192,16 @@ impl Grid {
     /// All axes, those of a scene first.
     pub fn axes(&self) -> impl Iterator<Item = &Axis> {
         let scene = [&self.distances_m, &self.irradiances_w_m2_nm, &self.reflectances];
-        scene.into_iter().chain(&self.others)
+        let first = usize::from(self.array.is_some());
+        scene.into_iter().skip(first).chain(&self.others)
     }
 
-    /// Name and axis of each column that a dataset's files have of the scenes, in their order.
-    pub fn labels(&self) -> Vec<(&str, &Axis)> {
-        let scene = TRUTH.into_iter().zip([
-            &self.distances_m,
-            &self.reflectances,
-            &self.irradiances_w_m2_nm,
-        ]);
-        scene.chain(self.others.iter().map(|axis| (&*axis.key, axis))).collect()
-    }
-
-    /// The least and the largest value of each key of the scenario.
+    /// The least and the largest value of each key of the scenario. The distances of an array are those of its pixels.
     pub fn ranges(&self) -> Vec<(&str, [f64; 2])> {
-        self.axes().map(|axis| (&*axis.key, axis.range())).collect()
+        let ranges = self.axes().map(|axis| (&*axis.key, axis.range()));
+        let Some(array) = &self.array else { return ranges.collect() };
+        let others = ranges.filter(|(key, _)| *key != DISTANCE);
+        [(DISTANCE, array.range_m())].into_iter().chain(others).collect()
     }
 
     /// Number of rows.
@@ -180,14 +209,19 @@ impl Grid {
         self.scenes().saturating_mul(self.repeats)
     }
 
-    /// Number of scenes.
+    /// Number of scenes, each pixel's being one of them.
     pub fn scenes(&self) -> u64 {
         self.distances_m.count().saturating_mul(self.lights())
     }
 
     /// Number of scenes at a distance.
     pub fn lights(&self) -> u64 {
-        self.settings().saturating_mul(self.lights_of_a_setting())
+        self.settings().saturating_mul(self.lights_of_a_setting()).saturating_mul(self.pixels())
+    }
+
+    /// Number of pixels.
+    fn pixels(&self) -> u64 {
+        self.array.as_ref().map_or(1, |array| array.count() as u64)
     }
 
     fn lights_of_a_setting(&self) -> u64 {
@@ -219,17 +253,23 @@ impl Grid {
         self.scene_at(scene / self.lights(), scene % self.lights())
     }
 
-    /// A scene by the place of its distance and of its light, setting, irradiance and reflectance,
+    /// A scene by the place of its distance and of its light, setting, irradiance, reflectance and pixel,
     /// both from 0.
     pub fn scene_at(&self, distance: u64, light: u64) -> Scene {
+        let (light, pixel) = (light / self.pixels(), (light % self.pixels()) as usize);
         let (setting, light) =
             (light / self.lights_of_a_setting(), light % self.lights_of_a_setting());
-        let reflectances = self.reflectances.count();
+        let (setting, reflectances) = (setting as usize, self.reflectances.count());
+        let reflectance = self.reflectances.values[(light % reflectances) as usize];
         Scene {
-            distance_m: self.distances_m.values[distance as usize],
-            reflectance: self.reflectances.values[(light % reflectances) as usize],
+            distance_m: match &self.array {
+                Some(array) => array.depth_m(setting, pixel, reflectance),
+                None => self.distances_m.values[distance as usize],
+            },
+            reflectance,
             irradiance_w_m2_nm: self.irradiances_w_m2_nm.values[(light / reflectances) as usize],
-            setting: setting as usize,
+            setting,
+            pixel,
         }
     }
 }

@@ -57,6 +57,26 @@ impl GridOption {
         Ok(GridOption::Own(axes))
     }
 
+    /// The same for a scenario: without an option, the scene of an array is its own.
+    ///
+    /// # Errors
+    /// As [`GridOption::parse`], and when one of the thesis's grids is named for an array.
+    pub fn parse_for(options: &[String], scenario: &Scenario) -> Result<Self> {
+        let is_array = scenario.array.count() > 1;
+        if is_array && options.is_empty() {
+            return Ok(GridOption::Own(Vec::new()));
+        }
+        match GridOption::parse(options)? {
+            GridOption::Own(axes) => Ok(GridOption::Own(axes)),
+            _ if is_array => {
+                let expected = "expected KEY=... or no grid: the thesis's scenes are those of a single pixel, and \
+                    the scenario has an array";
+                Err(Input::new(OPTION, expected).value(options.join(" ")).into())
+            }
+            thesis => Ok(thesis),
+        }
+    }
+
     /// The keys that it overrides.
     pub fn keys(&self) -> Vec<&str> {
         match self {

@@ -4,17 +4,18 @@ use serde::Serialize;
 
 use tofsim::scenario::keys::keys;
 
-use super::axis::Axis;
 use super::format::DatasetFormat;
-use super::grid::Grid;
+use super::grid::{DISTANCE, Grid};
+use super::scene_columns::SceneColumn;
 
-/// A column with the true value of a key for each histogram.
+/// A column with a true value for each histogram, most of them of a key of the scenario.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Label {
     /// Name of the column.
     pub name: String,
-    /// Key of the scenario.
-    pub key: String,
+    /// Key of the scenario; none of the depth and the place of an array's pixel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub key: Option<String>,
     /// Unit of the values; `1` of ratios and counts.
     pub unit: String,
     /// Name of the file in the dataset's folder.
@@ -28,24 +29,25 @@ pub struct Label {
 impl Label {
     /// Lists the labels of a grid's histograms, in the order of the columns, for each format in turn.
     pub(super) fn list(formats: &[DatasetFormat], grid: &Grid, rows: u64, bins: u64) -> Vec<Self> {
-        let names = grid.labels();
+        let columns = grid.columns();
         let known = keys();
-        let unit = |key: &str| {
+        let unit = |column: &SceneColumn| {
+            let key = column.key.unwrap_or(if column.is_index { "" } else { DISTANCE });
             let schema = known.iter().find(|(known, _)| known == key);
             schema.and_then(|(_, schema)| schema["unit"].as_str()).unwrap_or("1").to_owned()
         };
         let of_format = |format: &DatasetFormat| {
             let (file, before, after) = format.labels(bins);
-            let shape = [rows, before + names.len() as u64 + after];
-            let label = |(index, (name, axis)): (usize, &(&str, &Axis))| Label {
-                name: (*name).to_owned(),
-                key: axis.key.clone(),
-                unit: unit(&axis.key),
+            let shape = [rows, before + columns.len() as u64 + after];
+            let label = |(index, column): (usize, &SceneColumn)| Label {
+                name: column.name.to_owned(),
+                key: column.key.map(str::to_owned),
+                unit: unit(column),
                 file,
                 column: before as usize + index,
                 shape,
             };
-            names.iter().enumerate().map(label).collect::<Vec<_>>()
+            columns.iter().enumerate().map(label).collect::<Vec<_>>()
         };
         formats.iter().flat_map(of_format).collect()
     }

@@ -12,10 +12,12 @@ use tofsim::scenario::Scenario;
 
 use super::files::DESCRIPTION;
 use super::format::{TABLE, TRUTH_ARRAY};
-use super::grid::{Scene, TRUTH};
+use super::grid::Scene;
 use super::npy::numbers;
 use super::parquet_columns::ParquetColumns;
 use super::parquet_input::is_parquet;
+use super::pixel_places;
+use super::scene_columns::TRUTH;
 
 /// Table, histograms and truth in the folder of a dataset.
 const FILES: [&str; 3] = [TABLE, "histograms.npy", TRUTH_ARRAY];
@@ -27,8 +29,11 @@ const KEY: &str = "tofsim.dataset";
 pub struct Labelled {
     /// Counts by bin [hits].
     pub histograms: Vec<Histogram>,
-    /// Scene of each histogram; reflectance and irradiance are 0 if they are unknown.
+    /// Scene of each histogram; reflectance and irradiance are 0 if they are unknown. Only a pixel of an array may have
+    /// no distance (NaN).
     pub scenes: Vec<Scene>,
+    /// Rows and columns of the array whose pixels they are, if the file has their places.
+    pub array: Option<[usize; 2]>,
     /// Whether reflectance and irradiance are known.
     pub knows_light: bool,
     /// Carry chain, if the file says so.
@@ -59,25 +64,29 @@ impl Labelled {
     pub fn read(path: &Path, truth: Option<&Path>, size: &Params) -> Result<Self> {
         let [table, arrays, own_truth] = FILES.map(|name| path.join(name));
         if path.is_dir() {
+            let description = path.join(DESCRIPTION);
+            let description = description.exists().then(|| read_text(&description)).transpose()?;
             let labelled = match (table.exists(), arrays.exists(), truth) {
                 (true, _, None) => parquet(&table, size)?,
-                (_, true, _) => of_arrays(&arrays, truth.unwrap_or(&own_truth), size)?,
+                (_, true, Some(truth)) => of_arrays(&arrays, truth, None, size)?,
+                (_, true, None) => {
+                    let places = description.as_deref().and_then(pixel_places::columns_by);
+                    of_arrays(&arrays, &own_truth, places, size)?
+                }
                 _ => {
                     let expected =
                         format!("expected {}, or {} and {} in it", FILES[0], FILES[1], FILES[2]);
                     return Err(Input::new(path.display(), expected).into());
                 }
             };
-            let description = path.join(DESCRIPTION);
-            return if description.exists() {
-                Ok(labelled.described(&read_text(&description)?))
-            } else {
-                Ok(labelled)
-            };
+            return Ok(match description {
+                Some(json) => labelled.described(&json),
+                None => labelled,
+            });
         }
         match (is_parquet(path)?, truth) {
             (true, None) => parquet(path, size),
-            (false, Some(truth)) => of_arrays(path, truth, size),
+            (false, Some(truth)) => of_arrays(path, truth, None, size),
             (true, Some(_)) => {
                 let expected = "expected none: a Parquet file has its column distance_m";
                 Err(Input::new("--truth", expected).into())
@@ -191,21 +200,32 @@ fn parquet(path: &Path, size: &Params) -> Result<Labelled> {
         let histograms = counts(path, columns, size)?;
         let names = columns.names();
         let knows_light = TRUTH[1..].iter().all(|name| names.iter().any(|known| known == name));
+        let places = pixel_places::of_table(columns)?;
         let mut truth = vec![[0.0; 3]; histograms.len()];
         for (place, name) in TRUTH.iter().enumerate().take(if knows_light { 3 } else { 1 }) {
             for (numbers, value) in paired(path, &mut truth, columns.numbers(name)?)? {
                 numbers[place] = value;
             }
         }
-        let labelled = labelled(path, histograms, &truth, knows_light)?;
+        let labelled = labelled(path, histograms, &truth, (knows_light, places))?;
         Ok(labelled.described(columns.metadata(KEY).unwrap_or_default()))
     })
 }
 
-/// Arrays of histograms, and of true distances alone or with reflectances and irradiances.
-fn of_arrays(path: &Path, truth: &Path, size: &Params) -> Result<Labelled> {
+/// Arrays of histograms, and of true distances alone or with reflectances and irradiances; `places` are the columns with
+/// row and column of a pixel.
+fn of_arrays(
+    path: &Path,
+    truth: &Path,
+    places: Option<[usize; 2]>,
+    size: &Params,
+) -> Result<Labelled> {
     let histograms = histogram_file::open(path, *size)?.collect::<Result<Vec<_>>>()?;
     let (width, numbers) = numbers(truth)?;
+    let places = places.filter(|places| places.iter().all(|&column| column < width));
+    let places = places.map(|[row, column]| {
+        numbers.chunks(width).map(|numbers| [numbers[row], numbers[column]]).collect()
+    });
     let rows: Vec<[f64; 3]> = numbers
         .chunks(width)
         .map(|row| std::array::from_fn(|k| if width > 2 { row[k] } else { [row[0], 0.0, 0.0][k] }))
@@ -215,20 +235,23 @@ fn of_arrays(path: &Path, truth: &Path, size: &Params) -> Result<Labelled> {
             format!("{} rows, expected {} as in {}", rows.len(), histograms.len(), path.display());
         return Err(Input::new(truth.display(), expected).into());
     }
-    labelled(truth, histograms, &rows, width > 2)
+    labelled(truth, histograms, &rows, (width > 2, places))
 }
 
-/// Histograms with a truth that makes sense.
+/// Histograms with a truth that makes sense, and with the places of pixels, whose distance may be unknown.
 fn labelled(
     path: &Path,
     histograms: Vec<Histogram>,
     truth: &[[f64; 3]],
-    knows_light: bool,
+    (knows_light, places): (bool, Option<Vec<[f64; 2]>>),
 ) -> Result<Labelled> {
+    let is_wrong = |k: usize, value: f64| {
+        let may_be_unknown = k == 0 && places.is_some();
+        !(0.0..=f64::MAX).contains(&value) && !(may_be_unknown && value.is_nan())
+    };
     for (row, numbers) in truth.iter().enumerate() {
-        if let Some((name, value)) =
-            TRUTH.iter().zip(numbers).find(|(_, value)| !(0.0..=f64::MAX).contains(*value))
-        {
+        let mut named = TRUTH.iter().zip(numbers).enumerate();
+        if let Some((_, (name, value))) = named.find(|(k, (_, value))| is_wrong(*k, **value)) {
             let field = format!("row {row}, column {name}");
             return Err(Input::new(path.display(), "expected a number from 0")
                 .field(field)
@@ -240,10 +263,12 @@ fn labelled(
         distance_m,
         reflectance,
         irradiance_w_m2_nm,
-        setting: 0,
+        ..Scene::default()
     };
-    let scenes = truth.iter().map(scene).collect();
-    Ok(Labelled { histograms, scenes, knows_light, ..Labelled::default() })
+    let mut scenes: Vec<_> = truth.iter().map(scene).collect();
+    let assign = |places: Vec<_>| pixel_places::assign(path, &mut scenes, &places);
+    let array = places.map(assign).transpose()?;
+    Ok(Labelled { histograms, scenes, array, knows_light, ..Labelled::default() })
 }
 
 /// Each row with its number of a column.

@@ -1,7 +1,7 @@
 //! A dataset as NumPy arrays, row by row in three files: `histograms.npy` (n x bins `u16`, or `u32` where a word has
 //! more than 16 bits), `truth.npy`
-//! (n x 3 `f64`: distance [m], reflectance, irradiance [W/m^2/nm], and a column more for each other key of
-//! the grid) and `rows.npy` (n x 2 `u64`: row number and seed).
+//! (n x 3 `f64`: distance [m], reflectance, irradiance [W/m^2/nm], then row and column of the pixel of an array, and a
+//! column more for each other key of the grid) and `rows.npy` (n x 2 `u64`: row number and seed).
 
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
@@ -43,7 +43,7 @@ pub(super) fn create(
     // Name, type in NumPy's words and elements of a row of each file.
     let files = [
         ("histograms.npy", count.as_str(), description.settings.tdc.bins as usize),
-        (TRUTH_ARRAY, "<f8", grid.labels().len()),
+        (TRUTH_ARRAY, "<f8", grid.columns().len()),
         ("rows.npy", "<u8", 2),
     ];
     let files = files.into_iter().map(create).collect::<Result<_>>()?;
@@ -55,10 +55,8 @@ pub(super) fn write(files: &mut NpyFiles, samples: &[Sample], grid: &Grid) -> Re
     for sample in samples {
         let bytes = |count: &u32| count.to_le_bytes().into_iter().take(files.count_bytes);
         let counts: Vec<u8> = sample.histogram.iter().flat_map(bytes).collect();
-        let scene = &sample.scene;
-        let truth = [scene.distance_m, scene.reflectance, scene.irradiance_w_m2_nm];
-        let others = grid.setting(scene.setting).into_iter().map(|(_, value)| value);
-        let truth: Vec<u8> = truth.into_iter().chain(others).flat_map(f64::to_le_bytes).collect();
+        let truth = grid.values(&sample.scene).into_iter();
+        let truth: Vec<u8> = truth.flat_map(f64::to_le_bytes).collect();
         let row = [sample.row, sample.seed].map(u64::to_le_bytes).concat();
         for (file, bytes) in files.files.iter_mut().zip([counts, truth, row]) {
             file.write_all(&bytes).map_err(|error| file.fault(error))?;

@@ -10,7 +10,6 @@ use crate::estimation::HistogramPair;
 use crate::estimation::subtraction::half;
 
 use super::blocks::{Last, RUN, Sample};
-use super::grid::Scene;
 use super::source::HistogramSource;
 
 /// Draws pairs of any scene, all else being as a source has it.
@@ -47,11 +46,9 @@ impl<'a> Pairs<'a> {
         let (mut white, mut codes) = (Last(None), Last(None));
         let pair = |sample: &Sample| {
             let scene = sample.scene;
-            let white = white.or((scene.distance_m, scene.setting), |_| self.source.white(&scene));
-            let of = |scene: &Scene| {
-                [false, true].map(|lit| self.source.probabilities_with(white, scene, lit))
-            };
-            let codes: &[BinProbabilities; 2] = codes.or(scene, of);
+            let white = white.or(scene.surfaces(), |_| self.source.white(&scene));
+            let of = |lit| self.source.probabilities_with(white, &scene, lit);
+            let codes: &[BinProbabilities; 2] = codes.or(scene.key(), |_| [false, true].map(of));
             let mut random = stream(sample.seed, streams::Source::DatasetPair, sample.row);
             let [dark, lit] = [0, 1].map(|kind| {
                 let shots = u64::from(self.source.shots_of(&scene)) / 2;
@@ -67,7 +64,7 @@ impl<'a> Pairs<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::{Grid, Rows, Subset};
+    use crate::dataset::{Grid, Rows, Scene, Subset};
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 
@@ -94,8 +91,12 @@ mod tests {
     fn dark_and_lit_have_the_means_of_their_probabilities() {
         let source = source(&[]);
         let pairs = Pairs::new(&source).unwrap();
-        let scene =
-            Scene { distance_m: 0.5, reflectance: 0.34, irradiance_w_m2_nm: 0.2, setting: 0 };
+        let scene = Scene {
+            distance_m: 0.5,
+            reflectance: 0.34,
+            irradiance_w_m2_nm: 0.2,
+            ..Scene::default()
+        };
         let rows = 400;
         let sample = |row| Sample { seed: 1, row, scene, histogram: vec![0; 256] };
         let drawn = pairs.draw(&(0..rows).map(sample).collect::<Vec<_>>());

@@ -16,6 +16,7 @@ use tofsim::scenario::mesh::Mesh;
 use tofsim::sensor::streams::{self, stream};
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::array::ArraySetup;
 
 use crate::estimation::Acquisition;
 
@@ -37,6 +38,8 @@ struct Setting {
     pulse: Pulse,
     dark: DarkRates,
     mesh: Option<Arc<Mesh>>,
+    /// The array whose pixels the scenes are, if there are several.
+    array: Option<Arc<ArraySetup>>,
 }
 
 impl HistogramSource {
@@ -53,7 +56,27 @@ impl HistogramSource {
     /// # Errors
     /// When the histograms of one have no closed form.
     pub fn of_settings(setups: &[Setup]) -> Result<Self> {
-        let settings = setups.iter().map(Setting::new).collect::<Result<Vec<_>>>()?;
+        HistogramSource::of(setups.iter().map(Setting::new).collect::<Result<_>>()?)
+    }
+
+    /// The same of the pixels of an array, in each setting.
+    ///
+    /// # Errors
+    /// As [`HistogramSource::of_settings`], and when its columns have chains of their own.
+    pub fn of_arrays(arrays: &[Arc<ArraySetup>]) -> Result<Self> {
+        let setting = |array: &Arc<ArraySetup>| {
+            let Setup { name, scenario, .. } = array.common();
+            if let Some(file) = &scenario.array.chains_file {
+                let expected = "expected none: the histograms of a dataset are those of one chain";
+                let fault = Input::new(format!("scenario {name}"), expected);
+                return Err(fault.field("array.chains_file").value(file).into());
+            }
+            Ok(Setting { array: Some(array.clone()), ..Setting::new(array.common())? })
+        };
+        HistogramSource::of(arrays.iter().map(setting).collect::<Result<_>>()?)
+    }
+
+    fn of(settings: Vec<Setting>) -> Result<Self> {
         let Some(first) = settings.first() else {
             return Err(Input::new("grid", "expected one setting at least").into());
         };
@@ -96,6 +119,11 @@ impl HistogramSource {
         self.settings.iter().map(|setting| &setting.scenario)
     }
 
+    /// The array whose pixels the scenes are, if there are several; in the first setting.
+    pub fn array(&self) -> Option<&ArraySetup> {
+        self.settings[0].array.as_deref()
+    }
+
     /// Whether the laser is on; in the first setting.
     pub fn is_lit(&self) -> bool {
         self.scenario().firmware.laser_en
@@ -124,10 +152,14 @@ impl HistogramSource {
         Acquisition { delay_ps, ..Acquisition::new(known_bins, shots, pulse) }
     }
 
-    /// Budget of a white target at a scene's distance, in an irradiance of 1 W/m^2/nm: what all scenes at
-    /// that distance have in common, and what takes longest to find.
+    /// Budget of a white target at a scene's distance, or of a pixel of an array, in an irradiance of 1 W/m^2/nm: what all
+    /// scenes at that distance have in common, and what takes longest to find.
     pub fn white(&self, scene: &Scene) -> Budget {
-        let Setting { scenario, pulse, dark, mesh, .. } = self.setting(scene);
+        let Setting { scenario, pulse, dark, mesh, array, .. } = self.setting(scene);
+        if let Some(array) = array {
+            let [_, columns] = array.size();
+            return array.white(scene.pixel / columns, scene.pixel % columns);
+        }
         let mut scenario = scenario.clone();
         scenario.target.distance_m = scene.distance_m;
         scenario.target.reflectance = 1.0;
@@ -174,7 +206,7 @@ impl Setting {
         let (scenario, pulse) = (setup.scenario.clone(), setup.budget.pulse.clone());
         let (bins, known_bins, dark) = (setup.bins(), setup.known_bins(), setup.dark.clone());
         let mesh = setup.mesh.clone();
-        Ok(Setting { scenario, bins, known_bins, pulse, dark, mesh })
+        Ok(Setting { scenario, bins, known_bins, pulse, dark, mesh, array: None })
     }
 
     fn shots(&self) -> u32 {

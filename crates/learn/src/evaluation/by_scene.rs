@@ -16,21 +16,16 @@ pub struct SceneErrors {
     pub spread: Spread,
 }
 
-/// The errors of a column in each scene, in rising order of setting, distance, reflectance and light; what
+/// The errors of a column in each scene, in rising order of setting, pixel, distance, reflectance and light; what
 /// is further off than `limit_m` is an outlier [m].
 pub fn by_scene(
     evaluation: &Evaluation,
     column: &EstimatorErrors,
     limit_m: f64,
 ) -> Vec<SceneErrors> {
-    // The bits of numbers from 0 on are in the order of the numbers.
-    let key = |scene: &Scene| {
-        let numbers = [scene.distance_m, scene.reflectance, scene.irradiance_w_m2_nm];
-        (scene.setting, numbers.map(f64::to_bits))
-    };
     let mut rows: BTreeMap<_, (Scene, Vec<Option<f64>>)> = BTreeMap::new();
-    for (scene, error_m) in evaluation.scenes.iter().zip(&column.errors_m) {
-        rows.entry(key(scene)).or_insert((*scene, Vec::new())).1.push(*error_m);
+    for (scene, error_m) in evaluation.known(column) {
+        rows.entry(scene.key()).or_insert((*scene, Vec::new())).1.push(error_m);
     }
     let errors = |(scene, errors_m): (Scene, Vec<Option<f64>>)| {
         let judged = errors_m.into_iter().map(|error_m| (error_m, scene.distance_m));
@@ -67,7 +62,7 @@ mod tests {
             (scene(0.1, 0), Some(0.002)),
         ];
         let (scenes, errors_m): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-        let column = EstimatorErrors { name: "network", errors_m };
+        let column = EstimatorErrors { name: "network", errors_m, ..EstimatorErrors::default() };
         let evaluation = Evaluation { scenes, columns: vec![column.clone()] };
         let found = by_scene(&evaluation, &column, 0.1);
         let order: Vec<_> = found.iter().map(|of| of.scene).collect();

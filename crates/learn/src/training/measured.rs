@@ -48,7 +48,10 @@ impl MeasuredParts {
             let mut random = stream(seed, streams::Source::Scene, row as u64);
             (labelled.scenes[row].distance_m, random.random())
         };
-        let mut rows: Vec<_> = (0..labelled.scenes.len()).map(|row| (place(row), row)).collect();
+        // A pixel of an array may have no distance.
+        let is_known = |row: &usize| !labelled.scenes[*row].distance_m.is_nan();
+        let known = (0..labelled.scenes.len()).filter(is_known);
+        let mut rows: Vec<_> = known.map(|row| (place(row), row)).collect();
         rows.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut parts = MeasuredParts {
             training: Samples::default(),

@@ -10,7 +10,7 @@ fn source(overrides: &[&str]) -> Result<HistogramSource> {
 }
 
 const SCENE: Scene =
-    Scene { distance_m: 0.3, reflectance: 0.34, irradiance_w_m2_nm: 0.2, setting: 0 };
+    Scene { distance_m: 0.3, reflectance: 0.34, irradiance_w_m2_nm: 0.2, setting: 0, pixel: 0 };
 
 #[test]
 fn the_bins_of_the_ideal_chain_are_those_of_the_thesis() {
@@ -82,8 +82,7 @@ fn the_budget_is_that_of_the_scenario_in_either_ambient_model() {
         scenario.target.reflectance = 0.37;
         scenario.ambient.irradiance_w_m2_nm = 0.35;
         let expected = Budget::new(&scenario, Pulse::default());
-        let scene =
-            Scene { distance_m: 0.6, reflectance: 0.37, irradiance_w_m2_nm: 0.35, setting: 0 };
+        let scene = Scene { distance_m: 0.6, reflectance: 0.37, irradiance_w_m2_nm: 0.35, ..SCENE };
         let source = source(&[&format!("ambient.model={model}")]).unwrap();
         let found = scaled(&source.white(&scene), &scene);
         let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
@@ -105,7 +104,7 @@ fn measured_dark_rates_are_those_of_every_scene() {
 #[test]
 fn a_histogram_never_has_more_counts_than_shots() {
     let source = source(&["firmware.shots_per_frame=65535", "spad.pdp=1"]).unwrap();
-    let near = Scene { distance_m: 0.001, reflectance: 1.0, irradiance_w_m2_nm: 100.0, setting: 0 };
+    let near = Scene { distance_m: 0.001, reflectance: 1.0, irradiance_w_m2_nm: 100.0, ..SCENE };
     let histogram = source.draw_from(&source.probabilities(&near), &near, 1, 0);
     assert_eq!(histogram.iter().map(|&count| u64::from(count)).sum::<u64>(), 65_535);
     assert_eq!(histogram[0], 65_535);
@@ -164,5 +163,29 @@ fn what_air_and_patch_send_back_does_not_go_with_the_reflectance() {
             assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
         }
         assert_eq!(found.spread, expected.spread);
+    }
+}
+
+#[test]
+fn pixels_have_the_probabilities_of_their_setups() {
+    let keys = ["array.rows=2", "array.columns=3", "target.length_m=0.5", "target.tilt_deg=35"];
+    let keys = keys.map(str::to_owned);
+    let array = Arc::new(ArraySetup::new(scenario::load("kc705", &keys).unwrap()).unwrap());
+    let source = HistogramSource::of_arrays(std::slice::from_ref(&array)).unwrap();
+    let keys = &array.common().scenario;
+    for pixel in 0..6 {
+        let setup = array.pixel(pixel / 3, pixel % 3);
+        let scene = Scene {
+            distance_m: setup.mean_radial_m().unwrap(),
+            reflectance: keys.target.reflectance,
+            irradiance_w_m2_nm: keys.ambient.irradiance_w_m2_nm,
+            setting: 0,
+            pixel,
+        };
+        let expected = BinProbabilities::new(&Hazard::new(&setup.budget), &setup.bins());
+        let found = source.probabilities(&scene);
+        for (found, expected) in found.of_code().iter().zip(expected.of_code()) {
+            assert!((found - expected).abs() < 1e-12, "{pixel}: {found} for {expected}");
+        }
     }
 }
