@@ -108,3 +108,11 @@ fn a_stop_ends_images_without_a_result() {
         assert!(matches!(found, Err(Error::Interrupted)), "{fidelity:?}");
     }
 }
+
+#[test]
+fn the_median_lies_between_the_two_in_the_middle() {
+    let of = |values: &[f64]| ends_and_median(values.iter().copied());
+    assert_eq!(of(&[3.0, 1.0, 2.0]), Some([1.0, 2.0, 3.0]));
+    assert_eq!(of(&[4.0, 1.0, 2.0, 3.0]), Some([1.0, 2.5, 4.0]));
+    assert_eq!(of(&[]), None);
+}

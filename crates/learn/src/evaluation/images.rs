@@ -155,17 +155,7 @@ fn surfaces_m(
 
 #[cfg(test)]
 mod tests {
-    use tofsim::sim::image::ends_and_median;
-
     use super::*;
-
-    #[test]
-    fn the_median_lies_between_the_two_in_the_middle() {
-        let of = |values: &[f64]| ends_and_median(values.iter().copied());
-        assert_eq!(of(&[3.0, 1.0, 2.0]), Some([1.0, 2.0, 3.0]));
-        assert_eq!(of(&[4.0, 1.0, 2.0, 3.0]), Some([1.0, 2.5, 4.0]));
-        assert_eq!(of(&[]), None);
-    }
 
     #[test]
     fn a_depth_flies_between_the_surfaces_of_pixel_and_neighbours() {
