@@ -23,6 +23,7 @@ mod edges;
 mod error_budget;
 mod estimate;
 mod evaluate;
+mod evaluate_array;
 mod fidelities;
 mod golden;
 mod grid;

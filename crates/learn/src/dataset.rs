@@ -24,6 +24,7 @@ mod parquet_file;
 pub mod parquet_input;
 mod parquet_pages;
 pub mod parquet_table;
+mod pixel_places;
 pub mod rows;
 pub mod scene_columns;
 pub mod sensor;

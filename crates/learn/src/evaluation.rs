@@ -5,16 +5,19 @@
 //! irradiance, by scene.
 
 pub mod bound;
+pub mod by_pixel;
 pub mod by_scene;
 pub mod by_setting;
 pub mod cross_check;
 pub mod errors;
 pub mod exploration;
 pub mod figures;
+pub mod images;
 pub mod spread;
 pub mod tails;
 pub mod thesis;
 
+pub use by_pixel::{PixelSpread, SceneImages};
 pub use by_scene::{SceneErrors, by_scene, most_biased};
 pub use by_setting::{KeyGroups, by_setting};
 pub use errors::{EstimatorErrors, Evaluation};

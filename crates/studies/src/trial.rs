@@ -87,7 +87,7 @@ impl<'a> Trial<'a> {
         let pixels = array.images(fidelity, file.frames, self.stop, &|_| ())?;
         let mut notes = merged(pixels.iter().map(|pixel| &pixel.notes[..]));
         notes.extend(notes_of_firmware(array.common()));
-        let images = Images { array, pixels, limit_m: 1e-3 * file.outlier_limit_mm };
+        let images = Images::new(array, pixels, 1e-3 * file.outlier_limit_mm);
         let figure = |column: &&Column| match column.quantity {
             Quantity::ExpectedOfImages(of) | Quantity::OfImages(of) => of(&images),
             _ => Figure::default(),

@@ -5,7 +5,7 @@ use serde_json::Value;
 use tofsim::error::Result;
 use tofsim_learn::dataset::Grid;
 use tofsim_learn::evaluation::thesis::{self, Published};
-use tofsim_learn::evaluation::{Figures, Group, KeyGroups, Spread};
+use tofsim_learn::evaluation::{Figures, Group, KeyGroups, SceneImages, Spread};
 
 use crate::text::table::{fitted, number_or_dash, width};
 
@@ -126,6 +126,9 @@ impl Findings for EvaluationFindings<'_> {
 
     fn sheets(&self) -> Vec<NamedText> {
         let mut sheets = vec![("evaluation.csv".to_owned(), files::groups(self.figures))];
+        if self.figures.iter().any(|one| !one.by_pixel.is_empty()) {
+            sheets.push(("pixels.csv".to_owned(), files::pixels(self.figures)));
+        }
         if self.figures.iter().any(|one| !one.by_scene.is_empty()) {
             let scenes = files::scenes(self.figures, self.grid);
             sheets.push(("scenes.csv".to_owned(), scenes));
@@ -163,16 +166,53 @@ pub fn setting_tables(figures: &[Figures]) -> String {
     first.iter().enumerate().map(text).collect()
 }
 
+/// Most scenes of an array that are printed.
+const SHOWN_SCENES: usize = 20;
+
+/// Returns the statistics of an array's depth images, a row for each scene and estimator.
+pub fn image_table(figures: &[Figures]) -> String {
+    let scenes = figures.first().map_or(0, |one| one.images.len());
+    let row = |one: &Figures, of: &SceneImages| {
+        let percent = |rate: Option<f64>| number_or_dash(rate.map(|rate| 100.0 * rate), 2);
+        let measured = [percent(Some(of.fill_rate)), percent(of.flying_rate)];
+        let errors = [of.root_mse_mm, of.bias_by_pixel_mm, of.sd_by_pixel_mm];
+        let errors = errors.map(|mm| number_or_dash(mm, 2));
+        let keys = of.keys.iter().map(|(key, value)| format!(", {key} = {value}"));
+        let keys = keys.collect::<String>();
+        let scene = format!("{}, {} W/m^2/nm{keys}", of.reflectance, of.irradiance_w_m2_nm);
+        let scene = (scenes > 1).then_some(scene);
+        named(one.name, measured.into_iter().chain(errors).chain(scene))
+    };
+    let shown = |k: usize| figures.iter().filter_map(move |one| Some((one, one.images.get(k)?)));
+    let rows = (0..scenes.min(SHOWN_SCENES)).flat_map(shown);
+    let rows: Vec<_> = rows.map(|(one, of)| row(one, of)).collect();
+    let header = ["fill [%]", "flying [%]", "rms error [mm]", "bias by pixel", "sd by pixel"];
+    let scene = (scenes > 1).then_some("reflectance, irradiance");
+    let header = named("images", header.into_iter().chain(scene).map(str::to_owned));
+    let more = match scenes.saturating_sub(SHOWN_SCENES) {
+        0 => String::new(),
+        more => format!("... and {more} more scenes\n"),
+    };
+    let text = || fitted(&header, &rows, width());
+    if rows.is_empty() { String::new() } else { format!("\n{}\n{more}", text()) }
+}
+
 /// The scene in which each estimator has the largest mean error.
 pub fn biased_scenes(figures: &[Figures]) -> String {
     let row = |one: &Figures| {
         let worst = one.most_biased_scene.as_ref()?;
         let keys = worst.keys.iter().map(|(key, value)| format!(", {key} = {value}"));
+        let pixel = worst.pixel.map(|[row, column]| format!(", pixel {row},{column}"));
+        // Of a pixel, it is no number that somebody has typed.
+        let distance_m = match worst.pixel {
+            Some(_) => format!("{:.4}", worst.distance_m),
+            None => worst.distance_m.to_string(),
+        };
         let scene = format!(
-            "{} m, {}, {} W/m^2/nm{}",
-            worst.distance_m,
+            "{distance_m} m, {}, {} W/m^2/nm{}{}",
             worst.reflectance,
             worst.irradiance_w_m2_nm,
+            pixel.unwrap_or_default(),
             keys.collect::<String>()
         );
         let mean = with_error(Some(worst.mean_mm), Some(worst.mean_se_mm));
@@ -198,7 +238,7 @@ mod tests {
     fn a_distance_that_was_not_drawn_has_no_figure() {
         let scene = Scene { distance_m: 0.2, reflectance: 0.3, ..Scene::default() };
         let errors_m = [-1.0, 1.0].map(|sign| Some(sign / 1e3 / 2f64.sqrt())).to_vec();
-        let column = EstimatorErrors { name: "network", errors_m };
+        let column = EstimatorErrors { name: "network", errors_m, ..EstimatorErrors::default() };
         let evaluation = Evaluation { scenes: vec![scene; 2], columns: vec![column.clone()] };
         let figures = Figures::new(&evaluation, &column, 0.1);
         let beside = Beside { distances_m: &DISTANCES_M, bound_mm: &[Some(0.5); 6], thesis: true };

@@ -27,6 +27,17 @@ pub fn groups(figures: &[Figures]) -> String {
     with_figures(sheet, |(.., group)| &group.spread).csv()
 }
 
+/// Returns a row for each estimator and pixel of an array.
+pub fn pixels(figures: &[Figures]) -> String {
+    let of_each = figures.iter().map(|one| one.by_pixel.iter().map(move |of| (one.name, of)));
+    let rows: Vec<_> = of_each.flatten().collect();
+    let sheet = Sheet::of(&rows)
+        .column("estimator", Shortest, |(name, _)| *name)
+        .column("pixel_row", Shortest, |(_, of)| of.row as u64)
+        .column("pixel_column", Shortest, |(_, of)| of.column as u64);
+    with_figures(sheet, |(_, of)| &of.spread).csv()
+}
+
 /// Returns a row for each estimator and scene.
 pub fn scenes(figures: &[Figures], grid: Option<&Grid>) -> String {
     let mut rows = Vec::new();
@@ -38,6 +49,12 @@ pub fn scenes(figures: &[Figures], grid: Option<&Grid>) -> String {
         .column("distance_m", Shortest, |(_, of)| of.scene.distance_m)
         .column("reflectance", Shortest, |(_, of)| of.scene.reflectance)
         .column("irradiance_w_m2_nm", Shortest, |(_, of)| of.scene.irradiance_w_m2_nm);
+    let places = figures.first().map_or(&[][..], |one| &one.by_pixel);
+    if !places.is_empty() {
+        sheet = sheet
+            .column("pixel_row", Shortest, move |(_, of)| places[of.scene.pixel].row as u64)
+            .column("pixel_column", Shortest, move |(_, of)| places[of.scene.pixel].column as u64);
+    }
     let setting = |setting| grid.map_or(Vec::new(), |grid| grid.setting(setting));
     for (k, (key, _)) in setting(0).into_iter().enumerate() {
         sheet = sheet.column(key, Shortest, |(_, of)| setting(of.scene.setting)[k].1);

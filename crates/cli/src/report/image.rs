@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use tofsim::error::Result;
 use tofsim::sim::image::Pixel;
-use tofsim_studies::images::ends_and_median;
+use tofsim_learn::evaluation::images::ends_and_median;
 
 use crate::text::table::{facts, fixed, grouped, number_or_dash};
 
@@ -27,7 +27,8 @@ pub use readings::{DepthImages, ImagePixel};
 
 impl DepthImages<'_> {
     fn statistics(&self) -> Vec<ImageStatistics> {
-        (0..self.images as usize).map(|image| ImageStatistics::of(self.image(image))).collect()
+        let depths = self.depths();
+        (0..self.images as usize).map(|image| ImageStatistics::of(&depths, image)).collect()
     }
 
     /// Returns the image rate of the firmware, if it can scan the array.

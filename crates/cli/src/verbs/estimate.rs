@@ -18,6 +18,7 @@ use crate::report::statistics::second_opinion;
 use crate::report::writer::Report;
 
 use super::draws::from_here;
+use super::pixel::common_of_counts;
 use super::terminal::Console;
 
 mod reading;
@@ -110,7 +111,7 @@ impl Args {
             loaded.scenario.estimator.network = from_here(network, &loaded)?;
             loaded.scenario.estimator.kind = FirmwareEstimator::Network;
         }
-        Setup::of_counts(loaded)
+        common_of_counts(loaded)
     }
 
     fn request(&self) -> Request<'_> {

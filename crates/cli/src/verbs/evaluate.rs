@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
 
 use serde_json::{Value, json};
 
@@ -11,6 +10,7 @@ use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::create_directory_for;
 use tofsim::network::Network;
+use tofsim::note::NoteCode;
 use tofsim::scenario::Loaded;
 use tofsim::scenario::effects::Method;
 use tofsim::sim::domain;
@@ -32,6 +32,7 @@ use super::scenes::Scenes;
 use super::terminal::{Console, stop_signal};
 
 mod args;
+mod cross_checks;
 mod measured;
 
 pub use args::Args;
@@ -124,6 +125,9 @@ impl Drawn<'_> {
             "cramer_rao_two_sd_mm": self.bound_mm.iter().map(|(_, mm)| mm).collect::<Vec<_>>(),
             "cross_check": cross_check,
         });
+        if let Some(array) = &grid.array {
+            json["array"] = json!({ "rows": array.rows, "columns": array.columns });
+        }
         if grid.is_thesis() {
             json["thesis"] = json!({
                 "distances_m": DISTANCES_M,
@@ -153,14 +157,25 @@ impl Drawn<'_> {
         let bound_mm: Vec<_> = self.shown.iter().map(at).collect();
         let thesis = self.grid.is_thesis();
         let beside = report::Beside { distances_m: &self.shown, bound_mm: &bound_mm, thesis };
-        let tables = report::overview(figures) + "\n" + &report::tables(figures, &beside);
-        let tables = tables + &report::setting_tables(figures) + &report::biased_scenes(figures);
-        let no_bound = if bound_mm.contains(&None) { self.no_bound() } else { String::new() };
+        let tables = match self.grid.array {
+            None => "\n".to_owned() + &report::tables(figures, &beside),
+            Some(_) => report::image_table(figures),
+        };
+        let tables = report::overview(figures)
+            + &tables
+            + &report::setting_tables(figures)
+            + &report::biased_scenes(figures);
+        let lacks_bound = bound_mm.contains(&None) || self.grid.array.is_some();
+        let no_bound = if lacks_bound { self.no_bound() } else { String::new() };
         head + &tables + &no_bound + &text(figures, shots, cross_check)
     }
 
     /// Returns the reason for a distance without a Cramer-Rao bound, as a paragraph.
     fn no_bound(&self) -> String {
+        if self.grid.array.is_some() {
+            let line = "No Cramer-Rao bound: the light on a pixel is not a single echo";
+            return format!("\n{}\n", wrapped(line, width(), ["", "  "]));
+        }
         let why = |setup: &Setup| setup.why_not(Method::CramerRaoBound);
         let why = self.scenes.setups.iter().find_map(why).unwrap_or("no laser light returns");
         let line = format!("No Cramer-Rao bound where there is a dash: {why}");
@@ -173,6 +188,8 @@ impl Args {
     /// measured, and of what can be found.
     fn notes(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Note>> {
         let mut notes = scenes.notes()?;
+        // Drift is below, for the estimators that are measured.
+        notes.retain(|note| note.code != NoteCode::ChainDrifted);
         let mut of_network = Vec::new();
         if self.measures_a_network() {
             let scenario = &scenes.loaded[0].scenario;
@@ -188,6 +205,11 @@ impl Args {
     /// Returns the notes on the estimators' models: of all scenes, and of the nearest and the farthest.
     fn notes_of_estimators(&self, scenes: &Scenes) -> Result<Vec<Note>> {
         let middle = scenes.setups.len() / 2;
+        if scenes.grid.array.is_some() {
+            let notes =
+                self.estimator.iter().map(|kind| kind.notes_of_scene(&scenes.setups[middle]));
+            return Ok(notes.flatten().collect());
+        }
         let of = |setup: &Setup| self.estimator.iter().flat_map(|kind| kind.notes(setup)).collect();
         let mut notes: Vec<Note> = of(&scenes.setups[middle]);
         for distance_m in scenes.grid.distances_m.range() {
@@ -234,27 +256,6 @@ impl Args {
         };
         scenes.setups.iter().enumerate().map(of_setting).collect()
     }
-
-    /// Compares both paths in the light and the setting in the middle of the grid.
-    fn cross_check(
-        &self,
-        scenes: &Scenes,
-        distances_m: &[f64],
-        stop: Option<&AtomicBool>,
-    ) -> Result<Vec<CrossCheck>> {
-        let distances_m: &[f64] = if self.check > 0 { distances_m } else { &[] };
-        let (grid, setting) = (&scenes.grid, scenes.loaded.len() / 2);
-        let scene = |&distance_m| Scene {
-            distance_m,
-            reflectance: grid.reflectances.middle(),
-            irradiance_w_m2_nm: grid.irradiances_w_m2_nm.middle(),
-            setting,
-            pixel: 0,
-        };
-        let (loaded, source) = (&scenes.loaded[setting], &scenes.source);
-        let check = |scene| CrossCheck::new(loaded, source, &scene, self.check, stop);
-        distances_m.iter().map(scene).map(check).collect()
-    }
 }
 
 fn text(figures: &[Figures], shots: Option<u32>, checks: &[CrossCheck]) -> String {
@@ -264,18 +265,5 @@ fn text(figures: &[Figures], shots: Option<u32>, checks: &[CrossCheck]) -> Strin
         text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
     }
     text += &report::beside_the_line(figures);
-    if !checks.is_empty() {
-        text += "\n";
-    }
-    for check in checks {
-        text += &format!(
-            "{} frames cycle by cycle at {} m: counts as drawn, p = {:.3}; other depths: {}{}\n",
-            check.frames,
-            check.distance_m,
-            check.p_value,
-            check.other_depths,
-            if check.agrees() { "" } else { "  DIFFERENT" },
-        );
-    }
-    text
+    text + &cross_checks::text(checks)
 }

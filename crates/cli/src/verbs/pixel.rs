@@ -53,6 +53,17 @@ impl PixelPlace {
     }
 }
 
+/// Elaborates a scenario for histograms without depths; of an array, what its pixels have in common.
+///
+/// # Errors
+/// When the scenario cannot be elaborated.
+pub fn common_of_counts(loaded: Loaded) -> Result<Setup> {
+    if loaded.scenario.array.count() > 1 {
+        return Ok(ArraySetup::of_counts(loaded)?.common().clone());
+    }
+    Setup::of_counts(loaded)
+}
+
 /// Returns the notes of an array's pixels, each cause once, with the number of pixels that have it.
 ///
 /// # Errors

@@ -16,12 +16,11 @@ use super::grid::Scene;
 use super::npy::numbers;
 use super::parquet_columns::ParquetColumns;
 use super::parquet_input::is_parquet;
-use super::scene_columns::{PIXEL, TRUTH};
+use super::pixel_places;
+use super::scene_columns::TRUTH;
 
 /// Table, histograms and truth in the folder of a dataset.
 const FILES: [&str; 3] = [TABLE, "histograms.npy", TRUTH_ARRAY];
-/// Most rows and most columns of an array.
-const MOST_PIXELS: usize = 64;
 /// Key of the description in the metadata of a Parquet file.
 const KEY: &str = "tofsim.dataset";
 
@@ -71,7 +70,7 @@ impl Labelled {
                 (true, _, None) => parquet(&table, size)?,
                 (_, true, Some(truth)) => of_arrays(&arrays, truth, None, size)?,
                 (_, true, None) => {
-                    let places = description.as_deref().and_then(pixel_columns);
+                    let places = description.as_deref().and_then(pixel_places::columns_by);
                     of_arrays(&arrays, &own_truth, places, size)?
                 }
                 _ => {
@@ -201,8 +200,7 @@ fn parquet(path: &Path, size: &Params) -> Result<Labelled> {
         let histograms = counts(path, columns, size)?;
         let names = columns.names();
         let knows_light = TRUTH[1..].iter().all(|name| names.iter().any(|known| known == name));
-        let has_pixels = PIXEL.iter().all(|name| names.iter().any(|known| known == name));
-        let places = has_pixels.then(|| pixel_places(path, columns)).transpose()?;
+        let places = pixel_places::of_table(columns)?;
         let mut truth = vec![[0.0; 3]; histograms.len()];
         for (place, name) in TRUTH.iter().enumerate().take(if knows_light { 3 } else { 1 }) {
             for (numbers, value) in paired(path, &mut truth, columns.numbers(name)?)? {
@@ -212,27 +210,6 @@ fn parquet(path: &Path, size: &Params) -> Result<Labelled> {
         let labelled = labelled(path, histograms, &truth, (knows_light, places))?;
         Ok(labelled.described(columns.metadata(KEY).unwrap_or_default()))
     })
-}
-
-/// Row and column of the pixel of each row of a table.
-fn pixel_places(path: &Path, columns: &ParquetColumns) -> Result<Vec<[f64; 2]>> {
-    let [rows, columns] = [columns.numbers(PIXEL[0])?, columns.numbers(PIXEL[1])?];
-    let mut places: Vec<_> = rows.into_iter().map(|row| [row, 0.0]).collect();
-    for (place, column) in paired(path, &mut places, columns)? {
-        place[1] = column;
-    }
-    Ok(places)
-}
-
-/// Returns the columns of the arrays of a dataset that have row and column of the pixel, by its description.
-fn pixel_columns(json: &str) -> Option<[usize; 2]> {
-    let description: serde_json::Value = serde_json::from_str(json).ok()?;
-    let labels = description["labels"].as_array()?;
-    let column = |name: &str| {
-        let label = labels.iter().find(|of| of["name"] == name && of["file"] == TRUTH_ARRAY)?;
-        label["column"].as_u64().map(|column| column as usize)
-    };
-    Some([column(PIXEL[0])?, column(PIXEL[1])?])
 }
 
 /// Arrays of histograms, and of true distances alone or with reflectances and irradiances; `places` are the columns with
@@ -289,27 +266,9 @@ fn labelled(
         ..Scene::default()
     };
     let mut scenes: Vec<_> = truth.iter().map(scene).collect();
-    let array = places.map(|places| placed(path, &mut scenes, &places)).transpose()?;
+    let assign = |places: Vec<_>| pixel_places::assign(path, &mut scenes, &places);
+    let array = places.map(assign).transpose()?;
     Ok(Labelled { histograms, scenes, array, knows_light, ..Labelled::default() })
-}
-
-/// Gives the scenes their pixels by row and column, and returns the size of the array.
-fn placed(path: &Path, scenes: &mut [Scene], places: &[[f64; 2]]) -> Result<[usize; 2]> {
-    let mut size = [1; 2];
-    for (row, place) in places.iter().enumerate() {
-        for ((name, &index), most) in PIXEL.iter().zip(place).zip(&mut size) {
-            if index.fract() != 0.0 || !(0.0..MOST_PIXELS as f64).contains(&index) {
-                let expected = format!("expected a whole number from 0 to {}", MOST_PIXELS - 1);
-                let fault = Input::new(path.display(), expected);
-                return Err(fault.field(format!("row {row}, column {name}")).value(index).into());
-            }
-            *most = (index as usize + 1).max(*most);
-        }
-    }
-    for (scene, &[row, column]) in scenes.iter_mut().zip(places) {
-        scene.pixel = row as usize * size[1] + column as usize;
-    }
-    Ok(size)
 }
 
 /// Each row with its number of a column.

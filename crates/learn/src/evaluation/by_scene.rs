@@ -24,8 +24,8 @@ pub fn by_scene(
     limit_m: f64,
 ) -> Vec<SceneErrors> {
     let mut rows: BTreeMap<_, (Scene, Vec<Option<f64>>)> = BTreeMap::new();
-    for (scene, error_m) in evaluation.scenes.iter().zip(&column.errors_m) {
-        rows.entry(scene.key()).or_insert((*scene, Vec::new())).1.push(*error_m);
+    for (scene, error_m) in evaluation.known(column) {
+        rows.entry(scene.key()).or_insert((*scene, Vec::new())).1.push(error_m);
     }
     let errors = |(scene, errors_m): (Scene, Vec<Option<f64>>)| {
         let judged = errors_m.into_iter().map(|error_m| (error_m, scene.distance_m));
@@ -62,7 +62,7 @@ mod tests {
             (scene(0.1, 0), Some(0.002)),
         ];
         let (scenes, errors_m): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-        let column = EstimatorErrors { name: "network", errors_m };
+        let column = EstimatorErrors { name: "network", errors_m, ..EstimatorErrors::default() };
         let evaluation = Evaluation { scenes, columns: vec![column.clone()] };
         let found = by_scene(&evaluation, &column, 0.1);
         let order: Vec<_> = found.iter().map(|of| of.scene).collect();

@@ -45,7 +45,7 @@ mod tests {
         let grid = Grid::own(&axes, &Default::default(), GridPurpose::Test).unwrap();
         let scenes: Vec<_> = (0..6).map(|setting| Scene { setting, ..Scene::default() }).collect();
         let errors_m = (0..6).map(|k| Some(1e-3 * f64::from(k))).collect();
-        let column = EstimatorErrors { name: "network", errors_m };
+        let column = EstimatorErrors { name: "network", errors_m, ..EstimatorErrors::default() };
         let evaluation = Evaluation { scenes, columns: vec![column.clone()] };
         let keys = by_setting(&evaluation, &column, &grid, 0.1);
         let means = |k: usize| {

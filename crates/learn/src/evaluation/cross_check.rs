@@ -28,6 +28,9 @@ const CELL: f64 = 20.0;
 pub struct CrossCheck {
     /// Distance of the target [m].
     pub distance_m: f64,
+    /// Row and column of the pixel, of an array.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixel: Option<[usize; 2]>,
     /// Frames simulated, cycle by cycle.
     pub frames: u64,
     /// Frames whose depth word is not that of the integer sums.
@@ -58,7 +61,20 @@ impl CrossCheck {
         loaded.scenario.target.distance_m = scene.distance_m;
         loaded.scenario.target.reflectance = scene.reflectance;
         loaded.scenario.ambient.irradiance_w_m2_nm = scene.irradiance_w_m2_nm;
-        let setup = Setup::of_counts(loaded)?;
+        CrossCheck::of_setup(&Setup::of_counts(loaded)?, source, scene, frames, stop)
+    }
+
+    /// The same of a setup with the scene, which may be that of a pixel.
+    ///
+    /// # Errors
+    /// When it does not run, or is stopped.
+    pub fn of_setup(
+        setup: &Setup,
+        source: &HistogramSource,
+        scene: &Scene,
+        frames: u64,
+        stop: Option<&AtomicBool>,
+    ) -> Result<Self> {
         let (mut sums, mut other_depths) = (vec![0u64; setup.params.histogram.bins], 0);
         let mut take = |frame: &Frame| {
             let same = setup.estimate_words(&frame.histogram).depth;
@@ -68,11 +84,12 @@ impl CrossCheck {
             }
             Ok(())
         };
-        Run::new(&setup)
+        Run::new(setup)
             .observe(frames, Observers { frames: Some(&mut take), stop, ..Observers::default() })?;
         let shots = (frames * u64::from(source.shots_of(scene))) as f64;
         let p_value = p_value(&sums, source.probabilities(scene).of_code(), shots);
-        Ok(CrossCheck { distance_m: scene.distance_m, frames, other_depths, p_value })
+        let distance_m = scene.distance_m;
+        Ok(CrossCheck { distance_m, pixel: None, frames, other_depths, p_value })
     }
 }
 

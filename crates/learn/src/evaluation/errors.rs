@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use tofsim::error::{Result, poll_stop};
 use tofsim::network::Histogram;
 
-use crate::dataset::{HistogramSource, Pairs, Rows, Scene};
+use crate::dataset::{HistogramSource, Labelled, Pairs, Rows, Scene};
 use crate::estimation::Estimator;
 
 use super::spread::{self, Group, Spread};
@@ -22,12 +22,30 @@ pub struct Evaluation {
 }
 
 /// Errors of one estimator.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct EstimatorErrors {
     /// Name on the command line.
     pub name: &'static str,
     /// Estimated less true distance of each row; none where the estimator failed [m].
     pub errors_m: Vec<Option<f64>>,
+    /// Estimated distance of each row, of the pixels of an array: some have no true one [m].
+    pub depths_m: Vec<Option<f64>>,
+}
+
+impl EstimatorErrors {
+    /// Adds the estimates of rows.
+    fn extend<'a>(
+        &mut self,
+        scenes: impl Iterator<Item = &'a Scene>,
+        depths_m: Vec<Option<f64>>,
+        is_array: bool,
+    ) {
+        let pairs = depths_m.iter().zip(scenes);
+        self.errors_m.extend(pairs.map(|(depth_m, scene)| Some((*depth_m)? - scene.distance_m)));
+        if is_array {
+            self.depths_m.extend(depths_m);
+        }
+    }
 }
 
 impl Evaluation {
@@ -64,25 +82,31 @@ impl Evaluation {
         let first = estimators(&Scene::default());
         let empty = || Vec::with_capacity(rows.count() as usize);
         let columns = first.iter();
-        let columns = columns.map(|one| EstimatorErrors { name: one.name(), errors_m: empty() });
+        let columns = columns.map(|one| EstimatorErrors {
+            name: one.name(),
+            errors_m: empty(),
+            depths_m: Vec::new(),
+        });
         let mut columns: Vec<EstimatorErrors> = columns.collect();
         let mut scenes = Vec::with_capacity(rows.count() as usize);
+        let is_array = rows.grid().array.is_some();
         let needs_dark = first.iter().any(|one| one.needs_dark());
         let pairs = needs_dark.then(|| Pairs::new(source)).transpose()?;
         for block in source.blocks(rows, seed) {
             poll_stop(stop)?;
             let drawn = pairs.map_or(Vec::new(), |pairs| pairs.draw(&block));
             for (place, column) in columns.iter_mut().enumerate() {
-                let errors = block.par_iter().enumerate().map(|(k, sample)| {
+                let depths_m = block.par_iter().enumerate().map(|(k, sample)| {
                     let estimator = &estimators(&sample.scene)[place];
                     let found = if estimator.needs_dark() {
                         estimator.estimate_pair(&drawn[k])
                     } else {
                         estimator.estimate(&sample.histogram)
                     };
-                    Some(found.ok()? - sample.scene.distance_m)
+                    found.ok()
                 });
-                column.errors_m.par_extend(errors);
+                let (depths_m, scenes) = (depths_m.collect(), block.iter().map(|one| &one.scene));
+                column.extend(scenes, depths_m, is_array);
             }
             scenes.extend(block.iter().map(|sample| sample.scene));
             done(block.len() as u64);
@@ -92,17 +116,15 @@ impl Evaluation {
 
     /// Lets every estimator see histograms whose scenes are known, on all threads of the current pool;
     /// none of them can need dark ones.
-    pub fn of_histograms(
-        histograms: &[Histogram],
-        scenes: Vec<Scene>,
-        estimators: &[Box<dyn Estimator + '_>],
-    ) -> Self {
+    pub fn of_histograms(data: &Labelled, estimators: &[Box<dyn Estimator + '_>]) -> Self {
+        let scenes = data.scenes.clone();
         let column = |estimator: &dyn Estimator| {
-            let pairs = histograms.par_iter().zip(&scenes);
-            let error = |(histogram, scene): (&Histogram, &Scene)| {
-                Some(estimator.estimate(histogram).ok()? - scene.distance_m)
-            };
-            EstimatorErrors { name: estimator.name(), errors_m: pairs.map(error).collect() }
+            let depth = |histogram: &Histogram| estimator.estimate(histogram).ok();
+            let depths_m = data.histograms.par_iter().map(depth).collect();
+            let mut column =
+                EstimatorErrors { name: estimator.name(), ..EstimatorErrors::default() };
+            column.extend(scenes.iter(), depths_m, data.array.is_some());
+            column
         };
         let columns = estimators.iter().map(|one| column(&**one)).collect();
         Evaluation { scenes, columns }
@@ -116,7 +138,13 @@ impl Evaluation {
         key: impl Fn(&Scene) -> f64,
         limit_m: f64,
     ) -> Vec<Group> {
-        spread::by(self.scenes.iter().map(key), self.judged(column), limit_m)
+        spread::by(self.known(column).map(|(scene, _)| key(scene)), self.judged(column), limit_m)
+    }
+
+    /// Returns the scenes with a true distance, and the errors of a column in them [m].
+    pub fn known(&self, column: &EstimatorErrors) -> impl Iterator<Item = (&Scene, Option<f64>)> {
+        let rows = self.scenes.iter().zip(column.errors_m.iter().copied());
+        rows.filter(|(scene, _)| !scene.distance_m.is_nan())
     }
 
     /// All errors of a column; as in [`Evaluation::by`].
@@ -126,8 +154,7 @@ impl Evaluation {
 
     /// Errors of a column and the true distances [m, m].
     fn judged(&self, column: &EstimatorErrors) -> impl Iterator<Item = (Option<f64>, f64)> {
-        let truths = self.scenes.iter().map(|scene| scene.distance_m);
-        column.errors_m.iter().copied().zip(truths)
+        self.known(column).map(|(scene, error_m)| (error_m, scene.distance_m))
     }
 }
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::dataset::Grid;
 
+use super::by_pixel::{PixelSpread, SceneImages, by_pixel, images};
 use super::by_scene::{SceneErrors, by_scene, most_biased};
 use super::by_setting::{KeyGroups, by_setting};
 use super::errors::{EstimatorErrors, Evaluation};
@@ -28,6 +29,12 @@ pub struct Figures {
     /// By the other keys of the grid.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub by_key: Vec<KeyGroups>,
+    /// By pixel, of an array.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_pixel: Vec<PixelSpread>,
+    /// Depth images of each scene, of an array whose pixels all have the same number of histograms.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub images: Vec<SceneImages>,
     /// By scene.
     #[serde(skip)]
     pub by_scene: Vec<SceneErrors>,
@@ -48,6 +55,9 @@ pub struct BiasedScene {
     pub reflectance: f64,
     /// Its spectral irradiance [W/m^2/nm].
     pub irradiance_w_m2_nm: f64,
+    /// Row and column of the pixel, of an array.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixel: Option<[usize; 2]>,
     /// Values of the other keys of the grid.
     #[serde(flatten)]
     pub keys: BTreeMap<String, f64>,
@@ -78,6 +88,8 @@ impl Figures {
         let by_scene = by_scene(evaluation, column, limit_m);
         Figures {
             by_key: Vec::new(),
+            by_pixel: Vec::new(),
+            images: Vec::new(),
             most_biased_scene: most_biased(&by_scene).and_then(biased),
             by_scene,
             name: column.name,
@@ -98,6 +110,13 @@ impl Figures {
         limit_m: f64,
     ) -> Self {
         let mut figures = Figures::new(evaluation, column, limit_m);
+        if let Some(array) = &grid.array {
+            figures = figures.of_array(evaluation, column, [array.rows, array.columns], limit_m);
+            for one in &mut figures.images {
+                let keys = grid.setting(one.setting).into_iter();
+                one.keys = keys.map(|(key, value)| (key.to_owned(), value)).collect();
+            }
+        }
         if !grid.is_thesis() {
             (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
         }
@@ -108,6 +127,24 @@ impl Figures {
             shown.keys = keys.map(|(key, value)| (key.to_owned(), value)).collect();
         }
         Figures { by_key: by_setting(evaluation, column, grid, limit_m), ..figures }
+    }
+
+    /// The same of an array with so many rows and columns, whose pixels take the place of distances.
+    pub fn of_array(
+        mut self,
+        evaluation: &Evaluation,
+        column: &EstimatorErrors,
+        size: [usize; 2],
+        limit_m: f64,
+    ) -> Self {
+        let by_pixel = by_pixel(evaluation, column, size, limit_m);
+        if let (Some(shown), Some(worst)) =
+            (&mut self.most_biased_scene, most_biased(&self.by_scene))
+        {
+            shown.pixel = by_pixel.get(worst.scene.pixel).map(|of| [of.row, of.column]);
+        }
+        let images = images(evaluation, column, size, limit_m);
+        Figures { by_distance_m: Vec::new(), by_pixel, images, ..self }
     }
 
     /// Errors at a distance of the grid [m].
@@ -142,6 +179,7 @@ fn biased(SceneErrors { scene, spread }: &SceneErrors) -> Option<BiasedScene> {
         distance_m: scene.distance_m,
         reflectance: scene.reflectance,
         irradiance_w_m2_nm: scene.irradiance_w_m2_nm,
+        pixel: None,
         keys: BTreeMap::new(),
         estimates: spread.estimates,
         mean_mm: spread.mean_mm?,
@@ -174,7 +212,7 @@ mod tests {
                 errors_m.push(Some(sign * two_sd_mm / 2e3 / 2f64.sqrt()));
             }
         }
-        let column = EstimatorErrors { name: "network", errors_m };
+        let column = EstimatorErrors { name: "network", errors_m, ..EstimatorErrors::default() };
         let evaluation = Evaluation { scenes, columns: vec![column.clone()] };
         let figures = Figures::new(&evaluation, &column, 0.1);
         assert_eq!(figures.worst_distance_m, Some(0.1));

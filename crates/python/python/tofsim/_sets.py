@@ -52,7 +52,8 @@ def dataset(
     """Draws histograms of many scenes, some at a time: those of `tofsim dataset` with the same options.
 
     A batch has `histograms` (n x bins, `uint32`), `row`, and a column for each key that varies, as
-    `target.distance_m`. The same rows come for any `batch` and any number of threads. `notes()` of the batches says what
-    makes depths of some scenes impossible.
+    `target.distance_m`. Of an array there is a row for each pixel, with its true radial depth as `distance_m` (NaN
+    where no light returns) and its place as `pixel_row` and `pixel_column`. The same rows come for any `batch` and any
+    number of threads. `notes()` of the batches says what makes depths of some scenes impossible.
     """
     return Batches(Dataset(scenario, grid_words(grid), rows, repeats, seed), batch, threads)

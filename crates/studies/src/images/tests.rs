@@ -36,7 +36,7 @@ fn rates_are_those_of_each_image() {
         pixel(700.0, &[Some(700.0), None]),
         pixel(700.0, &[Some(500.0), None]),
     ];
-    let images = Images { array, pixels, limit_m: 0.1 };
+    let images = Images::new(array, pixels, 0.1);
     near(images.fill_rate(), 0.75);
     assert_eq!(images.fill_rate().se, Some(0.25));
     // Of the two between the surfaces only one has a neighbour on the other surface.
@@ -55,7 +55,7 @@ fn bias_and_spread_are_those_of_each_pixel() {
         pixel(400.0, &[Some(397.0), Some(399.0)]),
         pixel(500.0, &[Some(600.0), None]),
     ];
-    let images = Images { array, pixels, limit_m: 0.1 };
+    let images = Images::new(array, pixels, 0.1);
     near(images.sd_by_pixel(), 2f64.sqrt());
     near(images.bias_by_pixel(), (4.0f64 - 2.0 / 2.0).sqrt());
     let squares = [
@@ -69,7 +69,7 @@ fn bias_and_spread_are_those_of_each_pixel() {
 fn what_no_image_has_has_no_figure() {
     let array = array(1, 2);
     let pixels = vec![pixel(300.0, &[None]), pixel(300.0, &[None])];
-    let images = Images { array, pixels, limit_m: 0.1 };
+    let images = Images::new(array, pixels, 0.1);
     near(images.fill_rate(), 0.0);
     for none in
         [images.flying_rate(), images.root_mse(), images.bias_by_pixel(), images.median_sigma()]
@@ -80,17 +80,8 @@ fn what_no_image_has_has_no_figure() {
 
 #[test]
 fn only_an_array_that_firmware_can_scan_has_a_rate() {
-    let figures = [(40, 30), (41, 30)].map(|(rows, columns)| {
-        Images { array: array(rows, columns), pixels: Vec::new(), limit_m: 0.1 }.rate().value
-    });
+    let figures = [(40, 30), (41, 30)]
+        .map(|(rows, columns)| Images::new(array(rows, columns), Vec::new(), 0.1).rate().value);
     assert!(figures[0].is_some_and(|rate| (17.3..17.4).contains(&rate)), "{figures:?}");
     assert_eq!(figures[1], None);
-}
-
-#[test]
-fn the_median_lies_between_the_two_in_the_middle() {
-    let of = |values: &[f64]| ends_and_median(values.iter().copied());
-    assert_eq!(of(&[3.0, 1.0, 2.0]), Some([1.0, 2.0, 3.0]));
-    assert_eq!(of(&[4.0, 1.0, 2.0, 3.0]), Some([1.0, 2.5, 4.0]));
-    assert_eq!(of(&[]), None);
 }

@@ -3,13 +3,11 @@
 use serde::Serialize;
 
 use tofsim_learn::evaluation::Spread;
-use tofsim_studies::images::ends_and_median;
+use tofsim_learn::evaluation::images::{ImageDepths, ends_and_median};
 
 use crate::report::sheet::Digits::{Fixed, Shortest};
 use crate::report::sheet::Sheet;
 use crate::text::table::number_or_dash;
-
-use super::readings::Reading;
 
 /// Most rows of a table that is printed.
 pub const SHOWN: usize = 20;
@@ -30,20 +28,14 @@ pub struct ImageStatistics {
 }
 
 impl ImageStatistics {
-    /// Returns the statistics of an image's readings.
-    pub fn of<'a>(readings: impl Iterator<Item = Reading<'a>>) -> Self {
-        let readings: Vec<_> = readings.collect();
-        let valid = readings.iter().filter(|one| one.frame.valid).count();
-        let errors_m: Vec<_> = readings.iter().filter_map(Reading::error_m).collect();
-        let square = |error_m: &f64| (1e3 * error_m).powi(2);
-        let mean_square = errors_m.iter().map(square).sum::<f64>() / errors_m.len() as f64;
-        let sigmas = readings.iter().filter_map(Reading::sigma_m);
+    /// Returns the statistics of an image.
+    pub fn of(depths: &ImageDepths, image: usize) -> Self {
         ImageStatistics {
-            valid: valid as u64,
-            fill_rate: valid as f64 / readings.len() as f64,
-            median_sigma_m: ends_and_median(sigmas).map(|[_, median, _]| median),
-            rms_error_mm: (!errors_m.is_empty()).then(|| mean_square.sqrt()),
-            errors: Spread::of(errors_m.into_iter().map(Some)),
+            valid: depths.valid(image).count() as u64,
+            fill_rate: depths.fill_rate(image),
+            median_sigma_m: ends_and_median(depths.sigmas_m(image)).map(|[_, median, _]| median),
+            rms_error_mm: depths.mean_square_mm2(image).map(f64::sqrt),
+            errors: Spread::of(depths.errors_m(image).map(Some)),
         }
     }
 }

@@ -17,14 +17,15 @@ pub(super) const SHOWN: usize = 6;
     after_help = "By default, new histograms are drawn over the thesis's test grid: 51 distances from \
     0.1 to 0.6 m, 9 irradiances, 53 reflectances, 5 of each scene. All estimators receive the same histograms, except \
     subtraction: a dark and a lit one of half the shots each. --grid KEY=... sets your own scenes; keys without --grid \
-    are those of the scenario.\n\n\
+    are those of the scenario. An array is measured pixel by pixel, by default in its own scene.\n\n\
     Examples:\n  \
     tofsim evaluate                                 the network of the scenario\n  \
     tofsim evaluate ideal --profile ideal -o out    with box plots and CSV\n  \
     tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000\n  \
     tofsim evaluate --estimator peak,subtraction    with and without a dark frame\n  \
     tofsim evaluate --data measured --profile chain.toml   your own histograms\n  \
-    tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --repeats 100"
+    tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --repeats 100\n  \
+    tofsim evaluate --scenario array --repeats 20   the pixels of an array"
 )]
 pub struct Args {
     /// Built-in network, such as uniform-16, or network file [default: the scenario's]

@@ -16,6 +16,7 @@ use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures};
 
 use crate::report::evaluation::{self as report, EvaluationFindings};
 use crate::report::writer::Report;
+use crate::verbs::pixel::common_of_counts;
 use crate::verbs::terminal::Console;
 
 use super::args::{Args, SHOWN};
@@ -26,7 +27,7 @@ pub fn run(args: &Args, data: &Path, console: &Console) -> Result<()> {
     let size = loaded.scenario.histogram();
     let labelled = Labelled::read(data, args.truth.as_deref(), &size)?;
     labelled.check(data, &loaded.scenario)?;
-    let setup = Setup::of_counts(loaded)?;
+    let setup = common_of_counts(loaded)?;
     let notes = args.notes_on(&setup, &labelled)?;
     console.print_notes(&notes)?;
     if args.estimator.iter().any(|kind| kind.needs() == Needs::Dark) {
@@ -36,14 +37,13 @@ pub fn run(args: &Args, data: &Path, console: &Console) -> Result<()> {
     let held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let estimators = Panel::new(&args.estimator, &setup)?.into_estimators();
     let count = labelled.histograms.len() as u64;
-    let (histograms, scenes) = (&labelled.histograms, labelled.scenes.clone());
     let evaluation = args.draws.on_threads(count, console, |done| {
-        let evaluation = Evaluation::of_histograms(histograms, scenes, &estimators);
+        let evaluation = Evaluation::of_histograms(&labelled, &estimators);
         done(count);
         Ok(evaluation)
     })?;
     let limit_m = 1e-3 * args.outlier_limit_mm;
-    let of = |column: &EstimatorErrors| figures(&evaluation, column, limit_m, labelled.knows_light);
+    let of = |column: &EstimatorErrors| figures(&evaluation, column, limit_m, &labelled);
     let figures: Vec<_> = evaluation.columns.iter().map(of).collect();
     let (profile, network) = (&setup.scenario.tdc.profile, &setup.network.name);
     let json = json!({
@@ -59,7 +59,11 @@ pub fn run(args: &Args, data: &Path, console: &Console) -> Result<()> {
     let distances: Vec<f64> = distances.iter().map(|group| group.value).collect();
     let shown = thinned(&distances, SHOWN);
     let beside = report::Beside { distances_m: &shown, bound_mm: &[], thesis: false };
-    let tables = report::overview(&figures) + "\n" + &report::tables(&figures, &beside);
+    let tables = match labelled.array {
+        None => "\n".to_owned() + &report::tables(&figures, &beside),
+        Some(_) => report::image_table(&figures),
+    };
+    let tables = report::overview(&figures) + &tables;
     let (text, figures) = (head + &tables, &figures[..]);
     let findings = EvaluationFindings { json, text, figures, bound: &[], grid: None };
     drop(held);
@@ -75,11 +79,14 @@ fn figures(
     evaluation: &Evaluation,
     column: &EstimatorErrors,
     limit_m: f64,
-    knows_light: bool,
+    labelled: &Labelled,
 ) -> Figures {
     let mut figures = Figures::new(evaluation, column, limit_m);
+    if let Some(size) = labelled.array {
+        figures = figures.of_array(evaluation, column, size, limit_m);
+    }
     (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
-    if !knows_light {
+    if !labelled.knows_light {
         figures.most_biased_scene = None;
         figures.by_scene.clear();
         figures.by_reflectance.clear();

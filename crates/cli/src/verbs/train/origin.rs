@@ -10,6 +10,7 @@ use tofsim_learn::training::measured::MeasuredParts;
 use tofsim_learn::training::weighting::Weighting;
 
 use crate::verbs::draws::from_here;
+use crate::verbs::pixel::common_of_counts;
 use crate::verbs::scenes::Scenes;
 
 use super::args::Args;
@@ -47,7 +48,7 @@ impl Origin {
             let labelled =
                 Labelled::read(data, args.truth.as_deref(), &loaded.scenario.histogram())?;
             labelled.check(data, &loaded.scenario)?;
-            let setup = Setup::of_counts(loaded.clone())?;
+            let setup = common_of_counts(loaded.clone())?;
             let pulse = PulseTimes {
                 delay_ps: setup.scenario.laser.delay_ps,
                 sigma_ps: setup.budget.pulse.sigma_ps(),
@@ -137,7 +138,7 @@ impl Origin {
     pub fn setup(&self) -> Result<Setup> {
         match self {
             Origin::Grid(scenes) => Ok(scenes.setups[0].clone()),
-            Origin::Measured { loaded, .. } => Setup::of_counts((**loaded).clone()),
+            Origin::Measured { loaded, .. } => common_of_counts((**loaded).clone()),
         }
     }
 
