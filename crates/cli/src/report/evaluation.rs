@@ -203,9 +203,13 @@ pub fn biased_scenes(figures: &[Figures]) -> String {
         let worst = one.most_biased_scene.as_ref()?;
         let keys = worst.keys.iter().map(|(key, value)| format!(", {key} = {value}"));
         let pixel = worst.pixel.map(|[row, column]| format!(", pixel {row},{column}"));
+        // Of a pixel, it is no number that somebody has typed.
+        let distance_m = match worst.pixel {
+            Some(_) => format!("{:.4}", worst.distance_m),
+            None => worst.distance_m.to_string(),
+        };
         let scene = format!(
-            "{} m, {}, {} W/m^2/nm{}{}",
-            worst.distance_m,
+            "{distance_m} m, {}, {} W/m^2/nm{}{}",
             worst.reflectance,
             worst.irradiance_w_m2_nm,
             pixel.unwrap_or_default(),

@@ -12,8 +12,8 @@ use tofsim_learn::dataset::{Grid, GridArray, GridOption, GridPurpose, HistogramS
 
 use super::pixel::notes_of_all;
 
-/// Most pixels of the arrays of all settings, whose light is held in memory.
-const MOST_PIXELS: u64 = 1 << 17;
+/// Most pixels of the arrays of all settings, whose light is held in memory: 1.5 GB of the scenario `array`.
+const MOST_PIXELS: u64 = 1 << 16;
 
 /// A grid, and what its histograms are drawn from.
 pub struct Scenes {
