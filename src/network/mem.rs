@@ -99,7 +99,7 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [M
     let hazard = (0..64).map(|quarter| (TABLES.k[quarter] << 11 | TABLES.growth[quarter]) as u64);
     let log = LOG2.iter().map(|&log| log as u64);
     [
-        Mem::new("edges.mem", lines(edges.into_iter(), digits(edge_bits + WIDTH_BITS))),
+        Mem::new("edges.mem", lines(edges, digits(edge_bits + WIDTH_BITS))),
         Mem::new("pulse.mem", lines(pulse, digits(35))),
         Mem::new("hazard.mem", lines(hazard, digits(28))),
         Mem::new("log2.mem", lines(log, digits(7))),

@@ -247,7 +247,7 @@ fn labelled(
 ) -> Result<Labelled> {
     let is_wrong = |k: usize, value: f64| {
         let may_be_unknown = k == 0 && places.is_some();
-        !(0.0..=f64::MAX).contains(&value) && !(may_be_unknown && value.is_nan())
+        !((0.0..=f64::MAX).contains(&value) || may_be_unknown && value.is_nan())
     };
     for (row, numbers) in truth.iter().enumerate() {
         let mut named = TRUTH.iter().zip(numbers).enumerate();
