@@ -578,7 +578,7 @@ module tof_top #(
         .rst(rst_dsp),
         .algo_start(algo_start && Likelihood),
         .mode(mode_sync),
-        .depth_column(depth_column),
+        .depth_column(OwnChains ? depth_column : 6'd0),
         .read_en(likelihood_read_en),
         .read_addr(likelihood_read_addr),
         .count(count),
