@@ -143,8 +143,11 @@ fn a_row_that_the_control_signals_keep_from_ending_is_refused() {
         let error = array(&[set]).traced(1, &mut Never, None).unwrap_err().to_string();
         assert!(error.contains(said), "{error}");
     }
-    let end = array(&[]).traced(2, &mut Never, None).unwrap();
+    let end = array(&["array.banks=1"]).traced(2, &mut Never, None).unwrap();
     assert_eq!(end.shots, 2 * 3 * 300);
+    // A row of the next image has been acquired meanwhile.
+    let end = array(&["array.banks=2"]).traced(2, &mut Never, None).unwrap();
+    assert_eq!(end.shots, (2 * 3 + 1) * 300);
 }
 
 #[test]
