@@ -194,7 +194,7 @@ mod tests {
             ),
             (&array, "tof_top/channel_64/tdc_stop", "expected channel_1 to channel_3"),
             (&array, "channel_0.code", "expected the names of a single pixel for column 0"),
-            (&array, "channel_2.cod", "no such signal, did you mean"),
+            (&array, "channel_2.cod", "no such signal (`channel_2.code`?)"),
             (&array, "channel_2.bank_1.counting", "no such signal"),
             (&single, "channel_1.code", "the scenario has one column (array.columns)"),
         ] {
