@@ -46,19 +46,19 @@ impl Cells {
 
     /// The same after a command of Yosys, under another name.
     pub fn with(sources: &Sources, top: &str, name: &str, command: &str) -> Self {
-        Self::by(sources, (top, "-flatten"), name, command)
+        Self::by(sources, (top, " -flatten"), name, command)
     }
 
-    /// The same with the modules apart: each is optimised once and by itself, which is quicker where many are alike. The
-    /// chain is not counted then.
+    /// The same with the modules apart: each is optimised once and by itself, which is quicker where many are alike.
     pub fn of_modules(sources: &Sources, top: &str, name: &str, command: &str) -> Self {
-        Self::by(sources, (top, ""), name, command)
+        // Of several modules, Yosys 0.23 writes JSON that is none.
+        Self::by(sources, (top, "\nflatten"), name, command)
     }
 
     fn by(sources: &Sources, (top, option): (&str, &str), name: &str, command: &str) -> Self {
         let sources = yosys::needed(sources, top);
         let script = format!(
-            "read_verilog {}\n{command}\nsynth_xilinx -family xc7 -top {top} {option}\n\
+            "read_verilog {}\n{command}\nsynth_xilinx -family xc7 -top {top}{option}\n\
              tee -q -o stat.json stat -json\n\
              tee -q -o chain.txt select -count t:CARRY4 c:*carry_chain.slice* %i\n",
             yosys::paths(yosys::modules(&sources)),
