@@ -25,6 +25,7 @@ pub mod pulse;
 mod sequence;
 mod slotted;
 pub mod tables;
+mod unfit;
 pub mod words;
 
 use super::forward2::Depth;

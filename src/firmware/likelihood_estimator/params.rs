@@ -8,6 +8,7 @@ use crate::kernel::pulse::Pulse;
 use crate::kernel::sizes::likelihood::{self, EDGE_BITS, WIDTH_BITS};
 
 use super::pulse::{PulseWord, step_log2, words};
+pub use super::unfit::Unfit;
 use super::words::{DEPTH_FRACTION, UNITS};
 
 /// The box, in deviations of the pulse: the part of a Gaussian in it is 0.84.
@@ -86,26 +87,6 @@ pub struct Wanted<'a> {
     pub metres_per_ps: f64,
     /// Delay of the light after the laser edge [ps].
     pub delay_ps: f64,
-}
-
-/// Why there is no estimator for an instrument.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Unfit {
-    /// The pulse is too short for the bins.
-    #[error("a pulse of {0} bins standard deviation, expected a half or more")]
-    Short(f64),
-    /// The pulse does not fit into the window.
-    #[error("a pulse {0} bins long, expected {1} at most")]
-    Long(usize, usize),
-    /// Bins end later than a word can say.
-    #[error("bins that end {0} bins late")]
-    Late(f64),
-    /// A bin is too wide.
-    #[error("a bin {0:.1} bins wide, expected less than 16")]
-    Wide(f64),
-    /// The window is longer than a depth can say.
-    #[error("a window of {0:.1} m, expected {1} at most")]
-    Far(f64, f64),
 }
 
 /// Without the ROMs, which follow from the rest and the chain.

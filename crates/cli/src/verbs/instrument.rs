@@ -6,8 +6,6 @@ use tofsim::scenario::{Array, Loaded};
 use tofsim::sim::setup::Setup;
 use tofsim::sim::setup::array::ArraySetup;
 
-use super::pixel::notes_of_all;
-
 /// An elaborated scenario.
 pub struct Instrument {
     /// That of the single pixel; of an array what its pixels have in common, with the firmware that scans them.
@@ -35,6 +33,6 @@ impl Instrument {
     /// # Errors
     /// When the network's file has a domain that is none.
     pub fn notes(&self) -> Result<Vec<Note>> {
-        self.array.as_ref().map_or_else(|| self.setup.notes(), notes_of_all)
+        self.array.as_ref().map_or_else(|| self.setup.notes(), ArraySetup::notes)
     }
 }

@@ -2,9 +2,7 @@
 
 use std::str::FromStr;
 
-use tofsim::Note;
 use tofsim::error::{Input, Result};
-use tofsim::note::merged;
 use tofsim::scenario::Loaded;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::setup::array::ArraySetup;
@@ -62,17 +60,6 @@ pub fn common_of_counts(loaded: Loaded) -> Result<Setup> {
         return Ok(ArraySetup::of_counts(loaded)?.common().clone());
     }
     Setup::of_counts(loaded)
-}
-
-/// Returns the notes of an array's pixels, each cause once, with the number of pixels that have it.
-///
-/// # Errors
-/// When the network's file has a domain that is none.
-pub fn notes_of_all(array: &ArraySetup) -> Result<Vec<Note>> {
-    let [rows, columns] = array.size();
-    let notes = |place| array.pixel(place / columns, place % columns).notes();
-    let notes = (0..rows * columns).map(notes).collect::<Result<Vec<_>>>()?;
-    Ok(merged(notes.iter().map(Vec::as_slice)))
 }
 
 #[cfg(test)]

@@ -10,7 +10,6 @@ use tofsim::sim::setup::array::ArraySetup;
 use crate::report::writer::print_list;
 
 use super::options::ScenarioArgs;
-use super::pixel::notes_of_all;
 use super::terminal::{Console, print, print_json};
 
 /// List, show and check scenarios
@@ -64,7 +63,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
             let array = ArraySetup::new(which.load(None)?)?;
             let setup = array.common();
             setup.windows(&[], 1)?;
-            let notes = notes_of_all(&array)?;
+            let notes = array.notes()?;
             console.print_notes(&notes)?;
             if *json {
                 print_json(&json!({ "scenario": setup.name, "ok": true, "notes": notes }))

@@ -10,8 +10,6 @@ use tofsim::sim::setup::Setup;
 use tofsim::sim::setup::array::ArraySetup;
 use tofsim_learn::dataset::{Grid, GridArray, GridOption, GridPurpose, HistogramSource};
 
-use super::pixel::notes_of_all;
-
 /// Most pixels of the arrays of all settings, whose light is held in memory: 1.5 GB of the scenario `array`.
 const MOST_PIXELS: u64 = 1 << 16;
 
@@ -139,7 +137,7 @@ impl Scenes {
     /// estimator they have.
     fn notes_of(&self, mut loaded: Loaded) -> Result<Vec<Note>> {
         if self.grid.array.is_some() {
-            let mut notes = notes_of_all(&ArraySetup::of_counts(loaded)?)?;
+            let mut notes = ArraySetup::of_counts(loaded)?.notes()?;
             notes.retain(|note| note.code != NoteCode::OutsideTraining);
             return Ok(notes);
         }
