@@ -33,7 +33,7 @@ use super::terminal::{Console, stop_signal};
     tofsim dataset --rows 24000 --format npy -o few  random scenes\n  \
     tofsim dataset --profile my-chain.toml -o own    a measured chain\n  \
     tofsim dataset --grid target.distance_m=0.05..0.9:0.05 -o far\n  \
-    tofsim dataset array --repeats 100 -o pixels     40 x 30 pixels, 100 histograms each"
+    tofsim dataset array --repeats 100 -o pixels     40 x 30 pixels, 100 each"
 )]
 pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
