@@ -116,3 +116,30 @@ fn the_median_lies_between_the_two_in_the_middle() {
     assert_eq!(of(&[4.0, 1.0, 2.0, 3.0]), Some([1.0, 2.5, 4.0]));
     assert_eq!(of(&[]), None);
 }
+
+#[test]
+fn sigma_holds_where_each_column_has_a_chain_of_its_own() {
+    let keys = [
+        "array.rows=2",
+        "array.columns=6",
+        "array.chains_file=../chains/columns.csv",
+        "tdc.profile=kintex7",
+        "estimator.kind=likelihood",
+        "target.reflectance=0.5",
+        "ambient.irradiance_w_m2_nm=0.01",
+        "laser.average_power_w=0.0023",
+        "lens.area_m2=9.5e-3",
+    ];
+    let loaded = scenario::load("kc705", &keys.map(str::to_owned)).unwrap();
+    let pixels = ArraySetup::new(loaded).unwrap().images(Histograms, 60, None, &|_| ()).unwrap();
+    let mut squares = Vec::new();
+    for pixel in &pixels {
+        let true_m = pixel.expected.radial_m.unwrap();
+        for frame in pixel.frames.iter().filter(|frame| frame.valid) {
+            squares.push(((frame.radial_m - true_m) / frame.sigma_m.unwrap()).powi(2));
+        }
+    }
+    assert!(squares.len() >= 12 * 60 - 3, "{} are valid", squares.len());
+    let ratio = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+    assert!((0.9..1.1).contains(&ratio), "{ratio}");
+}
