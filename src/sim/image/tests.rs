@@ -128,7 +128,7 @@ fn sigma_holds_where_each_column_has_a_chain_of_its_own() {
         "target.reflectance=0.5",
         "ambient.irradiance_w_m2_nm=0.01",
         "laser.average_power_w=0.0023",
-        "lens.area_m2=9.5e-3",
+        "lens.area_m2=9.5e-4",
     ];
     let loaded = scenario::load("kc705", &keys.map(str::to_owned)).unwrap();
     let pixels = ArraySetup::new(loaded).unwrap().images(Histograms, 60, None, &|_| ()).unwrap();
