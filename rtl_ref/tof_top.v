@@ -8,7 +8,7 @@ module tof_top #(
     parameter integer Rows = 1,                  // see frame_ctrl
     parameter integer Columns = 1,
     parameter integer Banks = 1,
-    // Column 7 loads CalFile.07 and DelaysFile.07, as each but the first its own; 0: all load those of the first.
+    // Each column but the first loads files of its own, column 7 CalFile.07 and DelaysFile.07; 0: all load CalFile and DelaysFile.
     parameter [0:0] OwnChains = 1'b0,
     parameter integer SumBits = 36,              // see forward1
     // Word formats and table of depth_estimator, see forward1, tansig and forward2

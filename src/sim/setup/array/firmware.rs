@@ -14,7 +14,7 @@ use crate::kernel::scan::{MOST_ROWS, Scan};
 use crate::scenario::window::Window;
 use crate::sim::setup::Setup;
 
-use super::{ArraySetup, Column};
+use super::ArraySetup;
 
 impl ArraySetup {
     /// Returns the parameters of the firmware that scans the array.
@@ -57,11 +57,13 @@ impl ArraySetup {
             }
             params.tdc = first.converter.tdc.clone();
             params.channels = others.iter().map(|other| other.converter.tdc.clone()).collect();
-            let estimator = &mut params.estimators.likelihood_estimator;
-            if let Some(edges) = &first.edges {
-                let edges_of = |column: &Column| column.edges.clone().unwrap_or_default();
-                let columns = others.iter().map(edges_of).collect();
+            let edges: Option<Vec<_>> =
+                setup.pixel_files.columns.iter().map(|column| column.edges.clone()).collect();
+            // A column that the estimator is not for leaves its stand-in, which nothing starts.
+            if let Some([edges, columns @ ..]) = edges.as_deref() {
+                let estimator = &mut params.estimators.likelihood_estimator;
                 let own = (**estimator).clone().with_edges(Arc::clone(edges));
+                let columns = columns.into();
                 *estimator = Arc::new(likelihood_estimator::params::Params { columns, ..own });
             }
         }
