@@ -15,6 +15,7 @@ pub mod histogram_builder;
 pub mod histogram_preload;
 pub mod laser_guard;
 pub mod likelihood_estimator;
+pub mod likelihood_glass;
 pub mod likelihood_memory;
 pub mod likelihood_scan;
 pub mod likelihood_solver;

@@ -63,7 +63,7 @@ fn fitted(entries: Vec<Entry>, sizes: &Sizes) -> Vec<Entry> {
         let kind = match entry.kind {
             kind if entry.signal.is_shared(sizes) => kind,
             // Its registers stay what they are, and nobody reads them.
-            _ if entry.signal.only_if == Some(Size::Scanned) => return None,
+            _ if matches!(entry.signal.only_if, Some(Size::Scanned | Size::Glass)) => return None,
             Kind::Output if !reads(entry) => Kind::Internal,
             _ => return None,
         };

@@ -19,6 +19,7 @@ use crate::kernel::U;
 use crate::{connect, signals, states};
 
 mod duration;
+pub mod glass;
 pub mod params;
 pub mod pipeline;
 pub mod pulse;
@@ -29,6 +30,7 @@ mod unfit;
 pub mod words;
 
 use super::forward2::Depth;
+use super::likelihood_glass::{self, LikelihoodGlass};
 use super::likelihood_memory::{self, LikelihoodMemory, Place};
 use super::likelihood_scan::{self, LikelihoodScan};
 use super::likelihood_solver::{self, LikelihoodSolver};
@@ -119,6 +121,12 @@ signals! {
         pub(crate) seen: bool,
         /// Few shots waited at the first.
         pub(crate) used_up: bool,
+        /// A fit or a scan is without an echo.
+        #[only_if(Glass)]
+        pub(crate) dark: bool,
+        /// The check has come to the window around the echo.
+        #[only_if(Glass)]
+        pub(crate) reached: bool,
         /// `mode` was high since the last estimation began.
         pub(crate) free: bool,
         /// The same of the shots of this estimation.
@@ -137,6 +145,8 @@ pub struct LikelihoodEstimator {
     pub likelihood_terms: LikelihoodTerms,
     /// Their sums.
     pub likelihood_sums: LikelihoodSums,
+    /// The cover glass.
+    pub likelihood_glass: LikelihoodGlass,
     /// The box.
     pub likelihood_scan: LikelihoodScan,
     /// Arithmetic.
@@ -156,7 +166,8 @@ connect! {
         [pass, scan, fit_begin, fit_end, phase] <- this.registers;
     }
     likelihood_terms(clk_sys): likelihood_terms::In {
-        [phase, scan] <- this.registers;
+        [phase, scan, dark] <- this.registers;
+        glass_light <- this.likelihood_glass.glass_light;
         [arrival, strength, ambient] <- this.likelihood_solver.registers;
         [
             word_bin, word_rest, word_edge, word_slide, word_first, word_ended, word_waiting,
@@ -167,6 +178,14 @@ connect! {
         pass <- this.registers.sums;
         [check, phase] <- this.registers;
         [residual, predicted, gain, share, slope, single] <- this.likelihood_terms;
+    }
+    likelihood_glass(clk_sys): likelihood_glass::In {
+        pass <- this.registers.sums;
+        phase <- this.registers.phase;
+        glass <- this.likelihood_solver.registers.glass;
+        word_glass <- this.likelihood_memory.registers.word_glass;
+        [hazard_bits, hazard_reciprocal, residual, share, slope] <- this.likelihood_terms;
+        weight_first <- this.likelihood_sums.weight_first;
     }
     likelihood_scan(clk_sys): likelihood_scan::In {
         load <- this.registers.load;
@@ -183,6 +202,7 @@ connect! {
         [
             sum_11, sum_12, sum_13, sum_22, sum_23, sum_33, score_1, score_2, score_3
         ] <- this.likelihood_sums;
+        [sum_14, sum_24, sum_34, sum_44, score_4] <- this.likelihood_glass;
     }
 }
 

@@ -97,6 +97,12 @@ signals! {
         /// End of the word [half units].
         #[size(EdgeBits)]
         pub word_end: Edge,
+        /// Part of the cover glass's light in the bin, 17 fraction bits.
+        #[only_if(Glass)]
+        pub word_glass: U<17>,
+        /// The word is the first one of the window around the echo.
+        #[only_if(Glass)]
+        pub word_window: bool,
         /// A word has been read in the last cycle.
         taken: bool,
         /// Its bin.
@@ -196,6 +202,15 @@ signals! {
         /// Their exposure.
         #[size(ExposureBits)]
         read_exposure: Exposure,
+        /// Part of the cover glass's light in the bin.
+        #[only_if(Glass)]
+        read_glass: U<17>,
+        /// The bin is the first one of the window.
+        #[only_if(Glass)]
+        read_window: bool,
+        /// The pass is at the bins with light of the cover glass.
+        #[only_if(Glass)]
+        in_glass: bool,
         /// Hits outside of the fit, when it has been gone through.
         #[size(RestBits)]
         rest_ended: Waiting,
@@ -258,7 +273,7 @@ impl LikelihoodMemory {
         q.subtract(i, &mut d);
         if i.phase {
             q.word(p, &mut d);
-            q.read(&self.ram[q.bin.index()], &mut d);
+            q.read(i, p, &self.ram[q.bin.index()], &mut d);
         }
         q.pass(i, p, &mut d);
         if i.phase || q.read_en {

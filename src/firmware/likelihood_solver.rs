@@ -27,8 +27,8 @@ mod sequence;
 
 /// A word of the memory, and the most bits of one.
 pub type Word = S<45>;
-/// Words of the memory.
-const WORDS: usize = 32;
+/// Words of the memory, with the places of operands from other blocks.
+const WORDS: usize = 64;
 /// Bits of `b` that the multiplier takes first.
 const LOW_BITS: u32 = 17;
 /// Bits of a magnitude that are not kept: a step is shifted if it has more of them, and the information if it has
@@ -91,6 +91,26 @@ signals! {
         /// Score of log b.
         #[size(SumWordBits)]
         pub score_3: S<43>,
+        /// Sum of the information on mu and log C.
+        #[only_if(Glass)]
+        #[size(SlopeSumBits)]
+        pub sum_14: S<48>,
+        /// Sum of the information on log S and log C.
+        #[only_if(Glass)]
+        #[size(SumWordBits)]
+        pub sum_24: S<43>,
+        /// Sum of the information on log b and log C.
+        #[only_if(Glass)]
+        #[size(SumWordBits)]
+        pub sum_34: S<43>,
+        /// Sum of the information on log C.
+        #[only_if(Glass)]
+        #[size(SumWordBits)]
+        pub sum_44: S<43>,
+        /// Score of log C.
+        #[only_if(Glass)]
+        #[size(SumWordBits)]
+        pub score_4: S<43>,
     }
 }
 
@@ -109,6 +129,9 @@ signals! {
         /// b, 30 fraction bits [1 / unit].
         #[view(heading = "Likelihood", probe = true)]
         pub ambient: U<24>,
+        /// C, 14 fraction bits [photons a shot].
+        #[only_if(Glass)]
+        pub glass: U<24>,
         /// Depth of the last end program [2^-29 m].
         pub depth: S<36, 29>,
         /// Its deviation [2^-29 m].
@@ -129,7 +152,8 @@ signals! {
         /// There is an instruction in that cycle of it.
         at: [bool; 9],
         /// Number of the instruction in each cycle.
-        number: [U<6>; 8],
+        #[size(ProgramBits)]
+        number: [U<7>; 8],
         /// Location of the first operand.
         from_a: U<6>,
         /// Location of the second operand.
@@ -261,15 +285,17 @@ impl LikelihoodSolver {
     pub fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;
         let mut d = q;
-        d.scarce = i.sum_33.get() < SCARCE;
-        q.begin(i, &mut d);
-        q.go_on(&mut d);
+        if p.glass.bins() == 0 {
+            d.scarce = i.sum_33.get() < SCARCE;
+        }
+        q.begin(i, p, &mut d);
+        q.go_on(p, &mut d);
         self.fetch(i, p, &mut d);
         q.multiply(p, &mut d);
         q.shift(p, &mut d);
         q.add(p, &mut d);
         q.divide(&mut d);
-        self.keep(i, &mut d);
+        self.keep(i, p, &mut d);
         self.registers = if i.rst { Registers::default() } else { d };
     }
 }

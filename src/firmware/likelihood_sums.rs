@@ -134,8 +134,9 @@ signals! {
         #[size(FourthProductBits)]
         fourth_product: S<42>,
         /// w, one cycle ahead.
+        #[only_if(Glass)]
         #[size(WeightBits)]
-        weight_first: Weight,
+        pub weight_first: Weight,
         /// v s, one cycle ahead.
         #[size(ResidualBits)]
         seen_first: Residual,

@@ -38,8 +38,11 @@ signals! {
     pub struct In {
         /// Second cycle of a beat.
         pub phase: bool,
-        /// Without signal.
+        /// Without signal, unless the estimator knows of a cover glass.
         pub scan: bool,
+        /// Without signal, if it does.
+        #[only_if(Glass)]
+        pub dark: bool,
         /// Arrival of the echo [units / 16].
         #[size(ArrivalBits)]
         pub arrival: U<21>,
@@ -47,6 +50,9 @@ signals! {
         pub strength: U<24>,
         /// b, 30 fraction bits [1 / unit].
         pub ambient: U<24>,
+        /// Hazard of the cover glass's light, 22 fraction bits.
+        #[only_if(Glass)]
+        pub glass_light: Hazard,
         /// The word is a bin.
         pub word_bin: bool,
         /// The word stands for all other bins.
@@ -99,6 +105,12 @@ signals! {
         pub single: bool,
         /// A box goes on with it.
         pub slide: bool,
+        /// Bits of the hazard.
+        #[only_if(Glass)]
+        pub hazard_bits: U<5>,
+        /// Reciprocal of its mantissa, 10 fraction bits.
+        #[only_if(Glass)]
+        pub hazard_reciprocal: U<10>,
         /// Words on the way: of a bin, from the one at the pulse on.
         bin: [bool; 15],
         /// Of all others.
@@ -175,7 +187,8 @@ signals! {
         /// Hazard of the signal.
         lit: Hazard,
         /// Sum of both.
-        sum: U<27>,
+        #[size(HazardSumBits)]
+        sum: U<28>,
         /// The same within its limits.
         hazard: [Hazard; 5],
         /// Hazard of the signal.
@@ -255,7 +268,7 @@ impl Clocked for LikelihoodTerms {
         let mut d = *self;
         if i.phase {
             self.carry(i, p, &mut d);
-            self.cut_out(i, &mut d);
+            self.cut_out(i, p, &mut d);
             self.give(p, &mut d);
         }
         self.fetch(i, p, &mut d);

@@ -165,6 +165,14 @@ sizes! { s:
     /// Bits of a distance before it is cut to a depth.
     DistanceBits = s.position_bits + 10;
 
+    /// Bins with light of a cover glass that the likelihood estimator knows.
+    GlassBins = s.glass_bins;
+    /// 1 if there are any.
+    Glass = u32::from(s.glass_bins > 0);
+    /// Bits of a place in the likelihood estimator's program.
+    ProgramBits = if s.glass_bins > 0 { 7 } else { 6 };
+    /// Bits of a sum of hazards.
+    HazardSumBits = if s.glass_bins > 0 { 28 } else { 27 };
     /// Bits of a number of bins.
     PlaceBits = s.bin_bits() + 1;
     /// Bits of a sum of bin counts.

@@ -10,7 +10,6 @@ use crate::firmware::likelihood_estimator;
 use crate::firmware::likelihood_estimator::pulse::PulseWord;
 use crate::firmware::likelihood_estimator::tables::{LOG2, TABLES};
 use crate::firmware::likelihood_solver::instruction::Instruction;
-use crate::firmware::likelihood_solver::program::PROGRAM;
 use crate::firmware::tansig;
 use crate::firmware::tdc_decoder;
 use crate::kernel::WordFormat;
@@ -103,13 +102,13 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [M
         Mem::new("pulse.mem", lines(pulse, digits(35))),
         Mem::new("hazard.mem", lines(hazard, digits(28))),
         Mem::new("log2.mem", lines(log, digits(7))),
-        likelihood_solver(),
+        likelihood_solver(params),
     ]
 }
 
 /// Formats the ROM of the likelihood estimator's solver: its program, an instruction a line.
-pub fn likelihood_solver() -> Mem {
-    let words = PROGRAM.iter().map(Instruction::word);
+pub fn likelihood_solver(params: &likelihood_estimator::params::Params) -> Mem {
+    let words = params.program().instructions.iter().map(Instruction::word);
     Mem::new("solver.mem", lines(words, digits(Instruction::BITS)))
 }
 

@@ -1,11 +1,7 @@
 //! How long each part of an estimation takes.
 
-use crate::firmware::likelihood_solver::program::{
-    AMBIENT_PROGRAM, END_PROGRAM, START_PROGRAM, STEP_PROGRAM, program_cycles,
-};
-
 use super::params::Params;
-use super::words::STEPS;
+use super::words::{GLASS_STEPS, STEPS};
 
 /// Beats from a bin in the memory to the sums, or to the highest box, with one for the edge.
 const BEATS: u64 = 29;
@@ -22,11 +18,12 @@ impl Params {
     /// each step and one to check, each of bins, and the programs between them, which are as long whatever is in
     /// the histogram [cycles of clk_sys].
     pub fn done(&self) -> u64 {
-        let passes = STEPS as u64 + 1;
-        let programs = program_cycles(AMBIENT_PROGRAM)
-            + program_cycles(START_PROGRAM)
-            + STEPS as u64 * program_cycles(STEP_PROGRAM)
-            + program_cycles(END_PROGRAM);
+        let steps = (STEPS + if self.glass.bins() > 0 { GLASS_STEPS } else { 0 }) as u64;
+        let (program, passes) = (self.program(), steps + 1);
+        let programs = program.cycles(program.ambient)
+            + program.cycles(program.start)
+            + steps * program.cycles(program.step)
+            + program.cycles(program.end);
         let states = 1 + 2 + passes;
         self.load_cycles() + 2 * self.scan_cycles() + passes * self.fit_cycles() + programs + states
     }
@@ -36,8 +33,14 @@ impl Params {
         2 * (self.histogram.bins as u64 + self.scan_tail() + BEATS)
     }
 
+    /// Beats of a fit with a bin or an edge, but for the first.
+    fn passed(&self) -> usize {
+        let glass = self.glass.bins();
+        self.fitted() + if glass > 0 { glass + 1 } else { 0 }
+    }
+
     /// Cycles of a pass over the bins of a fit.
     pub fn fit_cycles(&self) -> u64 {
-        2 * (self.fitted() as u64 + BEATS)
+        2 * (self.passed() as u64 + BEATS)
     }
 }

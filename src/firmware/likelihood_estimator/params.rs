@@ -7,6 +7,7 @@ use crate::firmware::histogram_builder;
 use crate::kernel::pulse::Pulse;
 use crate::kernel::sizes::likelihood::{self, EDGE_BITS, WIDTH_BITS};
 
+use super::glass::{Glass, MOST_LIGHT};
 use super::pulse::{PulseWord, step_log2, words};
 pub use super::unfit::Unfit;
 use super::words::{DEPTH_FRACTION, UNITS};
@@ -49,6 +50,8 @@ pub struct Params {
     pub metres_shift: u32,
     /// Distance that light would go, there and back, in the laser's delay [2^-29 m].
     pub delay: i64,
+    /// The cover glass's light.
+    pub glass: Glass,
 }
 
 /// Numbers that times and distances are reckoned with, as words or without rounding.
@@ -87,6 +90,8 @@ pub struct Wanted<'a> {
     pub metres_per_ps: f64,
     /// Delay of the light after the laser edge [ps].
     pub delay_ps: f64,
+    /// Hazard of a cover glass's light in each bin; empty without one [1].
+    pub glass: &'a [f64],
 }
 
 /// Without the ROMs, which follow from the rest and the chain.
@@ -103,14 +108,16 @@ impl fmt::Debug for Params {
             sigma,
             metres,
             delay,
+            glass,
             ..
         } = self;
         let words = (step_log2, before, after, box_bins, kappa, sigma, metres, delay);
-        out.debug_struct("Params")
-            .field("histogram", histogram)
-            .field("shots", shots)
-            .field("words", &words)
-            .finish()
+        let mut all = out.debug_struct("Params");
+        all.field("histogram", histogram).field("shots", shots).field("words", &words);
+        if glass.bins() > 0 {
+            all.field("glass", glass);
+        }
+        all.finish()
     }
 }
 
@@ -123,7 +130,9 @@ impl Params {
         let (shots, pulse) = (histogram.most_hits(), Pulse::Gaussian { sigma_ps: bin_ps });
         let (metres_per_ps, delay_ps) = (1.5e-4, 0.0);
         let edges_ps = &edges_ps;
-        let wanted = Wanted { histogram, shots, edges_ps, bin_ps, pulse, metres_per_ps, delay_ps };
+        let glass = &[];
+        let wanted =
+            Wanted { histogram, shots, edges_ps, bin_ps, pulse, metres_per_ps, delay_ps, glass };
         Params::of(&wanted)
     }
 
@@ -211,6 +220,7 @@ impl Params {
             metres: libm::round(scales.metres) as i64,
             metres_shift: scales.metres_shift,
             delay: libm::round(scales.delay) as i64,
+            glass: Glass::of(wanted.glass),
         }
     }
 }
@@ -273,6 +283,10 @@ impl Wanted<'_> {
         let most_m = f64::from(word_bits(&self.histogram) - 1 - DEPTH_FRACTION).exp2();
         if window_m >= most_m {
             return Some(Unfit::Far(window_m, most_m));
+        }
+        let light: f64 = self.glass.iter().sum();
+        if light > MOST_LIGHT {
+            return Some(Unfit::Bright(light, MOST_LIGHT));
         }
         let sigma_ps = self.pulse.sigma_ps();
         if sigma_ps < 0.5 * self.bin_ps {

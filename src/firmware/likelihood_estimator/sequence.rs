@@ -1,14 +1,13 @@
 //! The order of loads, scans, passes and programs, and the result.
 
 use crate::firmware::forward2::Depth;
-use crate::firmware::likelihood_solver::program::{
-    AMBIENT_PROGRAM, END_PROGRAM, START_PROGRAM, STEP_PROGRAM,
-};
 use crate::firmware::tof_top::status::{Status, StatusSet};
 use crate::kernel::U;
 
 use super::params::Params;
-use super::words::{ANOTHER_SCORE, CERTAIN_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE};
+use super::words::{
+    ANOTHER_SCORE, CERTAIN_SCORE, GLASS_STEPS, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE,
+};
 use super::{In, LikelihoodEstimator, Registers, State};
 
 impl LikelihoodEstimator {
@@ -22,28 +21,40 @@ impl LikelihoodEstimator {
         d.waited = q.waited + 1;
         let after = |cycles: u64| q.waited == cycles;
         let ran = self.likelihood_solver.registers.ran;
+        let (program, has_glass) = (p.program(), p.glass.bins() > 0);
         match q.state {
             State::Idle if i.algo_start => {
                 (d.state, d.load) = (State::Load, true);
                 (d.fit_begin, d.fit_end, d.steps) = Default::default();
                 (d.unarmed, d.free) = (d.free, i.mode);
             }
-            State::Load if after(p.load_cycles()) => d.solve(State::Ambient, AMBIENT_PROGRAM),
+            State::Load if after(p.load_cycles()) => d.solve(State::Ambient, program.ambient),
+            State::Ambient if ran && has_glass => {
+                d.dark = true;
+                self.fit(State::Fit, p, &mut d);
+            }
             State::Ambient if ran => d.slide(State::Scan),
             State::Scan if after(p.scan_cycles()) => {
                 d.start_score = self.likelihood_scan.registers.best_score;
-                d.solve(State::Start, START_PROGRAM);
+                d.solve(State::Start, program.start);
             }
-            State::Start if ran => self.fit(State::Fit, p, &mut d),
-            State::Fit if after(p.fit_cycles()) => d.solve(State::Step, STEP_PROGRAM),
+            State::Start if ran => {
+                d.dark = false;
+                self.fit(State::Fit, p, &mut d);
+            }
+            State::Fit if after(p.fit_cycles()) => d.solve(State::Step, program.step),
+            State::Step if ran && q.dark && q.steps == GLASS_STEPS as u64 - 1 => {
+                d.steps = U::new(0);
+                d.slide(State::Scan);
+            }
             State::Step if ran => {
                 let last = q.steps == STEPS as u64 - 1;
                 d.steps = q.steps + 1;
                 self.fit(if last { State::Check } else { State::Fit }, p, &mut d);
             }
             State::Check if after(p.fit_cycles()) => d.slide(State::Rescan),
-            State::Check => self.look(&mut d),
-            State::Rescan if after(p.scan_cycles()) => d.solve(State::End, END_PROGRAM),
+            State::Check => self.look(has_glass, &mut d),
+            State::Rescan if after(p.scan_cycles()) => d.solve(State::End, program.end),
             State::End if ran => self.give(p, &mut d),
             _ => {}
         }
@@ -57,17 +68,22 @@ impl LikelihoodEstimator {
     fn fit(&self, state: State, p: &Params, d: &mut Registers) {
         let bins = p.histogram.bins as u64;
         let centre = (self.likelihood_solver.registers.arrival.get() >> 10).min(bins - 1);
-        d.fit_begin = U::new(centre.saturating_sub(p.before as u64));
-        d.fit_end = U::new((centre + p.after as u64 + 1).min(bins));
+        (d.fit_begin, d.fit_end) = if d.dark {
+            Default::default()
+        } else {
+            let begin = centre.saturating_sub(p.before as u64);
+            (U::new(begin), U::new((centre + p.after as u64 + 1).min(bins)))
+        };
         (d.pass, d.sums, d.state) = (true, true, state);
         d.check = state == State::Check;
-        d.seen = false;
+        (d.seen, d.reached) = (false, false);
     }
 
-    /// Looks at the first bin of the check.
-    fn look(&self, d: &mut Registers) {
+    /// Looks at the first bin of the check, with a cover glass at the first one of the window around the echo.
+    fn look(&self, has_glass: bool, d: &mut Registers) {
         let memory = &self.likelihood_memory.registers;
-        if memory.word_bin && !self.registers.seen {
+        d.reached |= has_glass && memory.word_window;
+        if memory.word_bin && !self.registers.seen && (d.reached || !has_glass) {
             d.seen = true;
             d.used_up = memory.word_waiting.get() < LEAST_WAITING;
         }

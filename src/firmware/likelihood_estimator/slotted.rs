@@ -21,11 +21,15 @@ impl SlotEstimator for LikelihoodEstimator {
         let (memory, terms) = (Wires::likelihood_memory(self, i), Wires::likelihood_terms(self, i));
         let (sums, scan) = (Wires::likelihood_sums(self, i), Wires::likelihood_scan(self, i));
         let solver = Wires::likelihood_solver(self, i);
+        let glass = (p.glass.bins() > 0).then(|| Wires::likelihood_glass(self, i));
         let registers = if i.rst { Registers::default() } else { self.next(i, p) };
 
         self.likelihood_memory.rise(&memory, p);
         self.likelihood_terms.tick(&terms, p);
         self.likelihood_sums.tick(&sums, p);
+        if let Some(glass) = glass {
+            self.likelihood_glass.tick(&glass, p);
+        }
         self.likelihood_scan.rise(&scan, p);
         self.likelihood_solver.rise(&solver, p);
         self.registers = registers;
@@ -59,5 +63,8 @@ impl SlotEstimator for LikelihoodEstimator {
                 == self.likelihood_terms
             && self.likelihood_sums.next(&Wires::likelihood_sums(self, i), p)
                 == self.likelihood_sums
+            && (p.glass.bins() == 0
+                || self.likelihood_glass.next(&Wires::likelihood_glass(self, i), p)
+                    == self.likelihood_glass)
     }
 }

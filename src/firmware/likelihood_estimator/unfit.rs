@@ -18,4 +18,7 @@ pub enum Unfit {
     /// The window is longer than a depth can say.
     #[error("a window of {0:.1} m, expected {1} at most")]
     Far(f64, f64),
+    /// The cover glass sends more light than a word can say.
+    #[error("a pedestal of {0:.1} photons a shot, expected {1} at most")]
+    Bright(f64, f64),
 }

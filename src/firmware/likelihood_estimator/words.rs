@@ -56,6 +56,8 @@ pub const FAR: i64 = 25;
 pub const MOST_TERM: i64 = (1 << 24) - 1;
 /// Fisher steps of an estimation.
 pub const STEPS: usize = 6;
+/// Steps before them that fit a pedestal without an echo.
+pub const GLASS_STEPS: usize = 2;
 /// Shots that have to wait at the fit's first bin.
 pub const LEAST_WAITING: u64 = 32;
 /// Score of the box that an echo has at least, 64 log2 of 25 squared deviations.

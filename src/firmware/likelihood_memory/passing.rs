@@ -26,22 +26,31 @@ impl Params {
 }
 
 impl Registers {
-    /// Goes on with a pass, or begins one.
+    /// Goes on with a pass, or begins one. A fit goes over the bins with light of a cover glass first.
     pub(super) fn pass(&self, i: &In, p: &Params, d: &mut Self) {
+        let glass = p.glass.bins() as u64;
         if i.pass {
             (d.passing, d.opening, d.tailing, d.scanning) = (true, true, false, i.scan);
             d.blank = false;
-            d.index = if i.scan { U::new(0) } else { i.fit_begin };
+            d.in_glass = glass > 0 && !i.scan;
+            d.index = if i.scan || glass > 0 { U::new(0) } else { i.fit_begin };
             d.tail = U::new(0);
         } else if self.passing && i.phase {
             d.opening = false;
             let (at_begin, at_end) = (self.index == i.fit_begin, self.index == i.fit_end);
-            let last = if self.scanning { self.index == p.histogram.bins as u64 } else { at_end };
-            if self.opening || !last {
+            let last = match (self.scanning, glass > 0) {
+                (true, _) => self.index == p.histogram.bins as u64,
+                (false, false) => at_end,
+                (false, true) => self.index >= i.fit_end,
+            };
+            if self.in_glass && !self.opening && self.index == glass {
+                (d.in_glass, d.opening) = (false, true);
+                d.index = self.index.max(i.fit_begin);
+            } else if self.in_glass || !last || self.opening && (self.scanning || glass == 0) {
                 d.index = self.index + 1;
                 d.bin = U::new(self.index.get() % p.histogram.bins as u64);
                 if at_begin || at_end {
-                    d.blank = self.scanning && !at_end;
+                    d.blank = self.scanning && !at_end && glass == 0;
                 }
             } else if !self.tailing {
                 d.tailing = true;
@@ -54,7 +63,7 @@ impl Registers {
     }
 
     /// Looks up a bin; one that is blanked is none.
-    pub(super) fn read(&self, kept: &Kept, d: &mut Self) {
+    pub(super) fn read(&self, i: &In, p: &Params, kept: &Kept, d: &mut Self) {
         let bin = self.passing && !self.opening && !self.tailing;
         d.read_bin = bin && !self.blank;
         d.read_rest = self.passing && self.tailing && !self.scanning;
@@ -62,6 +71,8 @@ impl Registers {
         d.read_slide = self.passing && self.scanning && !self.opening;
         d.read_first = self.index == if self.opening { 0 } else { 1 };
         (d.read_ended, d.read_waiting, d.read_exposure) = (kept.ended, kept.waiting, kept.exposure);
+        d.read_glass = U::new(if bin { p.glass.part(self.bin.index()) as u64 } else { 0 });
+        d.read_window = bin && self.bin.get() == i.fit_begin.get();
     }
 
     /// Hands a bin on, or all others; a bin without width is none.
@@ -70,6 +81,7 @@ impl Registers {
         (d.word_rest, d.word_edge, d.word_first) =
             (self.read_rest, self.read_edge, self.read_first);
         d.word_slide = self.read_slide;
+        (d.word_glass, d.word_window) = (self.read_glass, self.read_window);
         d.word_end = self.fetched_end;
         (d.word_ended, d.word_waiting, d.word_width) = match self.read_rest {
             true => {

@@ -10,7 +10,7 @@ use crate::kernel::{S, U, wrapped};
 use super::instruction::{By, Clamp, Op};
 use super::{LOW_BITS, Registers};
 
-/// Limits of a step in log b: b falls to a half at most, and grows by three times.
+/// Limits of a step in log b or log C: it falls to a half at most, and grows by three times.
 const GROWTH: [i64; 2] = [-(1 << 13), 3 << 14];
 /// The same while little is known of log b, or the step is shortened: b does not fall then.
 const HELD_GROWTH: [i64; 2] = [0, GROWTH[1]];
@@ -31,7 +31,7 @@ impl Registers {
             let whole = partial.wrapping_shl(LOW_BITS) | self.low.get() & low;
             d.product = S::new(whole);
         }
-        if self.at[1] && self.instruction(1).op == Op::Reciprocal {
+        if self.at[1] && self.instruction(p, 1).op == Op::Reciprocal {
             d.bits = U::new(length(a.max(1)).into());
         }
     }
@@ -73,7 +73,7 @@ impl Registers {
         let (c, shifted) = (self.c.get(), self.shifted.get() + i64::from(self.half));
         d.sum = S::new(if self.minus { c - shifted } else { c + shifted });
         (d.past, d.opposite) = (self.beyond, (self.shifted.get() < 0) != self.minus);
-        d.limits = U::new(self.instruction(6).clamp as u64);
+        d.limits = U::new(self.instruction(p, 6).clamp as u64);
 
         let [least, most] = match Clamp::VARIANTS[self.limits.index()] {
             Clamp::Growth if self.scarce || self.cut != 0 => HELD_GROWTH,
@@ -99,7 +99,7 @@ impl Params {
             Clamp::Ambient => [1, MOST_LEVEL],
             Clamp::Chance => [1, MOST_CHANCE],
             Clamp::Window => [0, self.end()],
-            Clamp::Growth => GROWTH,
+            Clamp::Growth | Clamp::Change => GROWTH,
         }
     }
 }

@@ -53,6 +53,8 @@ pub enum Clamp {
     Window,
     /// Limits of a step in log b.
     Growth,
+    /// Limits of a step in log C.
+    Change,
 }
 
 /// Number of the mark of a magnitude.

@@ -1,19 +1,21 @@
 //! Where operands come from and where results go: the memory, other blocks, the output ports.
 
 use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::words::SCARCE;
 use crate::kernel::{S, U, wrapped};
 
 use super::instruction::{FLAGS, MAGNITUDE, Op};
-use super::program::{self, ONE};
-use super::{In, LEAST_MAGNITUDE, LOW_BITS, LikelihoodSolver, Registers, WORDS};
+use super::program::{self, ONE, is_own};
+use super::{In, LEAST_MAGNITUDE, LOW_BITS, LikelihoodSolver, Registers};
 
 impl LikelihoodSolver {
     /// Reads the operands; c comes late.
     pub(super) fn fetch(&self, i: &In, p: &Params, d: &mut Registers) {
         let q = &self.registers;
-        let word = |place: u8| match place.checked_sub(ONE) {
-            Some(constant) => p.constants()[constant as usize],
-            None => self.words[place as usize].get(),
+        let word = |place: u8| match place {
+            ONE..32 => p.constants()[(place - ONE) as usize],
+            program::CALIBRATED => p.glass.light,
+            _ => self.words[place as usize].get(),
         };
         let fit = |value: i64| S::new(wrapped(value, p.word_bits()));
         if q.at[0] {
@@ -24,13 +26,13 @@ impl LikelihoodSolver {
         if q.at[5] {
             let c = q.from_c.get() as u8;
             d.c = fit(i.third_operand(c).unwrap_or_else(|| word(c)));
-            let now = q.instruction(5);
+            let now = q.instruction(p, 5);
             (d.minus, d.divides, d.roots) = (now.minus, !q.alu, now.op == Op::Root);
         }
     }
 
     /// Writes a result.
-    pub(super) fn keep(&mut self, i: &In, d: &mut Registers) {
+    pub(super) fn keep(&mut self, i: &In, p: &Params, d: &mut Registers) {
         let q = self.registers;
         if !q.at[8] {
             return;
@@ -45,9 +47,11 @@ impl LikelihoodSolver {
             program::ARRIVAL => d.arrival = U::new(result as u64),
             program::SIGNAL => d.strength = U::new(result as u64),
             program::AMBIENT => d.ambient = U::new(result as u64),
+            program::GLASS => d.glass = U::new(result as u64),
+            program::A33 => d.scarce = result < SCARCE,
             _ => {}
         }
-        if q.mark == MAGNITUDE && !i.run && !q.measures() {
+        if q.mark == MAGNITUDE && !i.run && !q.measures(p) {
             let high = result.unsigned_abs() >> LEAST_MAGNITUDE;
             d.magnitude = U::new(q.magnitude.get() | high);
         }
@@ -60,7 +64,7 @@ impl LikelihoodSolver {
 
 impl Params {
     /// The constants of the solver's memory, from [`ONE`] on.
-    pub fn constants(&self) -> [i64; WORDS - ONE as usize] {
+    pub fn constants(&self) -> [i64; 32 - ONE as usize] {
         let (kappa, stride, end) = (self.kappa, self.stride(), self.end());
         let (wide, margin) = (self.sigma << 4, self.sigma << 3);
         [1, kappa, stride, self.metres, 341, 19, 1 << LOW_BITS, 0, wide, margin, end, 64, 40, 2]
@@ -70,7 +74,7 @@ impl Params {
 impl In {
     /// Returns the operand `a` if it comes from another block.
     fn first_operand(&self, place: u8) -> Option<i64> {
-        Some(match place.checked_sub(WORDS as u8)? {
+        Some(match other(place)? {
             0 => self.sum_13.get() >> 5,
             1 => self.sum_23.get(),
             2 => self.sum_33.get(),
@@ -81,18 +85,32 @@ impl In {
             6 => self.best_excess.get() << 4,
             7 => self.best_middle.get() as i64,
             8 => self.box_length.get() as i64,
-            _ => (self.box_sum.get() << 9) as i64,
+            9 => (self.box_sum.get() << 9) as i64,
+            11 => self.score_4.get() << 2,
+            12 => self.sum_14.get() >> 5,
+            13 => self.sum_24.get(),
+            14 => self.sum_34.get(),
+            _ => self.sum_44.get(),
         })
     }
 
     /// Returns the operand `c` if it comes from another block.
     fn third_operand(&self, place: u8) -> Option<i64> {
-        Some(match place.checked_sub(WORDS as u8)? {
+        Some(match other(place)? {
             0 => self.sum_11.get() >> 1,
             1 => self.sum_12.get() >> 5,
             2 => self.sum_22.get(),
             3 => self.score_1.get() >> 3,
-            _ => self.score_2.get() << 2,
+            4..8 => self.score_2.get() << 2,
+            8 => self.sum_13.get() >> 5,
+            9 => self.sum_23.get(),
+            10 => self.sum_33.get(),
+            _ => self.score_3.get() << 2,
         })
     }
+}
+
+/// Returns the number of an operand from another block.
+fn other(place: u8) -> Option<u8> {
+    (!is_own(place)).then(|| place - 32)
 }

@@ -1,21 +1,23 @@
 //! Which instruction begins, and which is in each of the nine cycles.
 
+use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::tables::length;
 use crate::kernel::U;
 
 use super::instruction::{Instruction, Op};
-use super::program::PROGRAM;
 use super::{In, LEAST_MAGNITUDE, Registers};
 
 impl Registers {
     /// The instruction that is in a cycle.
-    pub(super) fn instruction(&self, cycle: usize) -> &'static Instruction {
-        &PROGRAM[self.number[cycle].index()]
+    pub(super) fn instruction(&self, p: &Params, cycle: usize) -> &'static Instruction {
+        let instructions = &p.program().instructions;
+        &instructions[self.number[cycle].index() % instructions.len()]
     }
 
     /// The next one.
-    fn next_one(&self) -> &'static Instruction {
-        &PROGRAM[self.counter.index() % PROGRAM.len()]
+    fn next_one(&self, p: &Params) -> &'static Instruction {
+        let instructions = &p.program().instructions;
+        &instructions[self.counter.index() % instructions.len()]
     }
 
     /// Returns whether an instruction begins.
@@ -24,12 +26,12 @@ impl Registers {
     }
 
     /// Returns whether the marked values are measured.
-    pub(super) fn measures(&self) -> bool {
-        self.begins() && matches!(self.next_one().op, Op::Exponent | Op::Cut)
+    pub(super) fn measures(&self, p: &Params) -> bool {
+        self.begins() && matches!(self.next_one(p).op, Op::Exponent | Op::Cut)
     }
 
     /// Begins an instruction; one that measures is done at once.
-    pub(super) fn begin(&self, i: &In, d: &mut Self) {
+    pub(super) fn begin(&self, i: &In, p: &Params, d: &mut Self) {
         (d.ran, d.at[0]) = (false, false);
         if i.run {
             (d.running, d.counter, d.pause) = (true, i.entry, U::new(0));
@@ -42,7 +44,7 @@ impl Registers {
             }
             return;
         }
-        let now = self.next_one();
+        let now = self.next_one(p);
         d.pause = U::new(u64::from(now.wait) - 1);
         d.number[0] = U::new(self.counter.get());
         (d.from_a, d.from_b) = (U::new(now.a.into()), U::new(now.b.into()));
@@ -56,14 +58,14 @@ impl Registers {
             Op::Exponent => d.exponent = U::new(bits.saturating_sub(16)),
             _ => {}
         }
-        if self.measures() {
+        if self.measures(p) {
             d.magnitude = U::new(0);
         }
         d.at[0] = matches!(now.op, Op::Alu | Op::Reciprocal | Op::Root);
     }
 
     /// Moves instructions on; a reciprocal or a root waits until it has its bits.
-    pub(super) fn go_on(&self, d: &mut Self) {
+    pub(super) fn go_on(&self, p: &Params, d: &mut Self) {
         for cycle in 1..8 {
             d.number[cycle] = self.number[cycle - 1];
         }
@@ -75,11 +77,11 @@ impl Registers {
         if !self.at[6] {
             d.number[7] = self.number[7];
         }
-        let now = self.instruction(2);
+        let now = self.instruction(p, 2);
         (d.base, d.by) = (U::new(now.shift.into()), U::new(now.by as u64));
-        let now = self.instruction(4);
+        let now = self.instruction(p, 4);
         (d.from_c, d.alu) = (U::new(now.c.into()), now.op == Op::Alu);
-        let now = self.instruction(7);
+        let now = self.instruction(p, 7);
         d.to = U::new(now.to.into());
         d.mark = U::new(now.mark.number());
     }

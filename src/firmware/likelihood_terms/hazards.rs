@@ -23,7 +23,7 @@ impl LikelihoodTerms {
         d.lit_first = self.light;
         if i.phase {
             d.lit = self.lit_first;
-            d.sum = U::new(self.lit_first.get() + self.light.get());
+            d.sum = U::new(self.lit_first.get() + self.light.get() + i.glass_light.get());
             shift(
                 &mut d.hazard,
                 U::new(self.sum.get().clamp(LEAST_HAZARD as u64, MOST_HAZARD as u64)),
@@ -43,6 +43,7 @@ impl LikelihoodTerms {
         d.mantissa_first = aligned;
         if i.phase {
             shift(&mut d.bits, U::new(length(self.hazard[0].get() as i64).into()));
+            d.hazard_bits = self.bits[0];
             shift(&mut d.mantissa, self.mantissa_first);
             d.aligned = aligned;
         }
@@ -68,6 +69,7 @@ impl LikelihoodTerms {
         let rounded = (self.grown.get() >> bits) + (self.grown.get() >> (bits - 1) & 1);
         d.share_first = U::new(rounded.min(WHOLE as u64));
         if i.phase {
+            d.hazard_reciprocal = U::new(Tables::reciprocal(mantissa, MANTISSA_BITS - 1) as u64);
             d.k_before = U::new(Tables::k_before(hazard) as u64);
             d.k = self.k_before + (self.grown.get() >> 10 & 2047);
             let lambda = self.hazard[4].get() >> 10;

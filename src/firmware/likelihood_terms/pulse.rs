@@ -30,11 +30,12 @@ impl LikelihoodTerms {
     }
 
     /// Cuts out the part that lies in the bin.
-    pub(super) fn cut_out(&self, i: &In, d: &mut Self) {
+    pub(super) fn cut_out(&self, i: &In, p: &Params, d: &mut Self) {
         let none = self.edge_alone[2] && self.first[2];
         d.last_part = if none { U::new(0) } else { self.pulse_part };
         d.last_slope = self.pulse_slope;
-        let lit = self.bin[2] && !i.scan;
+        let dark = if p.glass.bins() > 0 { i.dark } else { i.scan };
+        let lit = self.bin[2] && !dark;
         d.part = if lit { self.pulse_part - self.last_part.get() } else { U::new(0) };
         let between = (self.pulse_slope.get() + self.last_slope.get()) >> 1;
         let z = if self.first[2] { self.pulse_first.get() } else { between };

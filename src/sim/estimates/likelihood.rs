@@ -15,7 +15,7 @@ mod verdict;
 
 use crate::firmware::likelihood_estimator::LikelihoodEstimator;
 use crate::firmware::likelihood_estimator::params::Params;
-use crate::firmware::likelihood_estimator::words::STEPS;
+use crate::firmware::likelihood_estimator::words::{GLASS_STEPS, STEPS};
 use crate::firmware::tof_top::slot::EstimateWords;
 
 use super::Clockless;
@@ -70,14 +70,24 @@ pub fn estimate(p: &Params, histogram: &[u32]) -> Found {
 pub fn trace<I: Instrument>(p: &I, histogram: &[u32]) -> Trace<I::Number> {
     let shots = Shots::new(p, histogram);
     let ambient = shots.ambient(p);
-    let start = scan(p, &shots, ambient.hazard, 0..0);
-    let begin = Point::start(p, &start, ambient.hazard);
+    let mut dark = Point::dark(ambient.hazard, I::Number::whole(p.words().glass.light));
+    if p.has_glass() {
+        for _ in 0..GLASS_STEPS {
+            dark = step(p, &shots, &dark).0;
+        }
+    }
+    let start = scan(p, &shots, &dark, 0..0);
+    let begin = dark.start(p, &start);
     let (mut point, mut information) = (begin, Information::default());
     let steps = std::array::from_fn(|_| {
         (point, information) = step(p, &shots, &point);
         (point, information)
     });
-    let other = scan(p, &shots, point.ambient, p.window(point.arrival));
+    let other = if p.has_glass() {
+        scan(p, &shots, &point, 0..0)
+    } else {
+        scan(p, &shots, &Point::dark(point.ambient, point.glass), p.window(point.arrival))
+    };
     let Judged { found, flags, waiting } =
         verdict(p, &shots, [&start, &other], &point, &information);
     Trace { ambient, start, begin, steps, other, found, flags, waiting }

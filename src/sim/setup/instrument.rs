@@ -77,10 +77,12 @@ impl Setup {
             pulse,
             metres_per_ps: LIGHT_M_S / 2e12,
             delay_ps: scenario.laser.delay_ps,
+            glass: &[],
         };
         make(&wanted).map_err(|unfit| {
             let (field, value) = match unfit {
                 Unfit::Short(_) | Unfit::Long(..) => ("laser.pulse_sigma_ps", sigma_ps),
+                Unfit::Bright(light, _) => ("estimator.glass_file", light),
                 Unfit::Late(_) | Unfit::Wide(_) | Unfit::Far(..) => ("tdc.bin_ps", bins.bin_ps()),
             };
             fault(field, value, format!("likelihood_estimator: {unfit}"))

@@ -22,8 +22,16 @@ pub trait Instrument {
     /// this part's logarithm.
     fn pulse(&self, edge: usize, arrival: Self::Number) -> [Self::Number; 3];
 
+    /// The part of the cover glass's light in a bin, 17 fraction bits.
+    fn glass(&self, bin: usize) -> Self::Number;
+
     /// Numbers that times and distances are reckoned with.
     fn scales(&self) -> Scales<Self::Number>;
+
+    /// Returns whether it knows of light from a cover glass.
+    fn has_glass(&self) -> bool {
+        self.words().glass.bins() > 0
+    }
 
     /// Returns whether a bin has a width; the others are none.
     fn has(&self, bin: usize) -> bool {
@@ -36,6 +44,12 @@ pub trait Instrument {
         let bin = arrival.floored(i64::from(UNITS.ilog2()) + 4);
         let centre = bin.place().min(histogram.bins - 1);
         centre.saturating_sub(*before)..(centre + after + 1).min(histogram.bins)
+    }
+
+    /// Bins of a fit, in two ranges: those with light of the glass, and the others of the window.
+    fn fitted(&self, window: Range<usize>) -> [Range<usize>; 2] {
+        let glass = self.words().glass.bins();
+        [0..glass, window.start.max(glass)..window.end.max(glass)]
     }
 }
 
@@ -59,6 +73,10 @@ impl Instrument for Params {
         let sixteenths = (time >> self.step_log2) & 15;
         let part = low.part + (((high.part - low.part) * sixteenths) >> 4);
         [part, low.slope, low.first]
+    }
+
+    fn glass(&self, bin: usize) -> i64 {
+        self.glass.part(bin)
     }
 
     fn scales(&self) -> Scales<i64> {

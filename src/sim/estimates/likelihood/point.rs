@@ -1,5 +1,7 @@
 //! A point of the fit, and what each bin says of it.
 
+use std::ops::Range;
+
 use crate::firmware::likelihood_estimator::words::{
     AMBIENT_FRACTION, HAZARD_FRACTION, LEAST_SIGNAL, MOST_LEVEL, SIGNAL_FRACTION, UNITS,
 };
@@ -22,11 +24,18 @@ pub struct Point<N> {
     pub signal: N,
     /// b [1 / unit, 30 fraction bits].
     pub ambient: N,
+    /// Light from the cover glass [photons a shot, 14 fraction bits].
+    pub glass: N,
 }
 
 impl<N: Number> Point<N> {
-    /// Returns the first point of a fit, where a box stands highest.
-    pub fn start(p: &impl Instrument<Number = N>, best: &Best<N>, ambient: N) -> Self {
+    /// Returns a point without an echo.
+    pub fn dark(ambient: N, glass: N) -> Self {
+        Point { arrival: N::default(), signal: N::default(), ambient, glass }
+    }
+
+    /// Returns the first point of a fit, where a box stands highest above the light of this one.
+    pub fn start(&self, p: &impl Instrument<Number = N>, best: &Best<N>) -> Self {
         let (from, until) = best.bins;
         let word = p.words().word_bits();
         let (mantissa, bits) = best.waiting.at_least(N::whole(1)).reciprocal();
@@ -37,52 +46,90 @@ impl<N: Number> Point<N> {
         Point {
             arrival: N::whole((from + until) as i64 * (UNITS / 2) * 16),
             signal: signal.within([LEAST_SIGNAL, MOST_LEVEL].map(N::whole)),
-            ambient,
+            ..*self
         }
     }
 
     /// Computes the terms of each bin of a fit, with its z, followed by all other bins as one.
     pub fn terms(&self, p: &impl Instrument<Number = N>, shots: &Shots<N>) -> Vec<(Terms<N>, N)> {
-        let (window, none) = (p.window(self.arrival), N::default());
-        let [mut part, mut slope, _] = match window.start {
-            0 => [none; 3],
-            first => p.pulse(first, self.arrival),
-        };
+        let none = N::default();
         let (mut ended, mut exposure) = (shots.all_ended, shots.exposure);
-        let mut all = Vec::with_capacity(window.len() + 1);
-        for bin in window {
-            let [next, next_slope, first] = p.pulse(bin + 1, self.arrival);
-            let z = if bin == 0 { first } else { (slope + next_slope).floored(1) };
-            let (count, waiting, width) = (shots.ended(bin), shots.waiting(bin), p.width(bin));
-            ended = ended - count;
-            exposure = exposure - waiting * width;
-            let terms = if p.has(bin) {
-                self.bin(p, count, waiting, [next - part, width])
-            } else {
-                Terms::default()
-            };
-            all.push((terms, z));
-            (part, slope) = (next, next_slope);
+        let mut all = Vec::new();
+        for range in p.fitted(self.window(p)) {
+            for (bin, light) in range.clone().zip(self.light(p, range)) {
+                let (count, waiting, width) = (shots.ended(bin), shots.waiting(bin), p.width(bin));
+                ended = ended - count;
+                exposure = exposure - waiting * width;
+                let terms = if p.has(bin) {
+                    light.bin(count, waiting).terms(p.words().histogram.count_bits)
+                } else {
+                    Terms::default()
+                };
+                all.push((terms, light.z));
+            }
         }
         let size = p.words().histogram;
         let waiting =
             exposure.floored(UNITS.ilog2().into()).filled(size.count_bits + size.bins.ilog2());
-        all.push((self.bin(p, ended, waiting, [none, N::whole(UNITS)]), none));
+        let ambient = self.ambient_in(N::whole(UNITS));
+        let rest = Light { signal: none, ambient, glass: none, z: none };
+        all.push((rest.bin(ended, waiting).terms(size.count_bits), none));
         all
     }
 
-    /// Terms of a bin of some width with a part of the pulse.
-    fn bin(
+    /// Returns the bins of the fit; none without an echo.
+    fn window(&self, p: &impl Instrument<Number = N>) -> Range<usize> {
+        if self.signal > N::default() { p.window(self.arrival) } else { 0..0 }
+    }
+
+    /// Returns the hazards of consecutive bins.
+    pub fn light<I: Instrument<Number = N>>(
         &self,
-        p: &impl Instrument<Number = N>,
-        ended: N,
-        waiting: N,
-        [part, width]: [N; 2],
-    ) -> Terms<N> {
-        let signal = self.signal * part;
-        let signal = signal.shifted(i64::from(17 + SIGNAL_FRACTION - HAZARD_FRACTION));
-        let ambient = self.ambient * width;
-        let ambient = ambient.shifted(i64::from(AMBIENT_FRACTION - HAZARD_FRACTION));
-        Bin { ended, waiting, signal, ambient }.terms(p.words().histogram.count_bits)
+        p: &I,
+        bins: Range<usize>,
+    ) -> impl Iterator<Item = Light<N>> {
+        let none = [N::default(); 3];
+        let is_lit = self.signal > N::default();
+        let pulse = move |edge| if is_lit { p.pulse(edge, self.arrival) } else { none };
+        let [mut part, mut slope, _] = if bins.start == 0 { none } else { pulse(bins.start) };
+        bins.map(move |bin| {
+            let [next, next_slope, first] = pulse(bin + 1);
+            let z = if bin == 0 { first } else { (slope + next_slope).floored(1) };
+            let light = Light {
+                signal: photons(self.signal, next - part),
+                ambient: self.ambient_in(p.width(bin)),
+                glass: photons(self.glass, p.glass(bin)),
+                z,
+            };
+            (part, slope) = (next, next_slope);
+            light
+        })
+    }
+
+    /// Hazard of ambient light in a bin of some width.
+    fn ambient_in(&self, width: N) -> N {
+        (self.ambient * width).shifted(i64::from(AMBIENT_FRACTION - HAZARD_FRACTION))
+    }
+}
+
+/// Hazard of a part of the light of a pulse.
+fn photons<N: Number>(level: N, part: N) -> N {
+    (level * part).shifted(i64::from(17 + SIGNAL_FRACTION - HAZARD_FRACTION))
+}
+
+/// Hazards of a bin, and its z.
+#[derive(Clone, Copy, Debug)]
+pub struct Light<N> {
+    signal: N,
+    ambient: N,
+    glass: N,
+    z: N,
+}
+
+impl<N: Number> Light<N> {
+    /// Returns a bin with this light.
+    pub fn bin(&self, ended: N, waiting: N) -> Bin<N> {
+        let Light { signal, ambient, glass, .. } = *self;
+        Bin { ended, waiting, signal, ambient, glass }
     }
 }

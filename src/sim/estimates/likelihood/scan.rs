@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use crate::firmware::likelihood_estimator::words::{
-    ADDED, AMBIENT_FRACTION, EXCESS_FRACTION, HAZARD_FRACTION, NO_SCORE,
+    ADDED, EXCESS_FRACTION, NO_SCORE,
 };
 
 use super::histogram::Shots;
 use super::instrument::Instrument;
 use super::number::Number;
-use super::terms::Bin;
+use super::point::{Light, Point};
 
 /// What [`ADDED`] stands for: a tenth of a count, 8 fraction bits.
 const A_TENTH: f64 = 25.6;
@@ -27,11 +27,12 @@ pub struct Best<N> {
     pub waiting: N,
 }
 
-/// Slides the box over all bins but those that are blanked; the first of the highest places is the one.
+/// Slides the box over all bins but those that are blanked, above the light of a point; the first of the highest places
+/// is the one.
 pub fn scan<I: Instrument>(
     p: &I,
     shots: &Shots<I::Number>,
-    ambient: I::Number,
+    light: &Point<I::Number>,
     blanked: Range<usize>,
 ) -> Best<I::Number> {
     let (bins, box_bins) = (shots.bins(), p.words().box_bins);
@@ -39,9 +40,9 @@ pub fn scan<I: Instrument>(
     let mut before = Vec::with_capacity(bins + 1);
     let mut sum = [I::Number::default(); 3];
     before.push(sum);
-    for bin in 0..bins {
+    for (bin, light) in light.light(p, 0..bins).enumerate() {
         if !blanked.contains(&bin) && p.has(bin) {
-            let own = of_bin(p, shots, ambient, bin);
+            let own = of_bin(p, shots, &light, bin);
             sum = [0, 1, 2].map(|which| sum[which] + own[which]);
         }
         before.push(sum);
@@ -74,12 +75,11 @@ fn score<N: Number>(excess: N, expected: N) -> N {
 fn of_bin<I: Instrument>(
     p: &I,
     shots: &Shots<I::Number>,
-    ambient: I::Number,
+    light: &Light<I::Number>,
     bin: usize,
 ) -> [I::Number; 3] {
     let (ended, waiting, none) = (shots.ended(bin), shots.waiting(bin), I::Number::default());
-    let ambient = (ambient * p.width(bin)).shifted(i64::from(AMBIENT_FRACTION - HAZARD_FRACTION));
-    let terms = Bin { ended, waiting, signal: none, ambient }.terms(p.words().histogram.count_bits);
+    let terms = light.bin(ended, waiting).terms(p.words().histogram.count_bits);
     let added = if waiting > none { I::Number::constant(ADDED, A_TENTH) } else { none };
     let middle = (waiting + waiting - ended).at_least(none);
     [terms.residual.floored(-4) - added, terms.expected.floored(4) + added, middle]

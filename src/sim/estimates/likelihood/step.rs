@@ -8,7 +8,7 @@ use super::histogram::Shots;
 use super::instrument::Instrument;
 use super::number::{Number, product};
 use super::point::Point;
-use super::sums::Sums;
+use super::sums::{GlassSums, Sums};
 
 /// Fraction bits of quotients.
 const Q: i64 = QUOTIENT_FRACTION as i64;
@@ -43,7 +43,10 @@ pub fn step<I: Instrument>(
     let (word, scales) = (p.words().word_bits(), p.scales());
     let (whole, one) = (I::Number::whole, I::Number::whole(1));
     let times = |a: I::Number, b: I::Number| a.times(b).shifted(Q);
-    let Sums { a11, a12, a13, a22, a23, a33, y1, y2, y3 } = Sums::new(&from.terms(p, shots));
+    let sums = Sums::new(&from.terms(p, shots));
+    let (sums, along_glass) =
+        if p.has_glass() { without_glass(&sums, word) } else { (sums, [whole(0); 4]) };
+    let Sums { a11, a12, a13, a22, a23, a33, y1, y2, y3, .. } = sums;
     let scarce = a33 < whole(SCARCE);
     // log b is eliminated.
     let (over_a33, bits) = a33.at_least(one).reciprocal();
@@ -71,11 +74,44 @@ pub fn step<I: Instrument>(
     // b does not fall while the point is far off, or little is known of it.
     let lowest = if scarce || cut > 0 { 0 } else { -ONE / 2 };
     let fall = d3.within([lowest, 3 * ONE].map(whole));
+    let [g1, g2, g3, g4] = along_glass;
+    let more = ((g4 - times(g1, d1)).kept(word) - times(g2, d2)).kept(word);
+    let of_glass = ((more - times(g3, fall)).kept(word) + fall).within([-ONE / 2, 3 * ONE].map(whole));
     let to = Point {
         arrival: (from.arrival + move_by).within([whole(0), scales.end]),
-        signal: (from.signal + times(from.signal, growth))
-            .within([LEAST_SIGNAL, MOST_LEVEL].map(whole)),
+        signal: if from.signal > whole(0) {
+            (from.signal + times(from.signal, growth)).within([LEAST_SIGNAL, MOST_LEVEL].map(whole))
+        } else {
+            from.signal
+        },
         ambient: (from.ambient + times(from.ambient, fall)).within([1, MOST_LEVEL].map(whole)),
+        glass: if p.has_glass() {
+            (from.glass + times(from.glass, of_glass)).within([LEAST_SIGNAL, MOST_LEVEL].map(whole))
+        } else {
+            from.glass
+        },
     };
     (to, Information { a22, a11, determinant, exponent, cut, move_by })
+}
+
+/// Eliminates the logarithm of the cover glass's light. Returns what it falls by with mu, log S and log b, and its own
+/// step.
+fn without_glass<N: Number>(sums: &Sums<N>, word: u32) -> (Sums<N>, [N; 4]) {
+    let GlassSums { a14, a24, a34, a44, y4 } = sums.glass;
+    let (over_a44, bits) = a44.at_least(N::whole(1)).reciprocal();
+    let [g1, g2, g3, g4] = [a14, a24, a34, y4].map(|a| product(a, over_a44, bits + 16 - Q, word));
+    let less = |value: N, a: N, g: N| (value - a.times(g).shifted(Q)).kept(word);
+    let rest = Sums {
+        a11: less(sums.a11, a14, g1),
+        a12: less(sums.a12, a24, g1),
+        a13: less(sums.a13, a34, g1),
+        a22: less(sums.a22, a24, g2),
+        a23: less(sums.a23, a34, g2),
+        a33: less(sums.a33, a34, g3).at_least(N::whole(1)),
+        y1: less(sums.y1, y4, g1),
+        y2: less(sums.y2, y4, g2),
+        y3: less(sums.y3, y4, g3),
+        ..*sums
+    };
+    (rest, [g1, g2, g3, g4])
 }

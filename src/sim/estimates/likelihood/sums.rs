@@ -28,14 +28,33 @@ pub struct Sums<N> {
     pub y2: N,
     /// Of log b.
     pub y3: N,
+    /// Information on the light from the cover glass, with mu, log S and log b, and alone; the score.
+    pub glass: GlassSums<N>,
+}
+
+/// Information of (mu, log S, log b) with the logarithm of the cover glass's light, that light's own, and its score.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct GlassSums<N> {
+    /// Information on mu and log C.
+    pub a14: N,
+    /// On log S and log C.
+    pub a24: N,
+    /// On log b and log C.
+    pub a34: N,
+    /// On log C.
+    pub a44: N,
+    /// Score of log C.
+    pub y4: N,
 }
 
 impl<N: Number> Sums<N> {
     /// Adds the terms up, from the ridges on.
     pub fn new(terms: &[(Terms<N>, N)]) -> Self {
         let [a11, a22, a33] = [2 * RIDGE, RIDGE, AMBIENT_RIDGE].map(N::whole);
+        let a44 = N::whole(RIDGE);
         let mut sums = Sums { a11, a22, a33, ..Sums::default() };
-        for &(Terms { residual, weight, share, .. }, z) in terms {
+        let mut of_glass = GlassSums { a44, ..GlassSums::default() };
+        for &(Terms { residual, weight, share, glass, .. }, z) in terms {
             let of = |value: N| (value * share).shifted(12);
             let (once, seen) = (of(weight), of(residual));
             let twice = of(once);
@@ -48,6 +67,9 @@ impl<N: Number> Sums<N> {
             sums.y1 += seen * z;
             sums.y2 += seen;
             sums.y3 += residual - seen;
+            if glass > N::default() {
+                of_glass.add((residual, weight), (share, glass), z);
+            }
         }
         // mu counts in 32 of z, and residuals as weights do.
         let residual = i64::from(WEIGHT_FRACTION - RESIDUAL_FRACTION);
@@ -58,7 +80,26 @@ impl<N: Number> Sums<N> {
             y1: sums.y1.floored(5 - residual),
             y2: sums.y2.floored(-residual),
             y3: sums.y3.floored(-residual),
+            glass: GlassSums {
+                a14: of_glass.a14.floored(5),
+                y4: of_glass.y4.floored(-residual),
+                ..of_glass
+            },
             ..sums
         }
+    }
+}
+
+impl<N: Number> GlassSums<N> {
+    /// Adds a bin with its residual and weight, the shares of echo and glass, and z.
+    fn add(&mut self, (residual, weight): (N, N), (share, glass): (N, N), z: N) {
+        let of = |value: N, share: N| (value * share).shifted(12);
+        let once = of(weight, glass);
+        let both = of(once, share);
+        self.a14 += both * z;
+        self.a24 += both;
+        self.a34 += once - both;
+        self.a44 += of(once, glass);
+        self.y4 += of(residual, glass);
     }
 }

@@ -18,6 +18,8 @@ pub struct Bin<N> {
     pub signal: N,
     /// Hazard of ambient light.
     pub ambient: N,
+    /// Hazard of the cover glass's light.
+    pub glass: N,
 }
 
 /// Terms of a bin.
@@ -31,20 +33,25 @@ pub struct Terms<N> {
     pub weight: N,
     /// s, 12 fraction bits.
     pub share: N,
+    /// The share of the cover glass's light, 12 fraction bits.
+    pub glass: N,
 }
 
 impl<N: Number> Bin<N> {
     /// With words for counts of so many bits.
     pub fn terms(&self, count_bits: u32) -> Terms<N> {
-        let hazard = (self.signal + self.ambient).within([LEAST_HAZARD, MOST_HAZARD].map(N::whole));
-        let share = N::share(self.signal.at_most(hazard), hazard);
+        let hazard = self.signal + self.ambient + self.glass;
+        let hazard = hazard.within([LEAST_HAZARD, MOST_HAZARD].map(N::whole));
+        let share = |part: N| N::share(part.at_most(hazard), hazard);
+        let glass = if self.glass > N::default() { share(self.glass) } else { N::default() };
+        let share = share(self.signal);
         let expected = N::expected(self.waiting, hazard).filled(count_bits + 18);
         let k = N::k(hazard);
         let surplus = self.ended * k - expected;
         let residual = surplus.shifted(FRACTION - i64::from(RESIDUAL_FRACTION));
         let gain = (k - hazard.floored(10)).at_least(N::default());
         let weight = (expected.floored(5).filled(count_bits + 8) * gain).shifted(13);
-        Terms { expected, residual: residual.kept(count_bits + 9), weight, share }
+        Terms { expected, residual: residual.kept(count_bits + 9), weight, share, glass }
     }
 }
 

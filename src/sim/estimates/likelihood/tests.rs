@@ -3,6 +3,8 @@
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+mod glass;
+
 use super::*;
 use crate::firmware::likelihood_estimator::{In, LikelihoodEstimator};
 use crate::firmware::tof_top::slot::SlotEstimator;
