@@ -22,6 +22,9 @@ module likelihood_estimator #(
     parameter [31:0] LaserDelay = 32'd0,         // distance of the light's delay after the laser edge [2^-29 m]
     parameter integer Columns = 1,               // see frame_ctrl
     parameter [0:0] OwnChains = 1'b0,            // see likelihood_memory
+    parameter integer GlassBins = 0,             // see likelihood_memory
+    parameter [23:0] GlassLight = 24'd0,         // light of the glass when it was calibrated [2^-14 photons a shot]
+    parameter GlassFile = "rtl_ref/glass.mem",
     parameter EdgesFile = "rtl_ref/edges.mem",
     parameter PulseFile = "rtl_ref/pulse.mem",
     parameter HazardFile = "rtl_ref/hazard.mem",
@@ -47,10 +50,13 @@ module likelihood_estimator #(
 );
     localparam [3:0] Idle = 4'd0, Load = 4'd1, Ambient = 4'd2, Scan = 4'd3, Start = 4'd4, Fit = 4'd5, Step = 4'd6,
         Check = 4'd7, Rescan = 4'd8, End = 4'd9;
-    localparam [6:0] AmbientProgram = 7'd0, StartProgram = 7'd7, StepProgram = 7'd13, EndProgram = 7'd49;
+    localparam [0:0] Glass = GlassBins != 0;
+    localparam [6:0] AmbientProgram = 7'd0, StartProgram = Glass ? 7'd8 : 7'd7, StepProgram = Glass ? 7'd14 : 7'd13,
+        EndProgram = Glass ? 7'd69 : 7'd49;
     localparam integer Bins = 1 << BinBits, Beats = 29;
     localparam integer ScanCycles = 2 * (Bins + BoxBins - BoxBins / 2 - 1 + Beats);
-    localparam integer FitCycles = 2 * (BinsBefore + 1 + BinsAfter + Beats), LoadCycles = Bins + 12;
+    localparam integer GlassBeats = Glass ? GlassBins + 1 : 0;
+    localparam integer FitCycles = 2 * (GlassBeats + BinsBefore + 1 + BinsAfter + Beats), LoadCycles = Bins + 12;
     localparam integer WaitBits = BinBits + 3;
     // Numbers of bins are integers elsewhere.
     // verilator lint_off WIDTH
@@ -69,13 +75,15 @@ module likelihood_estimator #(
     reg signed [13:0] start_score;    // score of the first scan
     reg seen;                         // a bin of the check has come
     reg used_up;                      // few shots waited at the first
+    reg dark;                         // a fit or a scan is without an echo, where there is a glass
+    reg reached;                      // the check has come to the window around the echo
     reg free;                         // mode was high since the last estimation began
     reg unarmed;                      // the same of the shots of this estimation
 
     initial begin
         {depth, sigma, status, chi_square, valid, algo_done} = 0;
         {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} = 0;
-        {start_score, seen, used_up, free, unarmed} = 0;
+        {start_score, seen, used_up, dark, reached, free, unarmed} = 0;
     end
 
     wire block_done, word_bin, word_rest, word_edge, word_slide, word_first;
@@ -101,6 +109,18 @@ module likelihood_estimator #(
     wire [CountBits-1:0] ambient_ended;
     wire [BinBits+10:0] arrival;
     wire [23:0] strength, ambient;
+    // Without a glass nobody reads them.
+    // verilator lint_off UNUSEDSIGNAL
+    wire [23:0] glass;
+    wire [16:0] word_glass;
+    wire [4:0] hazard_bits;
+    wire [9:0] hazard_reciprocal;
+    wire [(CountBits > 16 ? CountBits + 8 : 24)-1:0] weight_first;
+    // verilator lint_on UNUSEDSIGNAL
+    wire word_window;
+    wire [25:0] glass_light;
+    wire signed [CountBits+23:0] sum_14;
+    wire signed [CountBits+18:0] sum_24, sum_34, sum_44, score_4;
     wire signed [35:0] solved_depth;
     wire [35:0] solved_sigma;
     wire [6:0] flags;
@@ -117,6 +137,9 @@ module likelihood_estimator #(
     wire faint = flags[0] && start_score < 14'sd850;
     wire no_echo = unsure || faint || flags[2] || start_score < 14'sd297;
 
+    // A fit without an echo is the first, and those that follow it
+    wire unlit = Glass && (state == Ambient || state == Step && dark);
+
     // begin_pass: 1 a fit, 2 a scan; begin_program: its entry
     reg [3:0] state_next;
     reg begin_fit, begin_scan, begin_program;
@@ -126,11 +149,13 @@ module likelihood_estimator #(
         case (state)
             Idle: if (algo_start) state_next = Load;
             Load: if (waited == LoadCycles[WaitBits-1:0]) {state_next, begin_program} = {Ambient, 1'b1};
-            Ambient: if (ran) {state_next, begin_scan} = {Scan, 1'b1};
+            Ambient: if (ran && Glass) {state_next, begin_fit} = {Fit, 1'b1};
+                else if (ran) {state_next, begin_scan} = {Scan, 1'b1};
             Scan: if (waited == ScanCycles[WaitBits-1:0]) {state_next, begin_program} = {Start, 1'b1};
             Start: if (ran) {state_next, begin_fit} = {Fit, 1'b1};
             Fit: if (waited == FitCycles[WaitBits-1:0]) {state_next, begin_program} = {Step, 1'b1};
-            Step: if (ran) {state_next, begin_fit} = {steps == 3'd5 ? Check : Fit, 1'b1};
+            Step: if (ran && dark && steps == 3'd1) {state_next, begin_scan} = {Scan, 1'b1};
+                else if (ran) {state_next, begin_fit} = {steps == 3'd5 ? Check : Fit, 1'b1};
             Check: if (waited == FitCycles[WaitBits-1:0]) {state_next, begin_scan} = {Rescan, 1'b1};
             Rescan: if (waited == ScanCycles[WaitBits-1:0]) {state_next, begin_program} = {End, 1'b1};
             End: if (ran) state_next = Idle;
@@ -142,7 +167,7 @@ module likelihood_estimator #(
         if (rst) begin
             {depth, sigma, status, chi_square, valid, algo_done} <= 0;
             {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} <= 0;
-            {start_score, seen, used_up, free, unarmed} <= 0;
+            {start_score, seen, used_up, dark, reached, free, unarmed} <= 0;
         end else begin
             state <= state_next;
             waited <= state_next == Idle || state_next != state || begin_fit ? {WaitBits{1'b0}} : waited + 1'b1;
@@ -158,10 +183,11 @@ module likelihood_estimator #(
                 unarmed <= free || mode;
             end
             if (begin_fit) begin
-                fit_begin <= next_begin;
-                fit_end <= next_end;
+                fit_begin <= unlit ? {BinBits + 1{1'b0}} : next_begin;
+                fit_end <= unlit ? {BinBits + 1{1'b0}} : next_end;
+                dark <= unlit;
                 check <= state_next == Check;
-                seen <= 1'b0;
+                {seen, reached} <= 2'b00;
             end
             if (begin_scan) {scan, check} <= 2'b10;
             if (begin_program) begin
@@ -170,8 +196,9 @@ module likelihood_estimator #(
                     : state == Fit ? StepProgram : EndProgram;
             end
             if (state == Scan && begin_program) start_score <= best_score;
-            if (state == Step && ran) steps <= steps + 3'd1;
-            if (state == Check && !begin_scan && word_bin && !seen) begin
+            if (state == Step && ran) steps <= begin_scan ? 3'd0 : steps + 3'd1;
+            if (Glass && state == Check && !begin_scan && word_window) reached <= 1'b1;
+            if (state == Check && !begin_scan && word_bin && !seen && (!Glass || reached || word_window)) begin
                 seen <= 1'b1;
                 used_up <= word_waiting < 32;
             end
@@ -197,6 +224,8 @@ module likelihood_estimator #(
         .BoxBins(BoxBins),
         .Columns(Columns),
         .OwnChains(OwnChains),
+        .GlassBins(GlassBins),
+        .GlassFile(GlassFile),
         .EdgesFile(EdgesFile)
     ) likelihood_memory (
         .clk_sys(clk_sys),
@@ -222,13 +251,16 @@ module likelihood_estimator #(
         .word_ended(word_ended),
         .word_waiting(word_waiting),
         .word_width(word_width),
-        .word_end(word_end)
+        .word_end(word_end),
+        .word_glass(word_glass),
+        .word_window(word_window)
     );
 
     likelihood_terms #(
         .Used(Used),
         .BinBits(BinBits),
         .CountBits(CountBits),
+        .GlassBins(GlassBins),
         .StepLog2(StepLog2),
         .PulseFile(PulseFile),
         .HazardFile(HazardFile)
@@ -236,6 +268,8 @@ module likelihood_estimator #(
         .clk_sys(clk_sys),
         .phase(phase),
         .scan(scan),
+        .dark(dark),
+        .glass_light(glass_light),
         .arrival(arrival),
         .strength(strength),
         .ambient(ambient),
@@ -256,7 +290,9 @@ module likelihood_estimator #(
         .middle(middle),
         .waits(waits),
         .single(single),
-        .slide(slide)
+        .slide(slide),
+        .hazard_bits(hazard_bits),
+        .hazard_reciprocal(hazard_reciprocal)
     );
 
     likelihood_sums #(
@@ -283,8 +319,38 @@ module likelihood_estimator #(
         .score_2(score_2),
         .score_3(score_3),
         .chi_square(sum_chi),
-        .far(far)
+        .far(far),
+        .weight_first(weight_first)
     );
+
+    generate
+        if (Glass) begin : g_glass
+            likelihood_glass #(
+                .CountBits(CountBits)
+            ) likelihood_glass (
+                .clk_sys(clk_sys),
+                .pass(sums),
+                .phase(phase),
+                .glass(glass),
+                .word_glass(word_glass),
+                .hazard_bits(hazard_bits),
+                .hazard_reciprocal(hazard_reciprocal),
+                .residual(residual),
+                .weight_first(weight_first),
+                .share(share),
+                .slope(slope),
+                .glass_light(glass_light),
+                .sum_14(sum_14),
+                .sum_24(sum_24),
+                .sum_34(sum_34),
+                .sum_44(sum_44),
+                .score_4(score_4)
+            );
+        end else begin : g_no_glass
+            assign glass_light = 26'd0;
+            assign {sum_14, sum_24, sum_34, sum_44, score_4} = 0;
+        end
+    endgenerate
 
     likelihood_scan #(
         .Used(Used),
@@ -326,6 +392,8 @@ module likelihood_estimator #(
         .WindowEnd(WindowEnd),
         .Metres(Metres),
         .MetresShift(MetresShift),
+        .GlassBins(GlassBins),
+        .GlassLight(GlassLight),
         .ProgramFile(ProgramFile)
     ) likelihood_solver (
         .clk_sys(clk_sys),
@@ -348,10 +416,16 @@ module likelihood_estimator #(
         .score_1(score_1),
         .score_2(score_2),
         .score_3(score_3),
+        .sum_14(sum_14),
+        .sum_24(sum_24),
+        .sum_34(sum_34),
+        .sum_44(sum_44),
+        .score_4(score_4),
         .ran(ran),
         .arrival(arrival),
         .strength(strength),
         .ambient(ambient),
+        .glass(glass),
         .depth(solved_depth),
         .sigma(solved_sigma),
         .flags(flags),

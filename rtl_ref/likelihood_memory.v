@@ -13,6 +13,8 @@ module likelihood_memory #(
     parameter integer BoxBins = 15,              // bins of the box
     parameter integer Columns = 1,               // see frame_ctrl
     parameter [0:0] OwnChains = 1'b0,            // each column has its own bins, in 2 to the power of BinBits + 1 words
+    parameter integer GlassBins = 0,             // bins with light of a cover glass, 0 if it is not known
+    parameter GlassFile = "rtl_ref/glass.mem",   // the part of that light in each bin
     parameter EdgesFile = "rtl_ref/edges.mem"    // of each place the width of the bin before it [units], and its time
 ) (
     input wire clk_sys,
@@ -43,13 +45,16 @@ module likelihood_memory #(
     output reg [CountBits+BinBits-1:0] word_ended,    // shots that end in it
     output reg [CountBits+BinBits-1:0] word_waiting,  // shots that wait when it begins
     output reg [9:0] word_width,                 // its width [units]
-    output reg [BinBits+7:0] word_end            // where it ends [half units]
+    output reg [BinBits+7:0] word_end,           // where it ends [half units]
+    output reg [16:0] word_glass,                // part of the glass's light in it [2^-17]
+    output reg word_window                       // it is the first one of the window around the echo
 );
     localparam integer Bins = 1 << BinBits, EdgeBits = BinBits + 8, RestBits = CountBits + BinBits;
     localparam integer ExposureBits = RestBits + 10, KeptBits = 2 * CountBits + ExposureBits;
+    localparam [0:0] Glass = GlassBins != 0;
     // Numbers of bins are integers elsewhere.
     // verilator lint_off WIDTH
-    localparam [BinBits:0] All = Bins, Tail = BoxBins - BoxBins / 2 - 1;
+    localparam [BinBits:0] All = Bins, Tail = BoxBins - BoxBins / 2 - 1, GlassEnd = GlassBins;
     // verilator lint_on WIDTH
 
     reg taken;                              // a word has been read in the last cycle
@@ -87,6 +92,9 @@ module likelihood_memory #(
     reg [CountBits-1:0] read_ended;
     reg [CountBits-1:0] read_waiting;
     reg [ExposureBits-1:0] read_exposure;
+    reg [16:0] read_glass;                  // part of the glass's light
+    reg read_window;                        // the first bin of the window
+    reg in_glass;                           // the pass is at the bins of the glass
     reg [RestBits-1:0] rest_ended;          // hits outside of the fit, when it has been gone through
     reg [ExposureBits-1:0] rest_exposure;   // exposure outside of it
 
@@ -96,11 +104,19 @@ module likelihood_memory #(
     (* rom_style = "block" *)
 `endif
     reg [EdgeBits+9:0] edges [0:OwnChains ? 2 * Bins * Columns - 1 : Bins];
+`ifdef ROM_IN_LUTS
+    (* rom_style = "logic" *)
+`else
+    (* rom_style = "block" *)
+`endif
+    reg [16:0] glass_parts [0:Bins-1];
     reg [KeptBits-1:0] ram [0:Bins-1];      // shots that end, that wait, and their exposure
 
     integer i;
     initial begin
         if (Used) $readmemh(EdgesFile, edges);
+        if (GlassBins != 0) $readmemh(GlassFile, glass_parts);
+        {word_glass, word_window, read_glass, read_window, in_glass} = 37'd0;
         for (i = 0; i < Bins; i = i + 1) ram[i] = {KeptBits{1'b0}};
         {read_en, block_done, word_bin, word_rest, word_edge, word_slide, word_first} = 7'd0;
         {begun, begun_bin, begun_ended, begun_waiting, begun_three, begun_width, begun_exposure} = 0;
@@ -126,7 +142,9 @@ module likelihood_memory #(
     wire first_of_block = written_bin[BinBits-4:0] == {BinBits - 3{1'b0}};
     wire [CountBits:0] less = {1'b0, left} - {1'b0, count};
     wire at_begin = index == fit_begin, at_end = index == fit_end;
-    wire last = scanning ? index == All : at_end;
+    wire last = scanning ? index == All : Glass ? index >= fit_end : at_end;
+    wire glass_over = Glass && in_glass && !opening && index == GlassEnd;
+    wire goes_on = in_glass || !last || opening && (scanning || !Glass);
     wire last_tail = !scanning || tail == Tail;
 
     // Written as differences, as those of likelihood_sums are.
@@ -177,6 +195,7 @@ module likelihood_memory #(
 
     always @(posedge clk_sys) begin
         if (rst) begin
+            {word_glass, word_window, read_glass, read_window, in_glass} <= 37'd0;
             {read_en, block_done, word_bin, word_rest, word_edge, word_slide, word_first} <= 7'd0;
             {begun, begun_bin, begun_ended, begun_waiting, begun_three, begun_width, begun_exposure} <= 0;
             {read_addr, taken_bin, written_bin, bin} <= {4 * BinBits{1'b0}};
@@ -256,20 +275,30 @@ module likelihood_memory #(
                 word_ended <= read_rest ? rest_ended : {{BinBits{1'b0}}, read_ended};
                 word_waiting <= read_rest ? rest_waiting : {{BinBits{1'b0}}, read_waiting};
                 word_width <= read_rest ? 10'd64 : fetched_width;
+                if (Glass) begin
+                    read_glass <= glass_parts[bin];
+                    read_window <= passing && !opening && !tailing && {1'b0, bin} == fit_begin;
+                    word_glass <= read_bin ? read_glass : 17'd0;
+                    word_window <= read_window;
+                end
             end
 
             // The pass
             if (pass) begin
                 {passing, opening, tailing, blank} <= 4'b1100;
                 scanning <= scan;
-                index <= scan ? {BinBits + 1{1'b0}} : fit_begin;
+                in_glass <= Glass && !scan;
+                index <= scan || Glass ? {BinBits + 1{1'b0}} : fit_begin;
                 tail <= {BinBits + 1{1'b0}};
             end else if (passing && phase) begin
-                opening <= 1'b0;
-                if (opening || !last) begin
+                opening <= glass_over;
+                if (glass_over) begin
+                    in_glass <= 1'b0;
+                    if (index < fit_begin) index <= fit_begin;
+                end else if (goes_on) begin
                     index <= index + 1'b1;
                     bin <= index[BinBits-1:0];
-                    if (at_begin || at_end) blank <= scanning && !at_end;
+                    if (at_begin || at_end) blank <= scanning && !at_end && !Glass;
                 end else if (!tailing) tailing <= 1'b1;
                 else if (last_tail) passing <= 1'b0;
                 else tail <= tail + 1'b1;

@@ -16,6 +16,8 @@ module likelihood_solver #(
     parameter [31:0] WindowEnd = 32'd262328,     // where the last bin ends [units / 16]
     parameter [31:0] Metres = 32'd16094985,      // distance of a 16th of a unit [2^-(29 + MetresShift) m]
     parameter integer MetresShift = 13,
+    parameter integer GlassBins = 0,             // see likelihood_memory
+    parameter [23:0] GlassLight = 24'd0,         // light of the glass when it was calibrated [2^-14 photons a shot]
     parameter ProgramFile = "rtl_ref/solver.mem"  // an instruction a word
 ) (
     input wire clk_sys,
@@ -40,11 +42,20 @@ module likelihood_solver #(
     input wire signed [CountBits+23:0] score_1,
     input wire signed [CountBits+18:0] score_2,
     input wire signed [CountBits+18:0] score_3,
+    // likelihood_glass
+    // verilator lint_off UNUSEDSIGNAL
+    input wire signed [CountBits+23:0] sum_14,
+    input wire signed [CountBits+18:0] sum_24,
+    input wire signed [CountBits+18:0] sum_34,
+    input wire signed [CountBits+18:0] sum_44,
+    input wire signed [CountBits+18:0] score_4,
+    // verilator lint_on UNUSEDSIGNAL
     // Results
     output reg ran,                              // a program has ended; one cycle
     output reg [BinBits+10:0] arrival,           // of the echo [units / 16]
     output reg [23:0] strength,                  // photons a shot [2^-14]
     output reg [23:0] ambient,                   // hazard of ambient light [2^-30 / unit]
+    output reg [23:0] glass,                     // light of a glass, photons a shot [2^-14]
     output reg signed [35:0] depth,              // of the last end program [2^-29 m]
     output reg [35:0] sigma,                     // its deviation [2^-29 m]
     output reg [6:0] flags,                      // of the last end program
@@ -59,23 +70,30 @@ module likelihood_solver #(
     localparam [2:0] ByBits = 3'd1, ByExponent = 3'd2, ByCut = 3'd3, ByBoth = 3'd4, ByMetres = 3'd5;
     localparam [2:0] Whole = 3'd0, Positive = 3'd1, OfSignal = 3'd2, OfAmbient = 3'd3, OfChance = 3'd4,
         OfWindow = 3'd5;
+    localparam [2:0] OfChange = 3'd7;
     localparam [3:0] Large = 4'd1;
     localparam signed [CountBits+18:0] Scarce = 512;  // 8 counts of information on log b
     // Words that are outputs too, and constants
+    localparam [0:0] Glass = GlassBins != 0;
+    localparam integer ProgramBits = Glass ? 7 : 6, PlaceBits = Glass ? 6 : 5;
     localparam [5:0] Arrival = 6'd0, Signal = 6'd1, Ambient = 6'd2, Depth = 6'd32, SigmaAt = 6'd33;
-    localparam [4:0] One = 5'd18, KappaAt = 5'd19, Stride = 5'd20, MetresAt = 5'd21, Third = 5'd22, Nineteen = 5'd23,
-        Power = 5'd24, Zero = 5'd25, Wide = 5'd26, Margin = 5'd27, End = 5'd28, Variance = 5'd29, Unsure = 5'd30,
-        Two = 5'd31;
+    localparam [5:0] GlassAt = 6'd48, Calibrated = 6'd49, Left33 = 6'd56;
+    // Places are integers.
+    // verilator lint_off WIDTH
+    localparam [PlaceBits-1:0] One = 18, KappaAt = 19, Stride = 20, MetresAt = 21, Third = 22, Nineteen = 23,
+        Power = 24, Zero = 25, Wide = 26, Margin = 27, End = 28, Variance = 29, Unsure = 30,
+        Two = 31;
+    // verilator lint_on WIDTH
     // Operands of a and of c from other blocks, by the low bits of their places
     localparam [1:0] Sum13 = 2'd0, Sum23 = 2'd1, Sum33 = 2'd2, Ended = 2'd0, Exposure = 2'd1, Excess = 2'd2;
-    localparam [1:0] Sum11 = 2'd0, Sum12 = 2'd1, Sum22 = 2'd2;
+    localparam [1:0] Sum11 = 2'd0, Sum12 = 2'd1, Sum22 = 2'd2, Sum14 = 2'd0, Sum24 = 2'd1, Sum34 = 2'd2;
 
     reg scarce;                                // little is known of log b
     reg running;                               // a program is running
     reg [6:0] counter;                         // its instruction
     reg [5:0] pause;                           // cycles until that one begins
     reg at_0, at_1, at_2, at_3, at_4, at_5, at_6, at_7, at_8;  // there is an instruction in that cycle of it
-    reg [5:0] number_0, number_1, number_2, number_3, number_4, number_5, number_6, number_7;  // which one
+    reg [ProgramBits-1:0] number_0, number_1, number_2, number_3, number_4, number_5, number_6, number_7;  // which one
     // No other block has an operand b.
     // verilator lint_off UNUSEDSIGNAL
     reg [5:0] from_a, from_b, from_c;          // where its operands are
@@ -116,11 +134,11 @@ module likelihood_solver #(
     // verilator lint_on UNUSEDSIGNAL
     reg [24:0] quotient;                       // what it has come to
 
-    (* ram_style = "distributed" *) reg signed [WordBits-1:0] words [0:31];
+    (* ram_style = "distributed" *) reg signed [WordBits-1:0] words [0:(1 << PlaceBits) - 1];
 
     integer i;
     initial begin
-        for (i = 0; i < 18; i = i + 1) words[i] = 0;
+        for (i = 0; i < 1 << PlaceBits; i = i + 1) words[i] = 0;
         words[One] = 1;
         // Constants are extended to words.
         // verilator lint_off WIDTH
@@ -134,10 +152,12 @@ module likelihood_solver #(
         words[Wide] = PulseSigma << 4;
         words[Margin] = PulseSigma << 3;
         words[End] = WindowEnd;
+        if (Glass) words[Calibrated[PlaceBits-1:0]] = GlassLight;
         // verilator lint_on WIDTH
         words[Variance] = 64;
         words[Unsure] = 40;
         words[Two] = 2;
+        glass = 0;
         {ran, arrival, strength, ambient, depth, sigma, flags, cut, scarce, running, counter, pause} = 0;
         {at_0, at_1, at_2, at_3, at_4, at_5, at_6, at_7, at_8, from_a, from_b, a, b, c} = 0;
         {number_0, number_1, number_2, number_3, number_4, number_5, number_6, number_7} = 0;
@@ -149,11 +169,11 @@ module likelihood_solver #(
 
     // The program: op, to, a, b, c, whether the product is subtracted, shift, what is added to it, limits, mark, cycles
     // until the next
-    reg [48:0] instructions [0:63];
+    reg [48:0] instructions [0:(1 << ProgramBits) - 1];
     initial if (Used) $readmemh(ProgramFile, instructions);
     // What an instruction says counts in different cycles of it.
     // verilator lint_off UNUSEDSIGNAL
-    wire [48:0] next_one = instructions[counter[5:0]], of_operands = instructions[number_1];
+    wire [48:0] next_one = instructions[counter[ProgramBits-1:0]], of_operands = instructions[number_1];
     wire [48:0] of_shift = instructions[number_2], of_c = instructions[number_4], of_minus = instructions[number_5];
     wire [48:0] of_sum = instructions[number_6], of_result = instructions[number_7];
     // verilator lint_on UNUSEDSIGNAL
@@ -162,7 +182,7 @@ module likelihood_solver #(
     wire begins = running && !run && pause == 6'd0;
 
     // Operands from other blocks, in groups of four
-    reg signed [WordBits-1:0] sum_a, scan_a, box_a, other_a, sum_c, other_c;
+    reg signed [WordBits-1:0] sum_a, scan_a, box_a, glass_a, other_a, sum_c, later_c, other_c;
     // Operands are extended to words, or cut as long as words.
     // verilator lint_off WIDTH
     always @* begin
@@ -178,15 +198,27 @@ module likelihood_solver #(
             Excess: scan_a = best_excess <<< 4;
             default: scan_a = best_middle;
         endcase
-        box_a = from_a[0] ? {box_sum, 9'd0} : box_length;
-        other_a = from_a[3] ? box_a : from_a[2] ? scan_a : sum_a;
+        box_a = Glass && from_a[1] ? score_4 <<< 2 : from_a[0] ? {box_sum, 9'd0} : box_length;
+        case (from_a[1:0])
+            Sum14: glass_a = sum_14 >>> 5;
+            Sum24: glass_a = sum_24;
+            Sum34: glass_a = sum_34;
+            default: glass_a = sum_44;
+        endcase
+        other_a = from_a[3] ? (Glass && from_a[2] ? glass_a : box_a) : from_a[2] ? scan_a : sum_a;
         case (from_c[1:0])
             Sum11: sum_c = sum_11 >>> 1;
             Sum12: sum_c = sum_12 >>> 5;
             Sum22: sum_c = sum_22;
             default: sum_c = score_1 >>> 3;
         endcase
-        other_c = from_c[2] ? score_2 <<< 2 : sum_c;
+        case (from_c[1:0])
+            Sum13: later_c = sum_13 >>> 5;
+            Sum23: later_c = sum_23;
+            Sum33: later_c = sum_33;
+            default: later_c = score_3 <<< 2;
+        endcase
+        other_c = Glass && from_c[3] ? later_c : from_c[2] ? score_2 <<< 2 : sum_c;
     end
     // verilator lint_on WIDTH
 
@@ -274,7 +306,7 @@ module likelihood_solver #(
     wire past_word = past || sum[ShiftedBits-1:WordBits-1] != {ShiftedBits - WordBits + 1{under}};
     wire past_24 = past_word || |sum[WordBits-2:24];
     // b does not fall while little is known of it, or the step is shortened.
-    wire held = scarce || cut != 6'd0;
+    wire held = (scarce || cut != 6'd0) && limits != OfChange;
     wire below_half = held || !(&sum[WordBits-2:13]);
     wire past_growth = past_word || (under ? below_half : past_24 || |sum[23:16] || sum[15:14] == 2'd3);
     wire below_16 = under || !past_24 && sum[23:4] == 20'd0;
@@ -322,10 +354,11 @@ module likelihood_solver #(
     // verilator lint_on WIDTH
 
     always @(posedge clk_sys)
-        if (at_8 && !to[5]) words[to[4:0]] <= result;
+        if (at_8 && (!to[5] || Glass && to[4])) words[to[PlaceBits-1:0]] <= result;
 
     always @(posedge clk_sys) begin
         if (rst) begin
+            glass <= 0;
             {ran, arrival, strength, ambient, depth, sigma, flags, cut, scarce, running, counter, pause} <= 0;
             {at_0, at_1, at_2, at_3, at_4, at_5, at_6, at_7, at_8, from_a, from_b, a, b, c} <= 0;
             {number_0, number_1, number_2, number_3, number_4, number_5, number_6, number_7} <= 0;
@@ -335,7 +368,7 @@ module likelihood_solver #(
             {minus, divides, roots, sum, past, opposite, limits, result, dividing, divided, digit} <= 0;
             {bits, exponent, magnitude, remainder, quotient} <= 0;
         end else begin
-            scarce <= sum_33 < Scarce;
+            if (!Glass) scarce <= sum_33 < Scarce;
             // What begins
             ran <= begins && op == Stop;
             if (run) begin
@@ -347,7 +380,7 @@ module likelihood_solver #(
                 else counter <= counter + 7'd1;
                 pause <= next_one[5:0] - 6'd1;
             end else if (running) pause <= pause - 6'd1;
-            if (begins) {number_0, from_a, from_b} <= {counter[5:0], next_one[39:34], next_one[33:28]};
+            if (begins) {number_0, from_a, from_b} <= {counter[ProgramBits-1:0], next_one[39:34], next_one[33:28]};
             if (run || begins && (op == Exponent || op == Cut)) magnitude <= 0;
             else if (at_8 && mark == Large) magnitude <= magnitude | absolute;
             if (begins && op == Exponent) exponent <= marked_length > 6'd16 ? marked_length - 6'd16 : 6'd0;
@@ -364,8 +397,8 @@ module likelihood_solver #(
             {base, by} <= {of_shift[20:16], of_shift[15:13]};
             {from_c, alu} <= {of_c[27:22], of_c[48:46] == Alu};
             if (at_0) begin
-                a <= from_a[5] ? other_a : words[from_a[4:0]];
-                b <= words[from_b[4:0]];
+                a <= from_a[5] && !(Glass && from_a[4]) ? other_a : words[from_a[PlaceBits-1:0]];
+                b <= words[from_b[PlaceBits-1:0]];
             end
             low_product <= $signed({1'b0, a[16:0]}) * part;
             high_product <= $signed(a[WordBits-1:17]) * part;
@@ -383,7 +416,7 @@ module likelihood_solver #(
                 shifted <= {negative, fine[ShiftedBits-1:1]};
                 beyond <= !moved_fits;
                 half <= fine[0] && alu;
-                c <= from_c[5] ? other_c : words[from_c[4:0]];
+                c <= from_c[5] && !(Glass && from_c[4]) ? other_c : words[from_c[PlaceBits-1:0]];
                 minus <= of_minus[21];
                 divides <= !alu;
                 roots <= of_minus[48:46] == Root;
@@ -421,6 +454,8 @@ module likelihood_solver #(
                     Arrival: arrival <= result;
                     Signal: strength <= result;
                     Ambient: ambient <= result;
+                    GlassAt: if (Glass) glass <= result;
+                    Left33: if (Glass) scarce <= result < Scarce;
                     Depth: depth <= result;
                     SigmaAt: sigma <= result;
                     // verilator lint_on WIDTH

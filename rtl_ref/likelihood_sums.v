@@ -33,7 +33,8 @@ module likelihood_sums #(
     output reg signed [CountBits+18:0] score_2,  // of v s
     output reg signed [CountBits+18:0] score_3,  // of v (1 - s)
     output reg [BinBits+24:0] chi_square,        // of a check [2^-8]
-    output reg far                               // a bin is far from what the fit has
+    output reg far,                              // a bin is far from what the fit has
+    output reg [(CountBits > 16 ? CountBits + 8 : 24)-1:0] weight_first  // w, one cycle ahead
 );
     localparam integer WeightBits = CountBits + 8 > 24 ? CountBits + 8 : 24, ResidualBits = CountBits + 9;
     localparam integer SquareBits = 2 * CountBits, NearBits = CountBits + 2, SeenSlopeBits = ResidualBits + 9;
@@ -56,7 +57,7 @@ module likelihood_sums #(
     reg signed [WeightBits+14:0] third_product;
     reg signed [9:0] fourth_b;
     reg signed [WeightBits+9:0] fourth_product;
-    reg [WeightBits-1:0] weight_first, weight_0, weight_1;                      // w
+    reg [WeightBits-1:0] weight_0, weight_1;                                    // w
     reg signed [ResidualBits-1:0] seen_first, seen;                             // v s
     reg [SquareBits-1:0] square_first, square_0, square_1, square_2;            // the square of v
     reg signed [ResidualBits-1:0] residuals;

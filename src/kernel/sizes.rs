@@ -165,14 +165,12 @@ sizes! { s:
     /// Bits of a distance before it is cut to a depth.
     DistanceBits = s.position_bits + 10;
 
-    /// Bins with light of a cover glass that the likelihood estimator knows.
-    GlassBins = s.glass_bins;
-    /// 1 if there are any.
-    Glass = u32::from(s.glass_bins > 0);
+    /// 1 if the likelihood estimator knows of a cover glass.
+    Glass = s.has_glass.into();
     /// Bits of a place in the likelihood estimator's program.
-    ProgramBits = if s.glass_bins > 0 { 7 } else { 6 };
+    ProgramBits = 6 + u32::from(s.has_glass);
     /// Bits of a sum of hazards.
-    HazardSumBits = if s.glass_bins > 0 { 28 } else { 27 };
+    HazardSumBits = 27 + u32::from(s.has_glass);
     /// Bits of a number of bins.
     PlaceBits = s.bin_bits() + 1;
     /// Bits of a sum of bin counts.

@@ -71,7 +71,7 @@ impl Registers {
         d.read_slide = self.passing && self.scanning && !self.opening;
         d.read_first = self.index == if self.opening { 0 } else { 1 };
         (d.read_ended, d.read_waiting, d.read_exposure) = (kept.ended, kept.waiting, kept.exposure);
-        d.read_glass = U::new(if bin { p.glass.part(self.bin.index()) as u64 } else { 0 });
+        d.read_glass = U::new(p.glass.part(self.bin.index()) as u64);
         d.read_window = bin && self.bin.get() == i.fit_begin.get();
     }
 
@@ -81,7 +81,8 @@ impl Registers {
         (d.word_rest, d.word_edge, d.word_first) =
             (self.read_rest, self.read_edge, self.read_first);
         d.word_slide = self.read_slide;
-        (d.word_glass, d.word_window) = (self.read_glass, self.read_window);
+        d.word_glass = if self.read_bin { self.read_glass } else { U::new(0) };
+        d.word_window = self.read_window;
         d.word_end = self.fetched_end;
         (d.word_ended, d.word_waiting, d.word_width) = match self.read_rest {
             true => {

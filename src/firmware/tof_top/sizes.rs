@@ -45,7 +45,7 @@ impl Params {
             banks: self.frame_ctrl.scan.banks,
             hits_log2: calibration.map_or(HITS_LOG2, |own| own.hits_log2),
             drain_cycles: self.frame_ctrl.drain_cycles as u32,
-            glass_bins: self.estimators.likelihood_estimator.glass.bins() as u32,
+            has_glass: self.estimators.likelihood_estimator.glass.bins() > 0,
             likelihood_cycles: self.estimators.likelihood_estimator.done() as u32,
             ..usual(
                 &decoder.scale,
@@ -101,7 +101,7 @@ fn usual(
         network_cycles: network.done() as u32,
         centroid_cycles: centroid.done() as u32,
         position_bits: centroid_estimator::position_bits(histogram),
-        glass_bins: 0,
+        has_glass: false,
         likelihood_cycles: 0,
     }
 }

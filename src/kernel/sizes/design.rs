@@ -69,8 +69,8 @@ pub struct Sizes {
     pub centroid_cycles: u32,
     /// Bits of the centroid estimator's position.
     pub position_bits: u32,
-    /// Bins with light of a cover glass that the likelihood estimator knows.
-    pub glass_bins: u32,
+    /// True if the likelihood estimator knows of a cover glass.
+    pub has_glass: bool,
     /// Latency of the likelihood estimator [cycles of clk_sys].
     pub likelihood_cycles: u32,
 }
