@@ -35,22 +35,17 @@ signals! {
         /// Second cycle of a beat.
         pub phase: bool,
         /// C, 14 fraction bits [photons a shot].
-        #[only_if(Glass)]
         pub glass: U<24>,
         /// Part of the glass's light in a bin, 17 fraction bits.
-        #[only_if(Glass)]
         pub word_glass: U<17>,
         /// Bits of the bin's hazard.
-        #[only_if(Glass)]
         pub hazard_bits: U<5>,
         /// Reciprocal of the hazard's mantissa, 10 fraction bits.
-        #[only_if(Glass)]
         pub hazard_reciprocal: U<10>,
         /// v, 0 of what is no bin.
         #[size(ResidualBits)]
         pub residual: Residual,
         /// w, in the second cycle of the beat after `residual`.
-        #[only_if(Glass)]
         #[size(WeightBits)]
         pub weight_first: Weight,
         /// s.

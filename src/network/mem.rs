@@ -10,6 +10,7 @@ use crate::firmware::likelihood_estimator;
 use crate::firmware::likelihood_estimator::pulse::PulseWord;
 use crate::firmware::likelihood_estimator::tables::{LOG2, TABLES};
 use crate::firmware::likelihood_solver::instruction::Instruction;
+use crate::firmware::likelihood_solver::program::Program;
 use crate::firmware::tansig;
 use crate::firmware::tdc_decoder;
 use crate::kernel::WordFormat;
@@ -75,8 +76,8 @@ pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
 }
 
 /// Formats the ROMs of the likelihood estimator: for each bin boundary its time and the width of the bin before it,
-/// the pulse, k with its slope, the logarithm, and the solver's program.
-pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [Mem; 5] {
+/// the pulse, k with its slope, the logarithm, the solver's program, and the light of a cover glass if it is known.
+pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Vec<Mem> {
     let edge_bits = params.edge_bits();
     let bins = params.histogram.bins;
     let edge = |column: usize, place: usize| {
@@ -97,18 +98,23 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [M
     let pulse = params.pulse.iter().map(pulse);
     let hazard = (0..64).map(|quarter| (TABLES.k[quarter] << 11 | TABLES.growth[quarter]) as u64);
     let log = LOG2.iter().map(|&log| log as u64);
-    [
+    let glass = (params.glass.bins() > 0).then(|| {
+        let parts = (0..bins).map(|bin| params.glass.part(bin) as u64);
+        Mem::new("glass.mem", lines(parts, digits(17)))
+    });
+    let usual = [
         Mem::new("edges.mem", lines(edges, digits(edge_bits + WIDTH_BITS))),
         Mem::new("pulse.mem", lines(pulse, digits(35))),
         Mem::new("hazard.mem", lines(hazard, digits(28))),
         Mem::new("log2.mem", lines(log, digits(7))),
-        likelihood_solver(params),
-    ]
+        likelihood_solver(params.program()),
+    ];
+    usual.into_iter().chain(glass).collect()
 }
 
 /// Formats the ROM of the likelihood estimator's solver: its program, an instruction a line.
-pub fn likelihood_solver(params: &likelihood_estimator::params::Params) -> Mem {
-    let words = params.program().instructions.iter().map(Instruction::word);
+pub fn likelihood_solver(program: &Program) -> Mem {
+    let words = program.instructions.iter().map(Instruction::word);
     Mem::new("solver.mem", lines(words, digits(Instruction::BITS)))
 }
 

@@ -184,7 +184,7 @@ static WITH_GLASS: LazyLock<Program> = LazyLock::new(|| {
 impl Params {
     /// The solver's programs.
     pub fn program(&self) -> &'static Program {
-        if self.glass.bins() > 0 { &WITH_GLASS } else { &USUAL }
+        Program::of(self.glass.bins() > 0)
     }
 }
 
@@ -306,6 +306,11 @@ const END_RESULTS: [Instruction; 14] = [
 ];
 
 impl Program {
+    /// Returns the programs of an estimator that knows of a cover glass, or of none.
+    pub fn of(has_glass: bool) -> &'static Self {
+        if has_glass { &WITH_GLASS } else { &USUAL }
+    }
+
     /// Puts programs one after the other, each with the waits that its operands need.
     fn new(programs: [Vec<Instruction>; 4]) -> Self {
         let mut instructions = Vec::new();

@@ -150,11 +150,14 @@ impl Params {
         ];
         let calibration = self.tdc_calibration.is_none().then_some("tdc_calibration");
         let bank = (self.frame_ctrl.scan.banks == 1).then_some("second_bank");
+        let glass = (self.estimators.likelihood_estimator.glass.bins() == 0)
+            .then_some("likelihood_estimator.likelihood_glass");
         let host = OF_HOST.into_iter().filter(|_| !self.is_hosted);
         sources
             .into_iter()
             .chain(calibration)
             .chain(bank)
+            .chain(glass)
             .chain(host)
             .chain(others.map(FirmwareEstimator::module))
             .collect()

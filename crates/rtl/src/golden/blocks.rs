@@ -31,6 +31,7 @@ blocks! {
     histogram_preload
     laser_guard
     likelihood_estimator
+    likelihood_glass
     likelihood_memory
     likelihood_scan
     likelihood_solver

@@ -3,8 +3,11 @@
 use std::sync::Arc;
 
 use tofsim::error::Result;
+use tofsim::firmware::likelihood_estimator::glass::Glass;
+use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::network::Fixed;
 use tofsim::scenario::{self, DEFAULT};
+use tofsim::sim::setup::Setup;
 
 use super::setting::Setting;
 
@@ -25,6 +28,8 @@ pub struct Configuration {
     pub neurons: Option<usize>,
     /// Whether a host controls the firmware.
     pub is_hosted: bool,
+    /// Whether the likelihood estimator knows of a cover glass.
+    pub has_glass: bool,
 }
 
 /// Sixteen hidden neurons.
@@ -97,6 +102,15 @@ pub const HOSTED: Configuration = Configuration {
 pub const HOSTED_LONG_PULSE: Configuration =
     Configuration { name: "hosted_long_pulse", set: LONG_PULSE.set, ..HOSTED };
 
+/// A cover glass that the likelihood estimator knows.
+pub const GLASS: Configuration = Configuration {
+    name: "glass",
+    parameters: &["GlassBins"],
+    module: Some("likelihood_glass"),
+    has_glass: true,
+    ..DEFAULTS
+};
+
 /// An array of pixels with two banks of histograms.
 pub const ARRAY: Configuration = Configuration {
     name: "array",
@@ -115,6 +129,7 @@ pub(super) const DEFAULTS: Configuration = Configuration {
     module: None,
     neurons: None,
     is_hosted: false,
+    has_glass: false,
 };
 
 impl Configuration {
@@ -131,8 +146,25 @@ impl Configuration {
             setup.params.estimators.depth_estimator = Arc::new(network);
         }
         setup.params.is_hosted = self.is_hosted;
-        Ok(Setting { setup, array, ..base.clone() })
+        let setting = Setting { setup, array, ..base.clone() };
+        Ok(if self.has_glass { behind_glass(setting) } else { setting })
     }
+}
+
+/// Returns a setting whose likelihood estimator knows of a cover glass.
+pub fn behind_glass(mut setting: Setting) -> Setting {
+    let own = &*setting.setup.params.estimators.likelihood_estimator;
+    let own = Params { glass: pedestal(&setting.setup), ..own.clone() };
+    setting.setup.params.estimators.likelihood_estimator = Arc::new(own);
+    setting
+}
+
+/// Half a photon per shot from a cover glass, a deviation of the pulse after the laser edge.
+fn pedestal(setup: &Setup) -> Glass {
+    let (pulse, edges_ps) = (&setup.budget.pulse, setup.known_bins().edges_ps());
+    let before = |ps: f64| if ps > 0.0 { pulse.part(ps - pulse.sigma_ps()) } else { 0.0 };
+    let hazard = |ends: &[f64]| 0.5 * (before(ends[1]) - before(ends[0]));
+    Glass::of(&edges_ps.windows(2).map(hazard).collect::<Vec<_>>())
 }
 
 /// Adds neurons to a network, up to so many: those that it has, the last one first, so that no neuron has the weights

@@ -45,6 +45,8 @@ pub struct Estimations<'a> {
     setup: &'a Setup,
     params: &'a Params,
     histogram: Vec<u32>,
+    /// Light of a cover glass in it, as a multiple of what the estimator takes it for.
+    pedestal: f64,
     begun: u64,
     /// State in which this one is cut short, and how many cycles before it is.
     cut: Option<(u64, u64)>,
@@ -70,6 +72,7 @@ impl<'a> Estimations<'a> {
             setup,
             params,
             histogram: vec![0; params.histogram.bins],
+            pedestal: 1.0,
             begun: 0,
             cut: None,
             cuts,
@@ -128,6 +131,7 @@ impl<'a> Estimations<'a> {
     fn begin(&mut self, draw: &mut Draw) {
         self.begun += 1;
         let kind = self.begun / WHOLE % KINDS;
+        self.pedestal = 0.5 + 1.5 * (draw.below(1000) as f64 / 1000.0);
         self.histogram =
             if self.cuts { self.of_kind(kind, draw) } else { self.histogram(kind, draw) };
         let place = 1 + self.begun / WHOLE % (STATES - 1);
@@ -262,7 +266,23 @@ impl<'a> Estimations<'a> {
         let hazard = Hazard::new(&budget.with_dark_rates(&self.setup.dark));
         let chances = BinProbabilities::new(&hazard, &self.setup.bins());
         let counts = chances.draw(self.params.shots, draw.rng());
-        counts.into_iter().map(|count| count as u32).collect()
+        let counts = counts.into_iter().map(|count| count as u32).collect();
+        if self.params.glass.bins() > 0 { self.behind_glass(counts) } else { counts }
+    }
+
+    /// What is left of a histogram behind a cover glass, whose light ends shots first; without fluctuations.
+    fn behind_glass(&self, counts: Vec<u32>) -> Vec<u32> {
+        let glass = &self.params.glass;
+        let light = self.pedestal * glass.light as f64 / 16_384.0 / 131_072.0;
+        let (mut waiting, mut left) = (self.params.shots as f64, 1.0);
+        let behind = |(bin, count): (usize, u32)| {
+            let hazard = light * glass.part(bin) as f64;
+            let passed = 1.0 - hazard + 0.5 * hazard * hazard;
+            let hits = left * (waiting * (1.0 - passed) + f64::from(count) * passed);
+            (waiting, left) = (waiting - f64::from(count), left * passed);
+            hits.round() as u32
+        };
+        counts.into_iter().enumerate().map(behind).collect()
     }
 
     /// Ambient light, of so many photons a shot over the window, that leaves few shots for the echo, which takes them

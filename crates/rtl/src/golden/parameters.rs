@@ -201,7 +201,12 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Pa
         ("MetresShift", number(params.metres_shift.into())),
         ("LaserDelay", number(params.delay as u64)),
     ];
-    let names = ["EdgesFile", "PulseFile", "HazardFile", "LogFile", "ProgramFile"];
+    if params.glass.bins() > 0 {
+        list.push(("GlassBins", number(params.glass.bins() as u64)));
+        list.push(("GlassLight", number(params.glass.light as u64)));
+    }
+    let names =
+        ["EdgesFile", "PulseFile", "HazardFile", "LogFile", "ProgramFile", "GlassFile"];
     list.extend(files(names, mem::likelihood_estimator(params)));
     list
 }

@@ -129,7 +129,8 @@ fn has(ports: &[Port], name: &str) -> bool {
     ports.iter().any(|port| port.name == name)
 }
 
-/// The ports that a module has for neurons past the last, and for a calibration or a host that there is none of.
+/// The ports that a module has for neurons past the last, and for a calibration, a host, a glass or an array that there
+/// is none of.
 fn past(found: &Interface, task: &Task, sizes: &Sizes) -> Vec<Port> {
     let used = task.spec.ports(sizes);
     let is_past = |port: &Port| {
@@ -137,8 +138,9 @@ fn past(found: &Interface, task: &Task, sizes: &Sizes) -> Vec<Port> {
         found.ports.get(&port.name).is_some_and(fits) && !has(&used, &port.name)
     };
     let most = Sizes { neurons: MOST_NEURONS as u32, ..*sizes };
+    let columns = sizes.columns.max(2);
     let with_all =
-        Sizes { calibrates: true, hosted: true, columns: sizes.columns.max(2), banks: 2, ..*sizes };
+        Sizes { calibrates: true, hosted: true, has_glass: true, columns, banks: 2, ..*sizes };
     let inputs = task.spec.ports(&with_all).into_iter().filter(|port| !port.output);
     task.spec.ports(&most).into_iter().chain(inputs).filter(is_past).collect()
 }

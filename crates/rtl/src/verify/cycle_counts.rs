@@ -82,7 +82,7 @@ fn count(
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let folder = ScratchFolder::new()?;
-    write_program(folder.path())?;
+    write_program(design, folder.path())?;
     let simulated = simulate::measure(promises, rtl, design, folder.path(), limits)?;
     let modelled = model::measure(design);
     let count = |promise: &Promise| {
@@ -104,8 +104,8 @@ fn count(
 }
 
 /// Writes the ROM whose words decide how long something takes, where `rtl_ref` looks for it.
-fn write_program(folder: &Path) -> Result<()> {
-    let (program, rtl_ref) = (mem::likelihood_solver(), folder.join("rtl_ref"));
+fn write_program(design: &CountedDesign, folder: &Path) -> Result<()> {
+    let (program, rtl_ref) = (mem::likelihood_solver(design.program()), folder.join("rtl_ref"));
     create_directory(&rtl_ref)?;
     write_bytes(&rtl_ref.join(&*program.name), program.text)
 }

@@ -6,7 +6,7 @@ use tofsim::sim::estimates::likelihood::Instrument;
 
 /// Steepest slope of a logarithm; the pulse's tails have none [1 / deviation].
 const STEEPEST: f64 = 8.0;
-/// All of the pulse, 17 fraction bits.
+/// All of a pulse, 17 fraction bits.
 const ALL: f64 = 131_072.0;
 
 /// Bins and pulse in double precision, and what a designer chose in whole numbers.
@@ -21,6 +21,8 @@ pub struct Model {
     scales: Scales<f64>,
     edges_ps: Vec<f64>,
     pulse: Pulse,
+    /// Part of the cover glass's light in each bin.
+    glass: Vec<f64>,
 }
 
 impl Model {
@@ -29,12 +31,14 @@ impl Model {
     /// # Errors
     /// When it has no likelihood estimator.
     pub fn new(wanted: &Wanted) -> Result<Self, Unfit> {
+        let light: f64 = wanted.glass.iter().sum();
         Ok(Model {
             words: Params::new(wanted)?,
             unit_ps: wanted.unit_ps(),
             metres_per_ps: wanted.metres_per_ps,
             scales: wanted.scales(),
             edges_ps: wanted.edges_ps.to_vec(),
+            glass: wanted.glass.iter().map(|hazard| hazard / light).collect(),
             pulse: wanted.pulse.clone(),
         })
     }
@@ -75,6 +79,10 @@ impl Instrument for Model {
         // What z counts in a deviation.
         let z = self.scales.kappa.sqrt() / 4.0 * self.pulse.sigma_ps();
         [part * ALL, self.slope(t_ps) * z, first * z]
+    }
+
+    fn glass(&self, bin: usize) -> f64 {
+        self.glass.get(bin).map_or(0.0, |part| part * ALL)
     }
 
     fn scales(&self) -> Scales<f64> {

@@ -10,7 +10,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.likelihood_cycles.into() }],
-    configurations: &[LATE],
+    configurations: &[LATE, configuration::GLASS],
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
         at.top.likelihood_estimator.rise(&i, &at.params.estimators.likelihood_estimator);
@@ -28,11 +28,15 @@ const LATE: Configuration = Configuration {
 
 /// Lines unless told otherwise: a reset in each of ten states, and a whole estimation of each kind [clock cycles].
 const CYCLES: usize = 126_000;
+/// The same where an estimation takes longer.
+const CYCLES_WITH_GLASS: usize = 200_000;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut estimations = Estimations::new(setting, true);
     let mut run = Recorder::without_parts(spec, setting, In::list());
-    for _ in 0..setting.cycles.unwrap_or(CYCLES) {
+    let has_glass = setting.setup.params.estimators.likelihood_estimator.glass.bins() > 0;
+    let cycles = if has_glass { CYCLES_WITH_GLASS } else { CYCLES };
+    for _ in 0..setting.cycles.unwrap_or(cycles) {
         let i = estimations.next(&run.top.likelihood_estimator, &mut run.draw);
         run.line(&i);
         run.top.likelihood_estimator.rise(&i, &setting.setup.params.estimators.likelihood_estimator);

@@ -4,15 +4,15 @@ use tofsim::firmware::likelihood_estimator::{LikelihoodEstimator, Wires};
 use tofsim::firmware::likelihood_estimator::words::SCARCE;
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_solver::In;
-use tofsim::firmware::likelihood_solver::program::{
-    AMBIENT_PROGRAM, END_PROGRAM, PROGRAM, START_PROGRAM, STEP_PROGRAM,
-};
+use tofsim::firmware::likelihood_solver::program::Program;
 
+use crate::golden::configuration::GLASS;
 use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
+    configurations: &[GLASS],
     model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_solver", "likelihood_estimator.likelihood_solver", record)
 };
@@ -23,12 +23,13 @@ const PART: Part<In> = Part {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut counters = Cover::new("instruction", 0..PROGRAM.len() as u64);
+    let program = setting.setup.params.estimators.likelihood_estimator.program();
+    let mut counters = Cover::new("instruction", 0..program.instructions.len() as u64);
     let see = |estimator: &LikelihoodEstimator, _: &In, _| counters.see(estimator.likelihood_solver.counter());
     let (mut running, histogram) = (false, setting.histogram());
     let run = PART.record(spec, setting, see, |estimator, _, draw| {
         running &= !estimator.likelihood_solver.registers.ran;
-        let mut own = operands(&histogram, draw);
+        let mut own = operands(&histogram, program, draw);
         own.run = !running && draw.one_in(3);
         running = (running || own.run) && !own.rst;
         own
@@ -37,16 +38,20 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
 }
 
 /// Draws a program and its operands.
-fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
+fn operands(histogram: &histogram_builder::Params, program: &Program, draw: &mut Draw) -> In {
     let (count, bin) = (histogram.count_bits, histogram.bins.ilog2());
-    let (start, step) = (START_PROGRAM, STEP_PROGRAM);
+    let &Program { ambient, start, step, end, .. } = program;
     // Most arrivals are next to an end of the window, and a step leads out of it.
     let last = 2 * histogram.bins as u64 - 1;
-    let programs = [AMBIENT_PROGRAM, start, start, step, step, step, END_PROGRAM];
+    let programs = [ambient, start, start, step, step, step, end];
     let mut slope = || S::new(draw.signed_within(count + 24));
     let (sum_12, sum_13, score_1) = (slope(), slope(), slope());
     let mut sum = || S::new(draw.signed_within(count + 19));
     let (sum_23, score_2, score_3) = (sum(), sum(), sum());
+    let has_glass = program.instructions.len() > 64;
+    let mut of_glass = |bits: u32| if has_glass { draw.signed_within(bits) } else { 0 };
+    let (sum_14, sum_24, sum_34) = (of_glass(count + 24), of_glass(count + 19), of_glass(count + 19));
+    let (sum_44, score_4) = (of_glass(count + 19).abs(), of_glass(count + 19));
     // Around the least information on log b with which b may fall.
     let sum_33 = if draw.one_in(4) {
         SCARCE - 2 + draw.below(4) as i64
@@ -73,5 +78,10 @@ fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
         score_1,
         score_2,
         score_3,
+        sum_14: S::new(sum_14),
+        sum_24: S::new(sum_24),
+        sum_34: S::new(sum_34),
+        sum_44: S::new(sum_44),
+        score_4: S::new(score_4),
     }
 }

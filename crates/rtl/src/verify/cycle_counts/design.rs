@@ -3,6 +3,7 @@
 use tofsim::firmware::forward2::NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::likelihood_estimator::params::Params as Likelihood;
+use tofsim::firmware::likelihood_solver::program::Program;
 use tofsim::firmware::{estimator_ctrl, vcsel_driver};
 use tofsim::kernel::sizes::Size;
 use tofsim::sim::setup::Setup;
@@ -74,6 +75,11 @@ impl CountedDesign {
             ("NETWORK", others(&[("Neurons", neurons, NEURONS), bin_bits])),
             ("CENTROID", others(&[bin_bits])),
         ]
+    }
+
+    /// The programs of the likelihood estimator's solver.
+    pub fn program(&self) -> &'static Program {
+        self.likelihood.as_ref().map_or_else(|| Program::of(false), Likelihood::program)
     }
 
     /// The macros that say how large the likelihood estimator is, and its parameters.

@@ -39,15 +39,15 @@ pub fn count(of: &str, promises: &[Promise], design: &CountedDesign, rtl: &Rtl) 
             Some(why) if why.contains("has not ended") => Err(why),
             Some(why) => Ok(why),
         };
-        let answer = PROOFS.answer(&check, &inputs(promise, rtl)?, ask);
+        let answer = PROOFS.answer(&check, &inputs(promise, rtl, design)?, ask);
         Ok(Some(answer).filter(|answer| answer != PROVEN))
     };
     cycle_counts::count(promises, (design, rtl), &super::limits(), prove, |_| {}).unwrap()
 }
 
 /// All that Yosys reads for a proof of a promise, and for attempts to prove what is next to it.
-fn inputs(promise: &Promise, rtl: &Rtl) -> Result<Inputs> {
-    let (properties, program) = (promise.properties, mem::likelihood_solver());
+fn inputs(promise: &Promise, rtl: &Rtl, design: &CountedDesign) -> Result<Inputs> {
+    let (properties, program) = (promise.properties, mem::likelihood_solver(design.program()));
     let property = with_defines(properties.module, &promise.defines, properties.text);
     let mut inputs = Inputs::default()
         .version("yosys", "-V")
