@@ -154,7 +154,7 @@ module likelihood_estimator #(
             Scan: if (waited == ScanCycles[WaitBits-1:0]) {state_next, begin_program} = {Start, 1'b1};
             Start: if (ran) {state_next, begin_fit} = {Fit, 1'b1};
             Fit: if (waited == FitCycles[WaitBits-1:0]) {state_next, begin_program} = {Step, 1'b1};
-            Step: if (ran && dark && steps == 3'd1) {state_next, begin_scan} = {Scan, 1'b1};
+            Step: if (ran && Glass && dark && steps == 3'd1) {state_next, begin_scan} = {Scan, 1'b1};
                 else if (ran) {state_next, begin_fit} = {steps == 3'd5 ? Check : Fit, 1'b1};
             Check: if (waited == FitCycles[WaitBits-1:0]) {state_next, begin_scan} = {Rescan, 1'b1};
             Rescan: if (waited == ScanCycles[WaitBits-1:0]) {state_next, begin_program} = {End, 1'b1};

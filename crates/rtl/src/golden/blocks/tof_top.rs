@@ -32,7 +32,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK, OWN_EDGES, OWN_CHAINS],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, GLASS, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK, OWN_EDGES, OWN_CHAINS],
     model: Some(Model {
         // It is looked at once its clocks run.
         settle: |at| at.top.pll.locked = true,
@@ -67,6 +67,15 @@ const LIKELIHOOD: Configuration = Configuration {
     parameters: &["Estimator", "BoxBins", "BinsBefore", "Kappa", "EdgesFile", "PulseFile"],
     module: Some(super::LIKELIHOOD),
     ..configuration::DEFAULTS
+};
+
+/// The same where it knows of a cover glass.
+const GLASS: Configuration = Configuration {
+    name: "glass",
+    parameters: &["Estimator", "GlassBins", "GlassLight", "GlassFile"],
+    module: Some("likelihood_glass"),
+    has_glass: true,
+    ..LIKELIHOOD
 };
 
 /// Codes from the ROM.

@@ -5,16 +5,24 @@
     // Cycles of each state
     localparam [15:0] LoadFor = `LIKELIHOOD_BINS + 13;
     localparam [15:0] ScanFor = 2 * (`LIKELIHOOD_BINS + `LIKELIHOOD_BOX - `LIKELIHOOD_BOX / 2 - 1 + 29) + 1;
-    localparam [15:0] FitFor = 2 * (`LIKELIHOOD_BEFORE + 1 + `LIKELIHOOD_AFTER + 29) + 1;
-    localparam [15:0] AmbientFor = 65, StartFor = 56, StepFor = 165, EndFor = 74;
-    // Cycles of an estimation before each state first begins
-    localparam [15:0] AmbientFrom = LoadFor, ScanFrom = AmbientFrom + AmbientFor, StartFrom = ScanFrom + ScanFor;
+    localparam Glass = `LIKELIHOOD_GLASS != 0;
+    localparam [15:0] GlassBeats = Glass ? `LIKELIHOOD_GLASS + 1 : 0;
+    localparam [15:0] FitFor = 2 * (GlassBeats + `LIKELIHOOD_BEFORE + 1 + `LIKELIHOOD_AFTER + 29) + 1;
+    // First and last instruction of each program, and its cycles
+    localparam [29:0] AmbientProgram = `LIKELIHOOD_AMBIENT, StartProgram = `LIKELIHOOD_START,
+        StepProgram = `LIKELIHOOD_STEP, EndProgram = `LIKELIHOOD_END;
+    localparam [15:0] AmbientFor = AmbientProgram[15:0], StartFor = StartProgram[15:0], StepFor = StepProgram[15:0],
+        EndFor = EndProgram[15:0];
+    // Cycles of an estimation before each state first begins; fits without an echo are first, where there is a glass
+    localparam [15:0] AmbientFrom = LoadFor, DarkFrom = AmbientFrom + AmbientFor;
+    localparam [15:0] ScanFrom = DarkFrom + (Glass ? 2 * (FitFor + StepFor) : 16'd0), StartFrom = ScanFrom + ScanFor;
     localparam [15:0] FitFrom = StartFrom + StartFor, CheckFrom = FitFrom + 6 * (FitFor + StepFor);
     localparam [15:0] RescanFrom = CheckFrom + FitFor, EndFrom = RescanFrom + ScanFor;
 
     (* hierconn *) wire [3:0] \dut.state ;
     (* hierconn *) wire [$clog2(`LIKELIHOOD_BINS)+2:0] \dut.waited ;
     (* hierconn *) wire [2:0] \dut.steps ;
+    (* hierconn *) wire \dut.dark ;
     (* hierconn *) wire \dut.run ;
     (* hierconn *) wire [6:0] \dut.entry ;
     (* hierconn *) wire \dut.likelihood_solver.running ;
@@ -36,6 +44,7 @@
     wire [3:0] state = \dut.state ;
     wire [15:0] waited = \dut.waited ;
     wire [15:0] steps = \dut.steps ;
+    wire dark = Glass && \dut.dark ;
     wire [6:0] counter = \dut.likelihood_solver.counter ;
     wire [15:0] pause = \dut.likelihood_solver.pause ;
     wire solver_works = \dut.run || \dut.likelihood_solver.running || \dut.likelihood_solver.ran ;
@@ -46,10 +55,10 @@
     reg [15:0] program_for;
     always @*
         case (state)
-            Ambient: {solves, program, stop, program_for} = {1'b1, 7'd0, 7'd6, AmbientFor};
-            Start: {solves, program, stop, program_for} = {1'b1, 7'd7, 7'd12, StartFor};
-            Step: {solves, program, stop, program_for} = {1'b1, 7'd13, 7'd48, StepFor};
-            End: {solves, program, stop, program_for} = {1'b1, 7'd49, 7'd63, EndFor};
+            Ambient: {solves, program, stop, program_for} = {1'b1, AmbientProgram};
+            Start: {solves, program, stop, program_for} = {1'b1, StartProgram};
+            Step: {solves, program, stop, program_for} = {1'b1, StepProgram};
+            End: {solves, program, stop, program_for} = {1'b1, EndProgram};
             default: {solves, program, stop, program_for} = 31'd0;
         endcase
 
@@ -57,70 +66,7 @@
     reg [15:0] begins, longest;
     always @*
         case (counter)
-            7'd0: {begins, longest} = {16'd0, 16'd0};
-            7'd1: {begins, longest} = {16'd26, 16'd25};
-            7'd2: {begins, longest} = {16'd35, 16'd8};
-            7'd3: {begins, longest} = {16'd44, 16'd8};
-            7'd4: {begins, longest} = {16'd46, 16'd1};
-            7'd5: {begins, longest} = {16'd53, 16'd6};
-            7'd6: {begins, longest} = {16'd62, 16'd8};
-            7'd7: {begins, longest} = {16'd0, 16'd0};
-            7'd8: {begins, longest} = {16'd26, 16'd25};
-            7'd9: {begins, longest} = {16'd35, 16'd8};
-            7'd10: {begins, longest} = {16'd37, 16'd1};
-            7'd11: {begins, longest} = {16'd44, 16'd6};
-            7'd12: {begins, longest} = {16'd53, 16'd8};
-            7'd13: {begins, longest} = {16'd0, 16'd0};
-            7'd14: {begins, longest} = {16'd26, 16'd25};
-            7'd15: {begins, longest} = {16'd28, 16'd1};
-            7'd16: {begins, longest} = {16'd30, 16'd1};
-            7'd17: {begins, longest} = {16'd35, 16'd4};
-            7'd18: {begins, longest} = {16'd37, 16'd1};
-            7'd19: {begins, longest} = {16'd39, 16'd1};
-            7'd20: {begins, longest} = {16'd41, 16'd1};
-            7'd21: {begins, longest} = {16'd43, 16'd1};
-            7'd22: {begins, longest} = {16'd53, 16'd9};
-            7'd23: {begins, longest} = {16'd54, 16'd0};
-            7'd24: {begins, longest} = {16'd56, 16'd1};
-            7'd25: {begins, longest} = {16'd58, 16'd1};
-            7'd26: {begins, longest} = {16'd60, 16'd1};
-            7'd27: {begins, longest} = {16'd62, 16'd1};
-            7'd28: {begins, longest} = {16'd65, 16'd2};
-            7'd29: {begins, longest} = {16'd69, 16'd3};
-            7'd30: {begins, longest} = {16'd71, 16'd1};
-            7'd31: {begins, longest} = {16'd75, 16'd3};
-            7'd32: {begins, longest} = {16'd77, 16'd1};
-            7'd33: {begins, longest} = {16'd81, 16'd3};
-            7'd34: {begins, longest} = {16'd83, 16'd1};
-            7'd35: {begins, longest} = {16'd109, 16'd25};
-            7'd36: {begins, longest} = {16'd111, 16'd1};
-            7'd37: {begins, longest} = {16'd118, 16'd6};
-            7'd38: {begins, longest} = {16'd128, 16'd9};
-            7'd39: {begins, longest} = {16'd129, 16'd0};
-            7'd40: {begins, longest} = {16'd131, 16'd1};
-            7'd41: {begins, longest} = {16'd138, 16'd6};
-            7'd42: {begins, longest} = {16'd140, 16'd1};
-            7'd43: {begins, longest} = {16'd142, 16'd1};
-            7'd44: {begins, longest} = {16'd144, 16'd1};
-            7'd45: {begins, longest} = {16'd149, 16'd4};
-            7'd46: {begins, longest} = {16'd151, 16'd1};
-            7'd47: {begins, longest} = {16'd153, 16'd1};
-            7'd48: {begins, longest} = {16'd162, 16'd8};
-            7'd49: {begins, longest} = {16'd0, 16'd0};
-            7'd50: {begins, longest} = {16'd2, 16'd1};
-            7'd51: {begins, longest} = {16'd36, 16'd33};
-            7'd52: {begins, longest} = {16'd38, 16'd1};
-            7'd53: {begins, longest} = {16'd40, 16'd1};
-            7'd54: {begins, longest} = {16'd42, 16'd1};
-            7'd55: {begins, longest} = {16'd44, 16'd1};
-            7'd56: {begins, longest} = {16'd48, 16'd3};
-            7'd57: {begins, longest} = {16'd50, 16'd1};
-            7'd58: {begins, longest} = {16'd52, 16'd1};
-            7'd59: {begins, longest} = {16'd54, 16'd1};
-            7'd60: {begins, longest} = {16'd58, 16'd3};
-            7'd61: {begins, longest} = {16'd60, 16'd1};
-            7'd62: {begins, longest} = {16'd62, 16'd1};
-            7'd63: {begins, longest} = {16'd71, 16'd8};
+            `LIKELIHOOD_PROGRAM
             default: {begins, longest} = 32'd0;
         endcase
 
@@ -138,8 +84,8 @@
             Ambient: {from, within} = {AmbientFrom, AmbientFor};
             Scan: {from, within} = {ScanFrom, ScanFor};
             Start: {from, within} = {StartFrom, StartFor};
-            Fit: {from, within} = {FitFrom + steps * (FitFor + StepFor), FitFor};
-            Step: {from, within} = {FitFrom + steps * (FitFor + StepFor) + FitFor, StepFor};
+            Fit: {from, within} = {(dark ? DarkFrom : FitFrom) + steps * (FitFor + StepFor), FitFor};
+            Step: {from, within} = {(dark ? DarkFrom : FitFrom) + steps * (FitFor + StepFor) + FitFor, StepFor};
             Check: {from, within} = {CheckFrom, FitFor};
             Rescan: {from, within} = {RescanFrom, ScanFor};
             End: {from, within} = {EndFrom, EndFor};
@@ -148,5 +94,5 @@
 
     wire in_step = under_way
         ? k == from + in_state && in_state < within && (solves ? in_program : !solver_works)
-            && (state < Fit ? steps == 0 : state > Step || steps <= 5) && k < Latency && !done
+            && (state < Fit ? steps == 0 : state > Step || steps <= (dark ? 1 : 5)) && k < Latency && !done
         : state == Idle && !solver_works && done == (k == Latency) && (done || k == 16'd0);

@@ -3,6 +3,7 @@
 use tofsim::firmware::forward2::NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::likelihood_estimator::params::Params as Likelihood;
+use tofsim::firmware::likelihood_solver::instruction::Instruction;
 use tofsim::firmware::likelihood_solver::program::Program;
 use tofsim::firmware::{estimator_ctrl, vcsel_driver};
 use tofsim::kernel::sizes::Size;
@@ -92,14 +93,19 @@ impl CountedDesign {
             ("BoxBins", params.box_bins, BOX),
             ("BinsBefore", before, BESIDE),
             ("BinsAfter", after, BESIDE),
+            ("GlassBins", params.glass.bins(), 0),
         ];
         vec![
             ("LIKELIHOOD_BINS", bins.to_string()),
             ("LIKELIHOOD_BOX", params.box_bins.to_string()),
             ("LIKELIHOOD_BEFORE", before.to_string()),
             ("LIKELIHOOD_AFTER", after.to_string()),
+            ("LIKELIHOOD_GLASS", params.glass.bins().to_string()),
             ("LIKELIHOOD", others(&sizes)),
         ]
+        .into_iter()
+        .chain(of_program(params.program()))
+        .collect()
     }
 
     /// The macros that say how the laser fires, and its parameters. The periods are known where it has any.
@@ -142,4 +148,34 @@ pub fn with_defines(module: &str, defines: &[Define], text: &str) -> String {
     let line = |(name, value): &Define| format!("`define {name} {value}\n");
     let lines: String = defines.iter().map(line).collect();
     format!("`define MODULE {module}\n{lines}{text}")
+}
+
+/// The macros with the programs of the likelihood estimator's solver: first and last instruction and cycles of each, and
+/// for each instruction the cycle in which it begins and how long it waits for that.
+fn of_program(program: &Program) -> [Define; 5] {
+    let Program { instructions, ambient, start, step, end } = program;
+    let entries = [*ambient, *start, *step, *end, instructions.len() as u64];
+    let literal = |which: usize| {
+        let (first, last) = (entries[which], entries[which + 1] - 1);
+        format!("{{7'd{first}, 7'd{last}, 16'd{}}}", program.cycles(first))
+    };
+    let mut begins = 0;
+    let mut longest = 0;
+    let line = |(place, instruction): (usize, &Instruction)| {
+        if entries.contains(&(place as u64)) {
+            (begins, longest) = (0, 0);
+        }
+        let line = format!("7'd{place}: {{begins, longest}} = {{16'd{begins}, 16'd{longest}}};");
+        begins += u64::from(instruction.wait);
+        longest = u64::from(instruction.wait) - 1;
+        line
+    };
+    let lines: Vec<_> = instructions.iter().enumerate().map(line).collect();
+    [
+        ("LIKELIHOOD_AMBIENT", literal(0)),
+        ("LIKELIHOOD_START", literal(1)),
+        ("LIKELIHOOD_STEP", literal(2)),
+        ("LIKELIHOOD_END", literal(3)),
+        ("LIKELIHOOD_PROGRAM", lines.join(" ")),
+    ]
 }

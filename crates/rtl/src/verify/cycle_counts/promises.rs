@@ -70,11 +70,18 @@ static CENTROID: Properties = Properties {
 /// No proof reads memories, so the solver's program, a ROM or a large `case`, becomes logic. What only feeds the open
 /// blocks and the solver's memory is taken away, with that memory: it is much, and what they do is anything already.
 static LIKELIHOOD: Properties = Properties {
-    open: &["likelihood_memory", "likelihood_terms", "likelihood_sums", "likelihood_scan"],
+    open: &[
+        "likelihood_memory",
+        "likelihood_terms",
+        "likelihood_sums",
+        "likelihood_glass",
+        "likelihood_scan",
+    ],
     registers: &[
         "state",
         "waited",
         "steps",
+        "dark",
         "run",
         "entry",
         "likelihood_solver.running",
@@ -83,7 +90,7 @@ static LIKELIHOOD: Properties = Properties {
         "likelihood_solver.pause",
     ],
     logic: "proc -norom; memory -nomap; memory_map -rom-only; delete */t:likelihood_memory */t:likelihood_terms \
-            */t:likelihood_sums */t:likelihood_scan */t:$mem*",
+            */t:likelihood_sums */t:likelihood_glass */t:likelihood_scan */t:$mem*",
     steps: 2,
     ..Properties::new("check_likelihood", "bench_likelihood", of_estimator!("check_likelihood.sv"))
 };

@@ -8,6 +8,8 @@ use std::fs;
 use std::time::Duration;
 
 use tofsim::firmware::estimator_ctrl::Params;
+use tofsim::firmware::likelihood_estimator::glass::Glass;
+use tofsim::firmware::likelihood_estimator::params::Params as Likelihood;
 use tofsim::sim::setup::Setup;
 
 use crate::golden::blocks::CENTROID;
@@ -117,13 +119,26 @@ fn below_eight_neurons_the_pipeline_decides_and_from_there_on_a_clock_a_neuron()
 
 /// Proves the promise of the likelihood estimator of such an instrument; returns the number.
 fn likelihood(set: &[&str]) -> u64 {
+    of_likelihood(&set.join(", "), of(set))
+}
+
+/// The same of a design.
+fn of_likelihood(name: &str, design: CountedDesign) -> u64 {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let design = of(set);
     let promise = promises::likelihood(&design).unwrap();
-    let counts = recorded::count(&set.join(", "), &[promise], &design, &rtl);
-    assert!(counts[0].holds(), "{set:?}: {:?}", counts[0]);
+    let counts = recorded::count(name, &[promise], &design, &rtl);
+    assert!(counts[0].holds(), "{name}: {:?}", counts[0]);
     counts[0].expected
+}
+
+#[test]
+fn an_estimation_behind_glass_takes_5639_clocks() {
+    let mut design = of(&[]);
+    let hazards: Vec<_> = (0..30).map(|bin| 0.01 + 0.001 * f64::from(bin)).collect();
+    let glass = Glass::of(&hazards);
+    design.likelihood = design.likelihood.map(|usual| Likelihood { glass, ..usual });
+    assert_eq!(of_likelihood("a pedestal of 30 bins", design), 5639);
 }
 
 #[test]
