@@ -24,7 +24,7 @@ module likelihood_estimator #(
     parameter [0:0] OwnChains = 1'b0,            // see likelihood_memory
     parameter integer GlassBins = 0,             // see likelihood_memory
     parameter [23:0] GlassLight = 24'd0,         // light of the glass when it was calibrated [2^-14 photons a shot]
-    parameter GlassFile = "rtl_ref/glass.mem",
+    parameter GlassFile = "",
     parameter EdgesFile = "rtl_ref/edges.mem",
     parameter PulseFile = "rtl_ref/pulse.mem",
     parameter HazardFile = "rtl_ref/hazard.mem",

@@ -14,7 +14,7 @@ module likelihood_memory #(
     parameter integer Columns = 1,               // see frame_ctrl
     parameter [0:0] OwnChains = 1'b0,            // each column has its own bins, in 2 to the power of BinBits + 1 words
     parameter integer GlassBins = 0,             // bins with light of a cover glass, 0 if it is not known
-    parameter GlassFile = "rtl_ref/glass.mem",   // the part of that light in each bin
+    parameter GlassFile = "",                    // the part of that light in each bin
     parameter EdgesFile = "rtl_ref/edges.mem"    // of each place the width of the bin before it [units], and its time
 ) (
     input wire clk_sys,

@@ -64,7 +64,7 @@ module tof_top #(
     parameter [31:0] LaserDelay = 32'd0,
     parameter integer GlassBins = 0,
     parameter [23:0] GlassLight = 24'd0,
-    parameter GlassFile = "rtl_ref/glass.mem",
+    parameter GlassFile = "",
     parameter integer InputHz = 200000000,       // see pll
     parameter integer Multiply = 5,
     parameter integer Divide = 1,

@@ -63,10 +63,17 @@ fn vector(output: bool, width: u32) -> PortShape {
     PortShape { output, width, words: None }
 }
 
-/// Ports for the most neurons, with a calibration, a host, a second column and a second bank; all else is as large as by default.
+/// Ports for the most neurons, with a calibration, a host, a cover glass, a second column and a second bank; all else is as large as by default.
 fn sizes() -> Sizes {
     let (columns, banks) = (2, 2);
-    let with_all = Sizes { calibrates: true, hosted: true, columns, banks, ..Sizes::default() };
+    let with_all = Sizes {
+        calibrates: true,
+        hosted: true,
+        has_glass: true,
+        columns,
+        banks,
+        ..Sizes::default()
+    };
     Sizes { neurons: MOST_NEURONS as u32, ..with_all }
 }
 
