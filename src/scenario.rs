@@ -15,6 +15,7 @@ pub mod dark;
 pub mod drift;
 #[doc(hidden)]
 pub mod effects;
+pub mod glass;
 mod illuminance;
 #[doc(hidden)]
 pub mod keys;

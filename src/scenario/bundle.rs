@@ -160,6 +160,7 @@ pub fn names(scenario: &Scenario) -> impl Iterator<Item = (&'static str, &str)> 
         ("stimulus.histogram", stimulus.histogram.as_deref()),
         ("training.recipe", training.recipe.as_deref()),
         ("estimator.network", Some(&*estimator.network)),
+        ("estimator.glass_file", estimator.glass_file.as_deref()),
         ("tdc.profile", Some(&*tdc.profile)),
         ("tdc.calibration", calibration),
     ];
