@@ -1,12 +1,12 @@
 //! Expected causes of the hits with each code, for histograms whose avalanches were not simulated.
 
 use super::closed_form::Bins;
-use super::hazard::Hazard;
+use super::hazard::{BY_CAUSE, Hazard};
 
-/// Returns the fractions of each code's hits that are due to the laser, to ambient light and to dark counts, if the
-/// first avalanche of a shot decides. All are zero for a code without hits [1].
-pub fn cause_parts(hazard: &Hazard, bins: &Bins) -> Vec<[f64; 3]> {
-    let mut parts = vec![[0.0; 3]; bins.count()];
+/// Returns the fractions of each code's hits that are due to each of [`BY_CAUSE`], if the first avalanche of a shot
+/// decides. All are zero for a code without hits [1].
+pub fn cause_parts(hazard: &Hazard, bins: &Bins) -> Vec<[f64; BY_CAUSE.len()]> {
+    let mut parts = vec![[0.0; BY_CAUSE.len()]; bins.count()];
     for span in bins.spans() {
         // Within a span, which is a few taps, the chance that nothing came before hardly changes.
         let before = (-hazard.at(span.from)).exp();

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::optics::budget::LIGHT_M_S;
+use crate::optics::budget::{LIGHT_M_S, PixelPath};
 use crate::scenario::mesh::Point;
 use crate::scenario::mesh::tests::{cube, of};
 use crate::scenario::{AmbientModel, Array, Shape};
@@ -35,7 +35,9 @@ fn with_mesh(scenario: &Scenario, mesh: &Mesh) -> Vec<Budget> {
     let count = pixels.rows * pixels.columns;
     let mesh = (scenario.target.shape == Shape::Mesh).then_some(mesh);
     let budgets = PixelBudgets::new(scenario, pixels, mesh);
-    (0..count).map(|place| budgets.of(scenario, Pulse::default(), place, 0.0)).collect()
+    (0..count)
+        .map(|place| budgets.of(scenario, Pulse::default(), place, &PixelPath::default()))
+        .collect()
 }
 
 /// Returns the budgets of all pixels; the mesh is a cube.
