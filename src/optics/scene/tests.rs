@@ -287,3 +287,4 @@ fn ambient_light_passes_the_fog_once_and_the_fog_adds_its_own() {
 }
 
 mod mesh;
+mod second;
