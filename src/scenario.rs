@@ -10,6 +10,8 @@ pub mod calibration;
 pub mod chain;
 pub mod chains;
 #[doc(hidden)]
+pub mod cover_fractions;
+#[doc(hidden)]
 pub mod dark;
 #[doc(hidden)]
 pub mod drift;
@@ -25,6 +27,7 @@ pub mod mesh;
 mod model;
 #[doc(hidden)]
 pub mod offsets;
+mod pixel_values;
 #[doc(hidden)]
 pub mod projection;
 #[doc(hidden)]
