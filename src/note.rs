@@ -31,6 +31,8 @@ pub enum NoteCode {
     SecondOpinion,
     /// A model does not describe the data to which it was fitted.
     DoubtfulFit,
+    /// The light of a cover window differs from its calibration.
+    PedestalMoved,
     /// A measurement is uncertain because it has too few hits.
     FewHits,
     /// Two files could not be read or matched as they are.

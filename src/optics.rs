@@ -6,6 +6,7 @@ pub mod camera;
 pub mod cause_parts;
 pub mod chances;
 pub mod closed_form;
+mod cover;
 pub mod dark;
 pub mod eye_safety;
 pub mod first_photon;

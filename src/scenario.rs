@@ -10,11 +10,14 @@ pub mod calibration;
 pub mod chain;
 pub mod chains;
 #[doc(hidden)]
+pub mod cover_fractions;
+#[doc(hidden)]
 pub mod dark;
 #[doc(hidden)]
 pub mod drift;
 #[doc(hidden)]
 pub mod effects;
+pub mod glass;
 mod illuminance;
 #[doc(hidden)]
 pub mod keys;
@@ -24,6 +27,7 @@ pub mod mesh;
 mod model;
 #[doc(hidden)]
 pub mod offsets;
+mod pixel_values;
 #[doc(hidden)]
 pub mod projection;
 #[doc(hidden)]

@@ -59,7 +59,15 @@ fn the_worked_examples_are_what_they_say() {
 
 #[test]
 fn a_run_counts_what_the_closed_form_expects_of_each_scene() {
-    let scenes: [&[&str]; 6] = [
+    let glass = ["cover.fraction=1.5e-4", "cover.smear_fraction=0.3", "laser.delay_ps=500"];
+    let net = ["target.second_share=0.4", "target.second_distance_m=0.25"];
+    let varied = ["laser.timing_jitter_ps=100", "laser.energy_jitter=0.2"];
+    let [both, varied] = [[&glass[..], &net].concat(), [&glass[..], &varied].concat()];
+    let scenes: [&[&str]; 10] = [
+        &glass,
+        &net,
+        &both,
+        &varied,
         &["atmosphere.visibility_m=5"],
         &["target.shape=sphere", "atmosphere.rain_mm_h=200"],
         &["target.shape=step", "target.distance_m=0.3", "target.tilt_deg=20"],

@@ -1,12 +1,12 @@
 //! Expected causes of the hits with each code, for histograms whose avalanches were not simulated.
 
 use super::closed_form::Bins;
-use super::hazard::Hazard;
+use super::hazard::{BY_CAUSE, Hazard};
 
-/// Returns the fractions of each code's hits that are due to the laser, to ambient light and to dark counts, if the
-/// first avalanche of a shot decides. All are zero for a code without hits [1].
-pub fn cause_parts(hazard: &Hazard, bins: &Bins) -> Vec<[f64; 3]> {
-    let mut parts = vec![[0.0; 3]; bins.count()];
+/// Returns the fractions of each code's hits that are due to each of [`BY_CAUSE`], if the first avalanche of a shot
+/// decides. All are zero for a code without hits [1].
+pub fn cause_parts(hazard: &Hazard, bins: &Bins) -> Vec<[f64; BY_CAUSE.len()]> {
+    let mut parts = vec![[0.0; BY_CAUSE.len()]; bins.count()];
     for span in bins.spans() {
         // Within a span, which is a few taps, the chance that nothing came before hardly changes.
         let before = (-hazard.at(span.from)).exp();
@@ -24,23 +24,29 @@ pub fn cause_parts(hazard: &Hazard, bins: &Bins) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::optics::hazard::Cause;
     use crate::{Observers, Run, Setup, Shot};
 
     #[test]
     fn they_are_those_of_a_run() {
-        let setup = Setup::load("kc705", &["spad.dark_rate_hz=2e8"]).unwrap();
-        let mut counts = vec![[0u32; 3]; 256];
+        let glass = ["spad.dark_rate_hz=2e8", "cover.fraction=4e-5", "cover.delay_ps=2800"];
+        let smeared = [&glass[..], &["cover.smear_fraction=0.3"]].concat();
+        for keys in [&glass[..1], &smeared] {
+            check(&Setup::load("kc705", keys).unwrap());
+        }
+    }
+
+    /// Compares them with those of a run.
+    fn check(setup: &Setup) {
+        let mut counts = vec![[0u32; BY_CAUSE.len()]; 256];
         let mut take = |shot: &Shot| {
-            let cause = [Cause::Signal, Cause::Ambient, Cause::Dark].map(Some);
-            let cause = cause.iter().position(|cause| *cause == shot.cause);
+            let cause = BY_CAUSE.iter().position(|cause| Some(*cause) == shot.cause);
             if let (Some(code), Some(cause)) = (shot.code, cause) {
                 counts[code as usize][cause] += 1;
             }
             Ok(())
         };
         let observers = Observers { shots: Some(&mut take), ..Observers::default() };
-        Run::new(&setup).observe(1, observers).unwrap();
+        Run::new(setup).observe(1, observers).unwrap();
         let parts = cause_parts(&Hazard::new(&setup.budget), &setup.bins());
         let (mut square, mut degrees) = (0.0, 0.0);
         for (counts, parts) in counts.iter().zip(&parts) {

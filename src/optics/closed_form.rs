@@ -104,6 +104,21 @@ impl Bins {
         edges
     }
 
+    /// Returns begin and end of each bin, both 0 for a code that never occurs [ps].
+    pub fn limits_ps(&self) -> Vec<[f64; 2]> {
+        let mut limits = vec![[0.0; 2]; self.count()];
+        for span in &self.spans {
+            let [from_ps, until_ps] = [span.from, span.until].map(|time| time.fs() as f64 * 1e-3);
+            let bin = &mut limits[span.code as usize];
+            *bin = if bin[1] == 0.0 {
+                [from_ps, until_ps]
+            } else {
+                [bin[0].min(from_ps), bin[1].max(until_ps)]
+            };
+        }
+        limits
+    }
+
     /// Returns the nominal bin width [ps].
     pub fn bin_ps(&self) -> f64 {
         self.scale.bin().fs() as f64 * 1e-3

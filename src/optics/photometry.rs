@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scenario::{AmbientModel, Filter, Scenario};
+use crate::scenario::{AmbientModel, Filter, Scenario, Target};
 
 use super::geometry;
 
@@ -15,9 +15,9 @@ const FITTED_EFFICIENCY: f64 = 0.003;
 /// Largest distance of Table 4.3, to which the fitted ambient rate belongs [m].
 const FARTHEST_FITTED_M: f64 = 0.6;
 
-/// Computes S_p of one SPAD: eq. 3.13 in eq. 3.14, with P_s / f as the pulse energy.
-pub fn signal_per_shot(scenario: &Scenario) -> f64 {
-    let (target, laser) = (&scenario.target, &scenario.laser);
+/// Computes S_p of one SPAD from a plain target: eq. 3.13 in eq. 3.14, with P_s / f as the pulse energy.
+pub fn signal_per_shot(scenario: &Scenario, target: &Target) -> f64 {
+    let laser = &scenario.laser;
     let illumination_deg = laser.field_of_illumination_deg;
     let seen_deg = illumination_deg.min(scenario.spad.field_of_view_deg);
     let sin = libm::sin((illumination_deg / 4.0).to_radians());
@@ -35,7 +35,14 @@ pub fn white_per_shot(scenario: &Scenario) -> f64 {
     lens_energy_j_m2 * scenario.filter.efficiency * avalanches_per_joule(scenario)
 }
 
-/// Rate of avalanches of one SPAD from ambient light, by the scenario's model.
+/// Computes the detected photons of one SPAD per shot if all of the pulse energy came to the lens from within its
+/// field of view.
+pub fn whole_pulse_per_shot(scenario: &Scenario) -> f64 {
+    let laser = &scenario.laser;
+    laser.pulse_energy_j() * scenario.filter.efficiency * avalanches_per_joule(scenario)
+}
+
+/// Rate of avalanches of one SPAD from ambient light reflected at a target's distance, by the scenario's model.
 #[derive(Clone, Copy, Debug)]
 pub struct AmbientRate {
     /// Rate of ambient photons with the thesis's optics, to which the fitted rate belongs; `None` for the physical
@@ -44,10 +51,10 @@ pub struct AmbientRate {
 }
 
 impl AmbientRate {
-    /// Returns the rate for the optics of a scenario.
-    pub fn of(scenario: &Scenario) -> Self {
+    /// Returns the rate for the optics of a scenario and the distance of a target.
+    pub fn of(scenario: &Scenario, target: &Target) -> Self {
         let is_fitted = matches!(scenario.ambient.model, AmbientModel::Fitted);
-        AmbientRate { thesis_hz: is_fitted.then(|| thesis_photons_hz(scenario)) }
+        AmbientRate { thesis_hz: is_fitted.then(|| thesis_photons_hz(target)) }
     }
 
     /// Computes N_r for a target of that reflectance and projected solid angle [1/s].
@@ -73,13 +80,13 @@ fn fitted_rate_hz(scenario: &Scenario, reflectance: f64) -> f64 {
 
 /// Computes the rate of ambient photons with the thesis's optics and distances [1/s].
 ///
-/// The reference is the thesis's target at the scenario's distance, because Table 4.3 has one rate for all distances,
+/// The reference is the thesis's target at the target's distance, because Table 4.3 has one rate for all distances,
 /// and beyond the table's largest distance it is constant.
-fn thesis_photons_hz(scenario: &Scenario) -> f64 {
+fn thesis_photons_hz(target: &Target) -> f64 {
     let mut thesis = Scenario::default();
-    thesis.target.distance_m = scenario.target.distance_m.min(FARTHEST_FITTED_M);
-    thesis.target.cells = scenario.target.cells;
-    photons_hz(&thesis, seen_sr(&thesis))
+    thesis.target.distance_m = target.distance_m.min(FARTHEST_FITTED_M);
+    thesis.target.cells = target.cells;
+    photons_hz(&thesis, seen_sr(&thesis, &thesis.target))
 }
 
 /// Computes the rate of ambient photons on one SPAD from a white target of the given projected solid angle, in an
@@ -105,8 +112,8 @@ fn passband_nm(filter: &Filter) -> f64 {
 }
 
 /// Returns the projected solid angle of the visible part of a plain target [sr].
-pub fn seen_sr(scenario: &Scenario) -> f64 {
-    geometry::projected_solid_angle(&scenario.target, scenario.spad.field_of_view_deg)
+pub fn seen_sr(scenario: &Scenario, target: &Target) -> f64 {
+    geometry::projected_solid_angle(target, scenario.spad.field_of_view_deg)
 }
 
 /// Returns the number of avalanches of one SPAD per joule on the lens: eq. 3.14 behind the filter [1/J].

@@ -4,8 +4,7 @@ use crate::kernel::pulse::Pulse;
 use crate::scenario::Scenario;
 use crate::scenario::mesh::Mesh;
 
-use super::budget::Budget;
-use super::photometry::AmbientRate;
+use super::budget::{AmbientRates, Budget, PixelPath};
 use super::pixels::Pixels;
 use super::scene::{PixelLight, Scene};
 
@@ -15,14 +14,14 @@ use super::scene::{PixelLight, Scene};
 pub struct PixelBudgets {
     pixels: Pixels,
     light: Vec<PixelLight>,
-    ambient: AmbientRate,
+    ambient: AmbientRates,
 }
 
 impl PixelBudgets {
     /// Computes the light on the pixels of a scenario.
     pub fn new(scenario: &Scenario, pixels: Pixels, mesh: Option<&Mesh>) -> Self {
         let light = Scene::new(scenario, mesh).of_pixels(&pixels);
-        PixelBudgets { pixels, light, ambient: AmbientRate::of(scenario) }
+        PixelBudgets { pixels, light, ambient: AmbientRates::of(scenario) }
     }
 
     /// Returns the directions of the pixels.
@@ -30,10 +29,9 @@ impl PixelBudgets {
         &self.pixels
     }
 
-    /// Computes the budget of the pixel at a place, whose signal path has an additional delay, for the given laser pulse
-    /// and without measured dark rates [ps].
-    pub fn of(&self, scenario: &Scenario, pulse: Pulse, place: usize, offset_ps: f64) -> Budget {
-        Budget::of_light(scenario, pulse, &self.ambient, &self.light[place], offset_ps)
+    /// Computes the budget of the pixel at a place, for the given laser pulse and without measured dark rates.
+    pub fn of(&self, scenario: &Scenario, pulse: Pulse, place: usize, path: &PixelPath) -> Budget {
+        Budget::of_light(scenario, pulse, &self.ambient, &self.light[place], path)
     }
 }
 

@@ -96,6 +96,8 @@ pub struct Returned {
     pub diffuse: Light,
     /// Light from a retroreflective patch.
     pub retro: Light,
+    /// Diffuse reflection of a second surface.
+    pub second: Light,
     /// Backscatter of the air, unless it is clear.
     pub air: Option<Haze>,
 }
@@ -107,9 +109,20 @@ impl Returned {
         if clear > 0.0 { (self.diffuse.sum() + self.retro.sum()) / clear } else { 1.0 }
     }
 
+    /// Returns the smallest and largest distance of a part of the target that returns light, or else of the second
+    /// surface [m].
+    pub fn target_ends_m(&self) -> Option<[f64; 2]> {
+        let target = Returned::ends_m(&[&self.diffuse, &self.retro]);
+        target.or_else(|| Returned::ends_m(&[&self.second]))
+    }
+
     /// Returns the smallest and largest distance of a surface that returns light [m].
-    pub fn ends_m(&self) -> Option<[f64; 2]> {
-        let parts = self.diffuse.parts().iter().chain(self.retro.parts());
+    pub fn surface_ends_m(&self) -> Option<[f64; 2]> {
+        Returned::ends_m(&[&self.diffuse, &self.retro, &self.second])
+    }
+
+    fn ends_m(lights: &[&Light]) -> Option<[f64; 2]> {
+        let parts = lights.iter().flat_map(|light| light.parts());
         let ends = |span: Option<[f64; 2]>, [at_m, spread_m, _]: &[f64; 3]| {
             let half_m = 3f64.sqrt() * spread_m;
             let [near_m, far_m] = span.unwrap_or([f64::INFINITY, 0.0]);

@@ -30,13 +30,16 @@ pub struct Scene<'a> {
     air: Air,
     surfaces: Vec<Surface>,
     mesh: Option<Placed>,
+    second: Option<Surface>,
 }
 
 /// Received ambient light, as projected solid angles of a white target with equal effect [sr].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ambient {
     /// Part reflected by the target.
     pub target_sr: f64,
+    /// Part reflected by a second surface.
+    pub second_sr: f64,
     /// Part scattered by the air.
     pub air_sr: f64,
 }
@@ -50,19 +53,32 @@ impl<'a> Scene<'a> {
             air: Air::of(scenario),
             surfaces: surfaces(target),
             mesh: mesh.map(|mesh| Placed::new(mesh, target)),
+            second: target.second().and_then(|second| surfaces(&second).pop()).map(Surface::second),
         }
     }
 
-    /// Passes the elements inside a view to `take`.
+    /// Passes the elements inside a view to `take`, each with the part of its solid angle in which it is seen.
     fn elements(&self, view: &View, mut take: impl FnMut(Element)) {
         let cells = self.scenario.target.cells;
-        for surface in &self.surfaces {
+        for surface in self.all_surfaces() {
             // A quadrant has that many.
-            elements(surface, view, 2 * cells, &mut take);
+            elements(surface, view, 2 * cells, |element| take(self.shared(element)));
         }
         if let Some(mesh) = &self.mesh {
-            mesh.elements(view, cells, take);
+            mesh.elements(view, cells, |element| take(self.shared(element)));
         }
+    }
+
+    /// Returns all surfaces but those of a mesh.
+    fn all_surfaces(&self) -> impl Iterator<Item = &Surface> {
+        self.surfaces.iter().chain(&self.second)
+    }
+
+    /// Reduces an element to the lines of sight that end on it, of those that the target and a second surface share.
+    fn shared(&self, element: Element) -> Element {
+        let share = self.scenario.target.second_share;
+        let part = if element.kind == Kind::Second { share } else { 1.0 - share };
+        Element { sr: element.sr * part, ..element }
     }
 
     /// Whether all light of the target comes after the way along the axis.
@@ -79,28 +95,37 @@ impl<'a> Scene<'a> {
     /// the air (Koschmieder).
     pub fn ambient(&self) -> Ambient {
         let view = View::cone(self.scenario.spad.field_of_view_deg);
-        let mut target_sr = 0.0;
-        self.elements(&view, |element| target_sr += element.seen_sr(&self.air));
-        self.with_airlight(target_sr, &view, self.scenario.target.cells)
+        let mut seen = Ambient::default();
+        self.elements(&view, |element| seen.add(&element, &self.air));
+        self.with_airlight(seen, &view, self.scenario.target.cells)
     }
 
-    /// Returns the ambient light of a view that sees a target of that projected solid angle through the air [sr].
-    fn with_airlight(&self, target_sr: f64, view: &View, cells: u32) -> Ambient {
+    /// Adds the light of the air in a view in which such surfaces are seen.
+    fn with_airlight(&self, seen: Ambient, view: &View, cells: u32) -> Ambient {
         if self.is_clear() {
-            return Ambient { target_sr, air_sr: 0.0 };
+            return seen;
         }
+        let surfaces_sr = seen.target_sr + seen.second_sr;
         let air_sr =
-            self.air.airlight * (view.solid_angle(cells).projected_sr - target_sr).max(0.0);
-        Ambient { target_sr, air_sr }
+            self.air.airlight * (view.solid_angle(cells).projected_sr - surfaces_sr).max(0.0);
+        Ambient { air_sr, ..seen }
     }
 
     /// Computes the returned laser light.
     pub fn returned(&self) -> Returned {
         let (laser, spad) = (&self.scenario.laser, &self.scenario.spad);
         let view = View::cone(laser.field_of_illumination_deg.min(spad.field_of_view_deg));
-        let together = self.is_plain().then_some(self.scenario.target.distance_m);
+        let target = &self.scenario.target;
+        let is_plain = self.is_plain();
         let mut collected = Collected::default();
-        self.elements(&view, |element| collected.add(&element, &self.air, together));
+        self.elements(&view, |element| {
+            let on_the_axis_m = if element.kind == Kind::Second {
+                target.second_distance_m
+            } else {
+                target.distance_m
+            };
+            collected.add(&element, &self.air, is_plain.then_some(on_the_axis_m));
+        });
         self.with_air(collected, &view, self.scenario.target.cells)
     }
 
@@ -114,6 +139,15 @@ impl<'a> Scene<'a> {
     }
 }
 
+impl Ambient {
+    /// Adds the light of an element.
+    fn add(&mut self, element: &Element, air: &Air) {
+        let of =
+            if element.kind == Kind::Second { &mut self.second_sr } else { &mut self.target_sr };
+        *of += element.seen_sr(air);
+    }
+}
+
 /// Light on a pixel.
 #[derive(Clone, Debug)]
 pub struct PixelLight {
@@ -121,6 +155,8 @@ pub struct PixelLight {
     pub ambient: Ambient,
     /// Returned laser light.
     pub returned: Returned,
+    /// Its part of the array's field of view, by solid angle [1].
+    pub share: f64,
 }
 
 /// Light returned by surfaces within a view.
@@ -140,6 +176,7 @@ impl Collected {
         let (weight, of) = match kind {
             Kind::Diffuse => (cos / square * sr, &mut self.returned.diffuse),
             Kind::Retro => (sr / (square * cos), &mut self.returned.retro),
+            Kind::Second => (cos / square * sr, &mut self.returned.second),
         };
         let (at_m, spread_m) = match together {
             Some(distance_m) => (distance_m, 0.0),

@@ -1,4 +1,5 @@
-//! Temporal distribution of light from surfaces and air at various distances, each with the laser's pulse.
+//! Temporal distribution of light from surfaces and air at various distances and from a cover window, each with the
+//! laser's pulse.
 //!
 //! The parts are placed on a uniform time grid such that their mean is preserved, and convolved with the pulse. A
 //! step is 1/1024 of the pulse's length, 1/64 sigma of a Gaussian, unless that would be more than 65,000 steps; then
@@ -11,6 +12,7 @@ use std::sync::Arc;
 use crate::kernel::Time;
 use crate::kernel::pulse::Pulse;
 
+use super::cover::Delays;
 use super::returned::{Haze, Light, Returned};
 
 /// Number of steps per length of a pulse.
@@ -29,12 +31,15 @@ pub struct Spread {
     pub from: f64,
     /// Time between nodes [fs].
     pub step: f64,
-    /// Cumulative fraction at the nodes, for diffuse reflection, a retroreflective patch, and the air; empty if there
-    /// is no such light [1].
-    parts: [Arc<[f64]>; 3],
-    /// Arrival times of the middle of the pulse from the nearest and from the farthest surface.
+    /// Cumulative fraction at the nodes, for each [`Origin`]; empty if there is no such light [1].
+    parts: [Arc<[f64]>; ORIGINS],
+    /// Arrival times of the middle of the pulse from the nearest and from the farthest part of the target.
     pub ends: [Time; 2],
 }
+
+/// Number of origins of laser light: diffuse reflection, a retroreflective patch, a second surface, the air, and the
+/// cover window.
+pub const ORIGINS: usize = 5;
 
 /// A uniform time grid.
 struct Grid {
@@ -50,6 +55,7 @@ impl Spread {
     /// and the total backscatter of the air [1/m^2].
     pub fn new(
         returned: &Returned,
+        cover: Option<&Delays>,
         pulse: &Pulse,
         delay: Time,
         horizon_m: f64,
@@ -57,22 +63,28 @@ impl Spread {
     ) -> (Self, f64) {
         let [begin_ps, end_ps] = pulse.reach_ps();
         let (begin, length) = (begin_ps * 1e3, (end_ps - begin_ps) * 1e3);
-        let surfaces_m = returned.ends_m().unwrap_or([horizon_m; 2]);
+        let surfaces_m = returned.surface_ends_m().unwrap_or([horizon_m; 2]);
         let [near_m, far_m] = match &returned.air {
             Some(haze) => [surfaces_m[0].min(haze.nearest_m()), horizon_m],
             None => surfaces_m,
         };
         let [near_m, far_m] = [near_m.min(horizon_m), far_m.min(horizon_m)];
-        let long = (far_m - near_m) * FS_PER_M;
+        let (mut from, mut long) = (near_m * FS_PER_M, (far_m - near_m) * FS_PER_M);
+        if let Some([cover_from, cover_until]) = cover.map(Delays::reach_fs) {
+            let until = (from + long).max(cover_until.min(horizon_m * FS_PER_M));
+            from = from.min(cover_from);
+            long = until - from;
+        }
         let step = (length / per_pulse).max((long + length) / MOST as f64);
         let places = (long / step).ceil() as usize + 2;
-        let grid = || Grid { from: near_m * FS_PER_M, step, weights: vec![0.0; places] };
+        let grid = || Grid { from, step, weights: vec![0.0; places] };
         let kernel: Vec<_> = (0..)
             .map(|k| f64::from(k) * step)
             .take_while(|since| *since < length)
             .map(|since| if since == 0.0 { 0.0 } else { pulse.part((begin + since) * 1e-3) })
             .collect();
-        let surfaces = [&returned.diffuse, &returned.retro].map(|light| {
+        let Returned { diffuse, retro, second, .. } = returned;
+        let [diffuse, retro, second] = [diffuse, retro, second].map(|light| {
             let mut grid = grid();
             grid.add_surfaces(light, horizon_m);
             grid.blurred(&kernel)
@@ -80,19 +92,33 @@ impl Spread {
         let mut air = grid();
         returned.air.iter().for_each(|haze| air.add_air(haze, horizon_m));
         let sent_back = air.weights.iter().sum();
-        let [diffuse, retro] = surfaces;
+        let mut window = grid();
+        cover.into_iter().for_each(|delays| window.add_cover(delays));
+        let target_m = returned.target_ends_m().unwrap_or([horizon_m; 2]);
         let place = |at_m: f64| delay + Time::from_ps_f64(at_m * FS_PER_M * 1e-3);
         let spread = Spread {
-            from: delay.fs() as f64 + near_m * FS_PER_M + begin,
+            from: delay.fs() as f64 + from + begin,
             step,
-            parts: [diffuse, retro, air.blurred(&kernel)],
-            ends: surfaces_m.map(place),
+            parts: [diffuse, retro, second, air.blurred(&kernel), window.blurred(&kernel)],
+            ends: target_m.map(place),
         };
         (spread, sent_back)
     }
 
-    /// Returns the cumulative fraction of all light at the nodes, for the given amounts of each kind.
-    pub fn of(&self, amounts: [f64; 3]) -> Arc<[f64]> {
+    /// Returns the cumulative light of the cover window at the nodes, as a fraction of all light, for the given amounts
+    /// of each origin; empty without a window.
+    pub fn of_cover(&self, amounts: [f64; ORIGINS]) -> Arc<[f64]> {
+        let [.., amount] = amounts;
+        let [.., parts] = &self.parts;
+        if amount == 0.0 {
+            return Arc::default();
+        }
+        let sum: f64 = amounts.iter().sum();
+        parts.iter().map(|part| amount / sum * part).collect()
+    }
+
+    /// Returns the cumulative fraction of all light at the nodes, for the given amounts of each origin.
+    pub fn of(&self, amounts: [f64; ORIGINS]) -> Arc<[f64]> {
         let sum: f64 = amounts.iter().sum();
         let nodes = self.parts.iter().map(|parts| parts.len()).max().unwrap_or(0);
         let mut all = vec![0.0; nodes];
@@ -144,6 +170,20 @@ impl Grid {
             let weight = haze.sends_back(near_m, far_m);
             self.add((near_m + far_m) / 2.0 * FS_PER_M, weight);
         }
+    }
+
+    /// Adds light of the cover window, whose end comes at the end of the grid.
+    fn add_cover(&mut self, delays: &Delays) {
+        self.add(delays.at_fs, delays.exact());
+        let (mut before, mut left) = (0.0, 1.0 - delays.exact());
+        for place in 0..self.weights.len() - 1 {
+            let from = self.from + place as f64 * self.step;
+            let part = delays.spread_before(from + self.step);
+            self.add(from + self.step / 2.0, part - before);
+            (before, left) = (part, left - (part - before));
+        }
+        let end = self.from + self.weights.len() as f64 * self.step;
+        self.add(end, left.max(0.0));
     }
 
     /// Returns the cumulative light at each node, from the start of the pulse at the first point to its end at the

@@ -19,7 +19,7 @@ const INSTRUMENTS: &[(&str, &str)] =
 
 /// Name and text of each other built-in scenario.
 const SCENARIOS: &[(&str, &str)] = files!("scenarios", "toml":
-    "near", "far", "bright", "fog", "step", "array",
+    "near", "far", "bright", "fog", "glass", "net", "step", "array",
     "spad_validation", "tdc_validation", "histogram_validation", "estimator_validation",
 );
 

@@ -143,13 +143,15 @@ fn relative(name: &str) -> String {
 
 /// Returns all keys that may name a file, with their values.
 pub fn names(scenario: &Scenario) -> impl Iterator<Item = (&'static str, &str)> {
-    let Scenario { target, laser, spad, array, tdc, stimulus, training, estimator, .. } = scenario;
+    let Scenario { target, cover, laser, spad, array, tdc, stimulus, training, estimator, .. } =
+        scenario;
     let calibration = match &tdc.calibration {
         TdcCalibration::File(name) => Some(name.as_str()),
         TdcCalibration::True | TdcCalibration::Uniform => None,
     };
     let given = [
         ("target.mesh_file", target.mesh_file.as_deref()),
+        ("cover.fraction_file", cover.fraction_file.as_deref()),
         ("laser.pulse_file", laser.pulse_file.as_deref()),
         ("spad.dark_file", spad.dark_file.as_deref()),
         ("array.offset_file", array.offset_file.as_deref()),
@@ -160,6 +162,7 @@ pub fn names(scenario: &Scenario) -> impl Iterator<Item = (&'static str, &str)> 
         ("stimulus.histogram", stimulus.histogram.as_deref()),
         ("training.recipe", training.recipe.as_deref()),
         ("estimator.network", Some(&*estimator.network)),
+        ("estimator.glass_file", estimator.glass_file.as_deref()),
         ("tdc.profile", Some(&*tdc.profile)),
         ("tdc.calibration", calibration),
     ];

@@ -76,6 +76,12 @@ impl Scenario {
 
     /// Returns the effect by which the light of a shot is not one echo of the laser's pulse, if it is not.
     pub fn complex_scene(&self) -> Option<Occurrence> {
+        let more = [Effect::SecondTarget, Effect::Cover];
+        self.extended_scene().or_else(|| more.into_iter().find_map(|one| one.occurrence(self)))
+    }
+
+    /// Returns the effect by which light has other ways than along the axis, if it has.
+    pub fn extended_scene(&self) -> Option<Occurrence> {
         [Effect::Target, Effect::Air].into_iter().find_map(|effect| effect.occurrence(self))
     }
 }

@@ -74,7 +74,7 @@ pub fn from_text(
     merge(&mut table, &over);
     validate::windows(&table, &checked)?;
     let mut scenario: Scenario = read(source, &table)?;
-    illuminance::settle(&mut scenario);
+    illuminance::settle(&mut scenario, &checked)?;
     validate::validate(&scenario, &checked)?;
     let renamed = renamed.into_iter().map(renamed_key).collect();
     Ok(Loaded { name: name.to_owned(), scenario, set: overrides.to_vec(), files, renamed })
@@ -163,6 +163,28 @@ mod tests {
         assert_eq!(irradiance("", &["ambient.illuminance_klux=0"]), 0.0);
         let red = ["ambient.illuminance_klux=14", "laser.wavelength_nm=700"];
         assert!(irradiance("", &red) < 0.7 * of_14_klux, "a black body has less there");
+    }
+
+    #[test]
+    fn a_klux_may_be_one_of_sunlight_where_that_is_known() {
+        let sun = ["ambient.illuminance_klux=100", "ambient.spectrum=sun"];
+        let found = from_text("", &sun).unwrap().ambient.irradiance_w_m2_nm;
+        assert!((found - 0.3384).abs() < 1e-4, "{found}");
+        let watts = from_text("", &["ambient.spectrum=sun"]).unwrap().ambient;
+        assert_eq!(watts.irradiance_w_m2_nm, 0.2, "it decides what a klux is only");
+        let error = |over| from_text("", &[&sun[..], &[over]].concat()).unwrap_err();
+        for (over, wavelength_nm) in [
+            ("laser.wavelength_nm=650", 650),
+            ("laser.wavelength_nm=1150", 1150),
+            ("filter.sigma_nm=60", 940),
+        ] {
+            let expected =
+                format!("laser.wavelength_nm = {wavelength_nm}: expected 6 filter.sigma_nm");
+            assert!(error(over).contains(&expected), "{}", error(over));
+        }
+        assert!(
+            from_text("", &["ambient.spectrum=moon"]).unwrap_err().contains("`halogen`, `sun`")
+        );
     }
 
     #[test]

@@ -43,6 +43,7 @@ macro_rules! table {
 
 mod array;
 mod board;
+mod cover;
 mod optics;
 mod scene;
 mod tdc;
@@ -51,7 +52,8 @@ mod training;
 pub use crate::firmware::tdc_decoder::Decoder;
 pub use array::Array;
 pub use board::{Control, Estimator, Firmware, Part, Pll, QuenchMode};
-pub use optics::{Ambient, AmbientModel, DeadTimeKind, Filter, Laser, Lens, Spad};
+pub use cover::Cover;
+pub use optics::{Ambient, AmbientModel, AmbientSpectrum, DeadTimeKind, Filter, Laser, Lens, Spad};
 pub use scene::{Atmosphere, Shape, Target, VisibilityModel};
 pub use tdc::{Tdc, TdcCalibration};
 pub use training::{Training, WordFormats};
@@ -67,6 +69,8 @@ table! {
         pub target: Target = Target::default(),
         /// The air between sensor and target.
         pub atmosphere: Atmosphere = Atmosphere::default(),
+        /// The cover window in front of laser and lens.
+        pub cover: Cover = Cover::default(),
         /// Ambient light.
         pub ambient: Ambient = Ambient::default(),
         /// The VCSEL.

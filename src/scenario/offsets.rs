@@ -1,13 +1,14 @@
 //! Additional delays of the pixels' signal paths, from a CSV file with columns `row,column,offset_ps`.
 
-use crate::error::{Input, Result};
-use crate::files::csv::CsvInput;
+use crate::error::Result;
+use crate::files::csv::Header;
 
 use super::builtin::Source;
 use super::model::Scenario;
+use super::pixel_values::{self, Values};
 
 /// Columns of the file.
-const HEADER: [&str; 3] = ["row", "column", "offset_ps"];
+const HEADER: Header = &["row", "column", "offset_ps"];
 /// Largest offset, the same as for `laser.delay_ps` [ps].
 const MOST_PS: f64 = 1e6;
 
@@ -18,35 +19,14 @@ const MOST_PS: f64 = 1e6;
 pub fn load(scenario: &Scenario, base: &Source) -> Result<Vec<f64>> {
     let Some(name) = &scenario.array.offset_file else { return Ok(Vec::new()) };
     let (source, text) = base.read(name)?;
-    let size = [scenario.array.rows, scenario.array.columns].map(|count| count as usize);
-    parse(&source, &text, size, scenario.laser.delay_ps)
+    parse(&source, &text, scenario.array.size(), scenario.laser.delay_ps)
 }
 
-fn parse(source: &str, text: &str, [rows, columns]: [usize; 2], delay_ps: f64) -> Result<Vec<f64>> {
-    let mut input = CsvInput::new(source, text, &HEADER)?;
-    let mut offsets = vec![None; rows * columns];
-    while input.advance()? {
-        let [row, column] = [input.place(0, rows)?, input.place(1, columns)?];
-        let in_range = |offset: &f64| (-delay_ps..=MOST_PS).contains(offset);
-        let offset = input.field::<f64>(2).filter(in_range).ok_or_else(|| {
-            let least = -delay_ps;
-            input.fault(2, format!("expected {least} to {MOST_PS} [ps], {least} by laser.delay_ps"))
-        })?;
-        if offsets[row * columns + column].replace(offset).is_some() {
-            let expected = format!("expected each pixel once, row {row} has it already");
-            return Err(input.fault(1, expected).into());
-        }
-    }
-    let lacks = |place: usize| {
-        let expected = format!(
-            "expected a line for each of {rows} x {columns} pixels (array.rows, array.columns)"
-        );
-        let missing = format!("row {}, column {}", place / columns, place % columns);
-        Input::new(source, expected).field("missing").value(missing)
-    };
-    let whole =
-        offsets.iter().enumerate().map(|(place, offset)| offset.ok_or_else(|| lacks(place)));
-    Ok(whole.collect::<std::result::Result<_, _>>()?)
+fn parse(source: &str, text: &str, size: [usize; 2], delay_ps: f64) -> Result<Vec<f64>> {
+    let least = -delay_ps;
+    let expected = format!("expected {least} to {MOST_PS} [ps], {least} by laser.delay_ps");
+    let values = Values { header: HEADER, range: least..=MOST_PS, expected };
+    pixel_values::parse(source, text, size, &values)
 }
 
 #[cfg(test)]

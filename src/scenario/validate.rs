@@ -2,6 +2,7 @@
 
 mod array;
 mod clocks;
+mod cover;
 mod target;
 
 use std::fmt::Display;
@@ -34,6 +35,7 @@ pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     laser(scenario, checked)?;
     target::check(&scenario.target, checked)?;
     array::check(scenario, checked)?;
+    cover::check(scenario, checked)?;
     control(scenario, checked)?;
     dark_frames(scenario, checked)
 }

@@ -9,7 +9,7 @@ use crate::firmware::histogram_builder::Count;
 use crate::firmware::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn};
 use crate::kernel::U;
 
-pub use estimate::{EchoDepth, Estimate, digits};
+pub use estimate::{EchoDepth, Estimate, Pedestal, digits};
 
 /// An estimator that is computed without its clock, too.
 pub trait Clockless: SlotEstimator {

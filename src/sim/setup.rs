@@ -31,6 +31,7 @@ use crate::note::Note;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Bins, Budget};
 use crate::scenario::drift::Course;
+use crate::scenario::glass::GlassTemplate;
 use crate::scenario::mesh::Mesh;
 use crate::scenario::{self, Loaded, Scenario};
 use crate::sensor::light::Light;
@@ -61,6 +62,9 @@ pub struct Setup {
     /// Avalanches in the dark.
     #[doc(hidden)]
     pub dark: DarkRates,
+    /// Template of the cover window's light, if the estimator has one.
+    #[doc(hidden)]
+    pub glass: Option<Arc<GlassTemplate>>,
     /// The triangles of the target, if it is a mesh.
     #[doc(hidden)]
     pub mesh: Option<Arc<Mesh>>,

@@ -16,6 +16,7 @@ pub mod events;
 pub mod explanation;
 pub mod exploration;
 pub mod frame_log;
+pub mod glass;
 pub mod image;
 pub mod link_budget;
 pub mod page;

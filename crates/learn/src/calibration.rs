@@ -2,9 +2,11 @@
 //!
 //! Arrival, signal and background of each histogram are unknown, and are fitted together with the common shape:
 //! Fisher scoring of the profile likelihood of the shape's parameters ([`scoring`]). A pulse without a formula is
-//! determined by expectation maximization ([`samples`]).
+//! determined by expectation maximization ([`samples`]). A cover window's light is another calibration, of histograms
+//! without a target ([`glass`]).
 
 pub mod candidates;
+pub mod glass;
 pub mod goodness;
 pub mod samples;
 pub mod scoring;

@@ -42,6 +42,6 @@ pub mod spline;
 pub mod subtraction;
 
 pub use acquisition::Acquisition;
-pub use estimator::{EchoDepth, Estimate, Estimator, Failure, Found, HistogramPair};
+pub use estimator::{EchoDepth, Estimate, Estimator, Failure, Found, HistogramPair, Pedestal};
 pub use panel::Panel;
 pub use registry::{EstimatorInputs, EstimatorKind, Needs};

@@ -3,4 +3,5 @@
 mod calibration;
 mod characterisation;
 mod estimators;
+mod glass;
 mod recalibration;

@@ -2,7 +2,7 @@
 
 import { $, html, plot, say, svg } from "./svg.js";
 
-const LABELS = { signal: "signal", ambient: "ambient light", dark: "dark counts", afterpulse: "afterpulses", unknown: "hits" };
+const LABELS = { signal: "signal", ambient: "ambient light", dark: "dark counts", afterpulse: "afterpulses", cover: "cover window", unknown: "hits" };
 const LAST = 50;
 let drawn = null;
 

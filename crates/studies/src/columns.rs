@@ -131,6 +131,12 @@ const EXPECTED: &[Expected] = &[
     ("range_m", "m", "Distance whose echo comes with the end of the last bin", |setup| {
         Ok(range_m(setup))
     }),
+    ("second_per_shot", "1", "Detected laser photons of a shot from the second surface", |setup| {
+        Ok(Some(setup.budget.second_per_shot))
+    }),
+    ("cover_per_shot", "1", "Detected laser photons of a shot from the cover window", |setup| {
+        Ok(Some(setup.budget.cover_per_shot))
+    }),
 ];
 
 /// Columns of simulated frames: name, unit, meaning, origin.

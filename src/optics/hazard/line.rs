@@ -29,6 +29,8 @@ pub struct Line {
     pub step: f64,
     /// Cumulative fraction of the light at the nodes [1].
     pub parts: Arc<[f64]>,
+    /// The same for the light of the cover window, as a fraction of all light; empty without a window [1].
+    pub cover: Arc<[f64]>,
 }
 
 impl Line {
@@ -37,9 +39,9 @@ impl Line {
         match &budget.spread {
             None => Line::of_echo(&budget.pulse, budget.mean_arrival.fs() as f64),
             Some(spread) => {
-                let Budget { signal_per_shot, retro_per_shot, backscatter_per_shot, .. } = *budget;
-                let parts = spread.of([signal_per_shot, retro_per_shot, backscatter_per_shot]);
-                Line { start: spread.from, step: spread.step, parts }
+                let (amounts, from) = (budget.by_origin(), spread.from);
+                let (parts, cover) = (spread.of(amounts), spread.of_cover(amounts));
+                Line { start: from, step: spread.step, parts, cover }
             }
         }
     }
@@ -52,6 +54,6 @@ impl Line {
             Pulse::Gaussian { .. } => NORMAL.clone(),
             _ => nodes(|node| pulse.part((from + node as f64 * step) * 1e-3)),
         };
-        Line { start: mean + from, step, parts }
+        Line { start: mean + from, step, parts, cover: Arc::default() }
     }
 }

@@ -9,7 +9,7 @@ use crate::kernel::Time;
 
 use crate::optics::variation::Variation;
 
-use super::{Cause, Hazard};
+use super::{Cause, Hazard, cover_beside, cumulative, growth};
 
 /// Half width of the integration range [standard deviations].
 const REACH: i32 = 6;
@@ -48,8 +48,8 @@ impl Hazard {
         }
     }
 
-    /// Returns the probability that a detector armed at the laser edge fires before `until` and a laser photon is the
-    /// cause, averaged over shots [1].
+    /// Returns the probability that a detector armed at the laser edge fires before `until` and a laser photon from the
+    /// scene is the cause, averaged over shots [1].
     pub fn signal_first(&self, until: Time) -> f64 {
         self.mean(|shot| shot.signal_first(until))
     }
@@ -146,19 +146,16 @@ impl Varied<'_> {
         Time::from_fs(time as u64)
     }
 
-    /// Returns the rate of signal avalanches at a time [1/fs].
-    fn signal_rate(&self, time: f64) -> f64 {
-        let place = (time - self.time(0)) / self.hazard.step;
-        let node = place as usize;
-        match self.hazard.parts.get(node..node.saturating_add(2)) {
-            Some(piece) if place >= 0.0 => self.signal * (piece[1] - piece[0]) / self.hazard.step,
-            _ => 0.0,
-        }
+    /// Returns the place of a time between the nodes.
+    fn place(&self, time: f64) -> f64 {
+        (time - self.time(0)) / self.hazard.step
     }
 
     /// Draws the cause of an avalanche at `t`, as [`Hazard::cause`] does.
     pub fn cause(&self, t: Time, uniform: f64) -> Cause {
-        self.hazard.cause_beside(self.signal_per_fs(t), uniform)
+        let place = self.place(t.fs() as f64);
+        let cover = self.signal * cover_beside(&self.hazard.cover, t, place, self.hazard.step);
+        self.hazard.cause_beside([self.signal_per_fs(t), cover], uniform)
     }
 
     /// Returns the dark fraction of the rate at `t` [1].
@@ -166,25 +163,30 @@ impl Varied<'_> {
         self.hazard.dark_beside(self.signal_per_fs(t))
     }
 
-    /// Returns the rate of signal avalanches at `t` [1/fs].
+    /// Returns the rate of laser avalanches at `t` [1/fs].
     fn signal_per_fs(&self, t: Time) -> f64 {
-        let signal = self.signal_rate(t.fs() as f64);
+        let place = self.place(t.fs() as f64);
+        let signal = self.signal * growth(&self.hazard.parts, place) / self.hazard.step;
         if t == Time::ZERO { signal + self.after(0.0) } else { signal }
     }
 
-    /// Returns the probability that a detector armed at the laser edge fires before `until` and a laser photon is the
-    /// cause [1].
+    /// Returns the probability that a detector armed at the laser edge fires before `until` and a laser photon from the
+    /// scene is the cause [1].
     ///
-    /// Both rates are constant over a segment, so that the signal's share of the avalanches there equals its share of
+    /// All rates are constant over a segment, so that the signal's share of the avalanches there equals its share of
     /// the hazard: the sum over segments is exact.
     pub fn signal_first(&self, until: Time) -> f64 {
         if self.signal == 0.0 || until == Time::ZERO {
             return 0.0;
         }
         let until = until.fs() as f64;
-        // What the pulse would put before the laser edge arrives at it, and all of that is signal.
+        // What the pulse would put before the laser edge arrives at it, and all of that is the laser's.
         let before = self.after(0.0);
         let mut chance = -libm::expm1(-before);
+        let cover = &self.hazard.cover;
+        if before > 0.0 {
+            chance *= 1.0 - self.signal * cumulative(cover, self.place(0.0)) / before;
+        }
         let mut from = self.time(0).max(0.0);
         let mut passed = before + self.hazard.background * from;
         for node in 0..self.pieces() {
@@ -196,7 +198,8 @@ impl Varied<'_> {
                 let hazard = width * (rate + self.hazard.background);
                 if hazard > 0.0 {
                     let fires = -libm::exp(-passed) * libm::expm1(-hazard);
-                    chance += fires * (width * rate / hazard);
+                    let from_cover = self.signal * growth(cover, node as f64) / self.hazard.step;
+                    chance += fires * (width * (rate - from_cover) / hazard);
                 }
                 passed += hazard;
                 from = end;

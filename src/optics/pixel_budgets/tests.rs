@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::optics::budget::LIGHT_M_S;
+use crate::optics::budget::{LIGHT_M_S, PixelPath};
 use crate::scenario::mesh::Point;
 use crate::scenario::mesh::tests::{cube, of};
 use crate::scenario::{AmbientModel, Array, Shape};
@@ -35,7 +35,9 @@ fn with_mesh(scenario: &Scenario, mesh: &Mesh) -> Vec<Budget> {
     let count = pixels.rows * pixels.columns;
     let mesh = (scenario.target.shape == Shape::Mesh).then_some(mesh);
     let budgets = PixelBudgets::new(scenario, pixels, mesh);
-    (0..count).map(|place| budgets.of(scenario, Pulse::default(), place, 0.0)).collect()
+    (0..count)
+        .map(|place| budgets.of(scenario, Pulse::default(), place, &PixelPath::default()))
+        .collect()
 }
 
 /// Returns the budgets of all pixels; the mesh is a cube.
@@ -49,7 +51,7 @@ fn mean_m(budget: &Budget) -> f64 {
 
 #[test]
 fn pixels_share_the_light_of_their_field_of_view() {
-    let scenes: [(&str, Change); 12] = [
+    let scenes: [(&str, Change); 14] = [
         ("plane", |_| ()),
         ("rectangle", |s| (s.target.length_m, s.target.width_m) = (0.13, 0.07)),
         ("tilt", |s| s.target.tilt_deg = TURN_DEG),
@@ -63,13 +65,23 @@ fn pixels_share_the_light_of_their_field_of_view() {
             (s.target.yaw_deg, s.target.tilt_deg) = (30.0, 20.0);
         }),
         ("fog", |s| s.atmosphere.visibility_m = 5.0),
+        ("glass", |s| {
+            (s.cover.fraction, s.cover.dirt_per_h, s.cover.age_h) = (3e-4, 1e-5, 2.0);
+        }),
+        ("second surface", |s| {
+            (s.target.second_share, s.target.second_distance_m) = (0.3, 0.35);
+            (s.target.shape, s.target.radius_m) = (Shape::Disc, RADIUS_M);
+        }),
         ("fog alone", |s| (s.atmosphere.visibility_m, s.target.offset_x_m) = (5.0, 100.0)),
         ("rain", |s| (s.target.shape, s.atmosphere.rain_mm_h) = (Shape::Step, 100.0)),
     ];
-    let amounts: [(&str, Amount); 6] = [
+    let amounts: [(&str, Amount); 9] = [
         ("signal", |budget| budget.signal_per_shot),
         ("patch", |budget| budget.retro_per_shot),
         ("backscatter", |budget| budget.backscatter_per_shot),
+        ("glass", |budget| budget.cover_per_shot),
+        ("second surface", |budget| budget.second_per_shot),
+        ("its ambient light", |budget| budget.second_rate_hz),
         ("ambient light", |budget| budget.ambient_rate_hz),
         ("airlight", |budget| budget.airlight_rate_hz),
         ("distance", |budget| budget.signal_per_shot * mean_m(budget)),

@@ -4,7 +4,7 @@ use crate::optics::pixels::Pixels;
 
 use super::element::elements;
 use super::view::View;
-use super::{Collected, PixelLight, Scene};
+use super::{Ambient, Collected, PixelLight, Scene};
 
 /// Fewest rows of a pixel within a band, and cells of a row.
 const LEAST: u32 = 8;
@@ -21,30 +21,37 @@ impl Scene<'_> {
         let views: Vec<_> = (0..count)
             .map(|place| [View::pixel(outline(place)), cone.within(outline(place))])
             .collect();
-        let mut all: Vec<_> = (0..count).map(|_| (0.0, Collected::default())).collect();
+        let mut all: Vec<_> =
+            (0..count).map(|_| (Ambient::default(), Collected::default())).collect();
         let longest = pixels.rows.max(pixels.columns) as u32;
         let cells = (2 * self.scenario.target.cells).div_ceil(longest).max(LEAST);
-        for (views, (seen_sr, collected)) in views.iter().zip(&mut all) {
-            for surface in &self.surfaces {
-                let [seen, lit] = views;
-                elements(surface, seen, cells, |element| *seen_sr += element.seen_sr(&self.air));
-                elements(surface, lit, cells, |element| collected.add(&element, &self.air, None));
+        for ([seen, lit], (ambient, collected)) in views.iter().zip(&mut all) {
+            for surface in self.all_surfaces() {
+                let shared = |element| self.shared(element);
+                elements(surface, seen, cells, |one| ambient.add(&shared(one), &self.air));
+                elements(surface, lit, cells, |one| collected.add(&shared(one), &self.air, None));
             }
         }
         if let Some(mesh) = &self.mesh {
             mesh.elements_of(pixels, self.scenario.target.cells, |[u, v], element| {
                 let Some(place) = pixels.seeing(u, v) else { return };
-                let (seen_sr, collected) = &mut all[place];
-                *seen_sr += element.seen_sr(&self.air);
+                let (ambient, collected) = &mut all[place];
+                let element = self.shared(element);
+                ambient.add(&element, &self.air);
                 if u.hypot(v) < cone.reach() {
                     collected.add(&element, &self.air, None);
                 }
             });
         }
-        let complete = |([seen, lit], (seen_sr, collected)): (&[View; 2], _)| PixelLight {
-            ambient: self.with_airlight(seen_sr, seen, cells),
-            returned: self.with_air(collected, lit, cells),
-        };
-        views.iter().zip(all).map(complete).collect()
+        let field = views.iter().map(|[seen, _]| seen.solid_angle(cells).sr);
+        let field: Vec<_> = field.collect();
+        let whole_sr: f64 = field.iter().sum();
+        let complete =
+            |(([seen, lit], (ambient, collected)), sr): ((&[View; 2], _), f64)| PixelLight {
+                ambient: self.with_airlight(ambient, seen, cells),
+                returned: self.with_air(collected, lit, cells),
+                share: sr / whole_sr,
+            };
+        views.iter().zip(all).zip(field).map(complete).collect()
     }
 }

@@ -14,6 +14,8 @@ pub enum Kind {
     Diffuse,
     /// Retroreflection.
     Retro,
+    /// Diffuse reflection of a surface that shares the lines of sight with the target.
+    Second,
 }
 
 /// A surface, and the outlines that hide parts of it.
@@ -24,6 +26,13 @@ pub struct Surface {
     pub body: Body,
     /// Outlines within which the surface is hidden or absent.
     pub hidden_by: Vec<Outline>,
+}
+
+impl Surface {
+    /// Returns the same as a second surface.
+    pub fn second(self) -> Self {
+        Surface { kind: Kind::Second, ..self }
+    }
 }
 
 /// Geometry at which a line of sight ends.

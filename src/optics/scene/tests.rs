@@ -124,7 +124,7 @@ fn a_sphere_is_seen_up_to_its_horizon() {
         assert_close(found.diffuse.sum(), expected, 1e-3);
         assert_close(found.diffuse.sum(), expected, 1e-4);
         assert!((d..d + radius_m).contains(&found.diffuse.mean_m().unwrap()));
-        assert_close(found.ends_m().unwrap()[0], d, 1e-4);
+        assert_close(found.surface_ends_m().unwrap()[0], d, 1e-4);
     }
 }
 
@@ -144,7 +144,7 @@ fn a_tilted_plane_that_fills_the_cone_has_a_closed_integral() {
         let expected = 2.0 * PI * sum / (0.5 * cos * 0.5 * cos);
         assert_close(found.diffuse.sum(), expected, 1e-3);
         assert_close(found.diffuse.sum(), expected, 3e-5);
-        let [near, far] = found.ends_m().unwrap();
+        let [near, far] = found.surface_ends_m().unwrap();
         let expected = |sign: f64| 0.5 * cos / (tilt_deg.to_radians() + sign * half()).cos();
         let (one, other) = (expected(1.0), expected(-1.0));
         assert_close(near, one.min(other), 1e-2);
@@ -158,7 +158,7 @@ fn a_target_off_the_axis_is_the_half_that_the_cone_has_of_it() {
     let half = returned(|s| (s.target.offset_x_m, s.target.length_m) = (50.0, 100.0));
     assert_close(half.diffuse.sum(), whole.diffuse.sum() / 2.0, 1e-4);
     let beside = returned(|s| s.target.offset_y_m = 50.1);
-    assert_eq!((beside.diffuse.sum(), beside.ends_m()), (0.0, None));
+    assert_eq!((beside.diffuse.sum(), beside.surface_ends_m()), (0.0, None));
     assert_eq!(beside.diffuse.mean_m(), None);
 }
 
@@ -274,7 +274,7 @@ fn ambient_light_passes_the_fog_once_and_the_fog_adds_its_own() {
         Scene::new(&scenario, None).ambient()
     };
     let whole_sr = PI * 12f64.to_radians().sin().powi(2);
-    let Ambient { target_sr, air_sr } = ambient(1e6, 0.0);
+    let Ambient { target_sr, air_sr, .. } = ambient(1e6, 0.0);
     assert_close(target_sr, whole_sr, 1e-4);
     assert!(air_sr < 1e-4 * whole_sr, "{air_sr}");
     let fog = ambient(20.0, 0.0);
@@ -287,3 +287,4 @@ fn ambient_light_passes_the_fog_once_and_the_fog_adds_its_own() {
 }
 
 mod mesh;
+mod second;

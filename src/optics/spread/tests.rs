@@ -49,7 +49,7 @@ fn one_distance_comes_as_the_pulse_does() {
     for pulse in [Pulse::default(), Pulse::tailed(137.0, 150.0), Pulse::Gaussian { sigma_ps: 12.5 }]
     {
         let delay = Time::from_ps_f64(700.0);
-        let (spread, air) = Spread::new(&returned, &pulse, delay, 7.0, FINE);
+        let (spread, air) = Spread::new(&returned, None, &pulse, delay, 7.0, FINE);
         assert_eq!(air, 0.0);
         let mean_arrival = delay + Time::from_ps_f64(0.500_123 * 2e12 / C);
         let echo_pulse = pulse.clone();
@@ -71,7 +71,7 @@ fn a_slope_of_distances_comes_as_the_integral_over_the_pulse_does() {
         returned.diffuse.add(at_m, 0.02 / 12f64.sqrt(), 1.0, 1.0);
     }
     let pulse = Pulse::default();
-    let (spread, _) = Spread::new(&returned, &pulse, Time::ZERO, 7.0, FINE);
+    let (spread, _) = Spread::new(&returned, None, &pulse, Time::ZERO, 7.0, FINE);
     assert_eq!(spread.ends.map(|end| end.ps()), [2668, 4002]);
     let over_time =
         Budget { signal_per_shot: 1.0, spread: Some(Arc::new(spread)), ..Budget::default() };
@@ -128,8 +128,14 @@ fn what_the_air_sends_back_is_the_closed_integral() {
             let air = Air::of(&scenario);
             let scene = super::super::scene::Scene::new(&scenario, None);
             let horizon_m = 7.0;
-            let (_, found) =
-                Spread::new(&scene.returned(), &Pulse::default(), Time::ZERO, horizon_m, FINE);
+            let (_, found) = Spread::new(
+                &scene.returned(),
+                None,
+                &Pulse::default(),
+                Time::ZERO,
+                horizon_m,
+                FINE,
+            );
             let expected = closed_backscatter(&air, plane, horizon_m);
             assert_close(found, expected, 1e-3);
             assert_close(found, expected, 2e-4);
@@ -167,8 +173,8 @@ fn a_step_of_the_grid_is_bounded_however_long_the_light_comes() {
     returned.diffuse.add(6.0, 0.0, 1.0, 1.0);
     returned.diffuse.add(900.0, 0.0, 1.0, 1.0);
     let (spread, _) =
-        Spread::new(&returned, &Pulse::Gaussian { sigma_ps: 1.0 }, Time::ZERO, 30.0, FINE);
-    let nodes = spread.of([1.0, 0.0, 0.0]);
+        Spread::new(&returned, None, &Pulse::Gaussian { sigma_ps: 1.0 }, Time::ZERO, 30.0, FINE);
+    let nodes = spread.of([1.0, 0.0, 0.0, 0.0, 0.0]);
     assert!(nodes.len() <= 65_010, "{}", nodes.len());
     assert!(nodes.windows(2).all(|pair| pair[0] <= pair[1]));
     assert_eq!((nodes[0], nodes[nodes.len() - 1]), (0.0, 1.0));

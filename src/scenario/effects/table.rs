@@ -97,6 +97,10 @@ fn is_free_running(scenario: &Scenario) -> bool {
     scenario.firmware.mode == QuenchMode::FreeRunning
 }
 
+fn has_cover(scenario: &Scenario) -> bool {
+    scenario.cover.is_there()
+}
+
 fn has_unwired_outputs(scenario: &Scenario) -> bool {
     Wiring::of(&scenario.spad).has_unwired()
 }
@@ -200,6 +204,21 @@ effects! {
         breaks: [&[CramerRaoBound], MODELS, SEARCHES],
         why: "the light of a shot is not one echo of the laser's pulse: the air sends some back",
         example: ["atmosphere.visibility_m=2"],
+    }
+    /// A second surface shares the field of view with the target.
+    SecondTarget {
+        keys: [key!(target.second_share)],
+        breaks: [&[CramerRaoBound, Likelihood, LikelihoodEstimator, Matched], SEARCHES],
+        why: "the light of a shot is two echoes of the laser's pulse",
+        example: ["target.second_share=0.5", "target.second_distance_m=0.45", "target.second_reflectance=0.9"],
+    }
+    /// A cover window sends a part of the pulse back to the detector.
+    Cover {
+        keys: [key!(cover.fraction), key!(cover.fraction_file), key!(cover.dirt_per_h)],
+        when: has_cover,
+        breaks: [&[CramerRaoBound], MODELS, SEARCHES],
+        why: "the light of a shot is not one echo of the laser's pulse: the cover window sends some back, which piles up before the echo",
+        example: ["cover.fraction=1e-4", "cover.delay_ps=600", "cover.smear_fraction=0.3"],
     }
     /// The pulse is a measured one.
     MeasuredPulse {

@@ -43,6 +43,11 @@ impl Array {
         self.rows as usize * self.columns as usize
     }
 
+    /// Returns the number of rows and of columns.
+    pub fn size(&self) -> [usize; 2] {
+        [self.rows as usize, self.columns as usize]
+    }
+
     /// Returns whether each pixel has a part of a rectangular field of view, and not the cone of a single one.
     pub fn is_rectangular(&self) -> bool {
         self.count() > 1 || self.field_of_view_deg.is_some()

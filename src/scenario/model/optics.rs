@@ -15,6 +15,17 @@ pub enum AmbientModel {
     Physical,
 }
 
+/// Spectrum of the ambient light, which decides what a klux is at the laser's wavelength.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AmbientSpectrum {
+    /// Halogen light: a black body of 2800 K, 14.92 lm/W.
+    #[default]
+    Halogen,
+    /// Sunlight: ASTM G173-03, global tilt at air mass 1.5, 109.5 klux.
+    Sun,
+}
+
 table! {
     /// Ambient light, reflected by the target.
     pub struct Ambient {
@@ -23,11 +34,15 @@ table! {
         /// Spectral irradiance of the target at the laser's wavelength; 0 switches it off.
         #[schemars(range(min = 0.0, max = 100.0), extend("unit" = "W/m^2/nm", "source" = "section 4.2: 0 .. 0.4"))]
         pub irradiance_w_m2_nm: f64 = 0.2,
-        /// Illuminance of the target by halogen light (a black body of 2800 K, 14.92 lm/W). It replaces
-        /// `irradiance_w_m2_nm`, which it sets to the mean over the filter's passband: 14 klux are 0.58 W/m^2/nm at
-        /// 940 nm.
+        /// Illuminance of the target by light of `ambient.spectrum`. It replaces `irradiance_w_m2_nm`, which it sets to
+        /// the mean over the filter's passband: at 940 nm, 14 klux of halogen light are 0.58 W/m^2/nm, and of sunlight
+        /// 0.047.
         #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "klux", "source" = "eq. 3.15 to 3.18; Table 3.2: 14"))]
         pub illuminance_klux: Option<f64> = None,
+        /// Spectrum of `illuminance_klux`: `halogen` (a black body of 2800 K, 14.92 lm/W) or `sun` (ASTM G173-03, global
+        /// tilt at air mass 1.5, from 600 to 1200 nm).
+        #[schemars(extend("source" = "section 3.2.2: halogen light"))]
+        pub spectrum: AmbientSpectrum = AmbientSpectrum::Halogen,
         /// Rate of the fitted model with the thesis's optics, at reflectance 1 and a detection efficiency of 0.003.
         #[schemars(range(min = 0.0, max = 1e12), extend("unit" = "1/s per W/m^2/nm", "source" = "fitted to Table 4.3"))]
         pub fitted_rate_hz_per_w_m2_nm: f64 = 3.968e9,

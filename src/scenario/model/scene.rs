@@ -61,12 +61,20 @@ table! {
         /// Radius of a disc or a sphere.
         #[schemars(range(min = 0.0001, max = 1000.0), extend("unit" = "m", "source" = "choice: the width of the rectangle across"))]
         pub radius_m: f64 = 0.1,
-        /// Distance of the second part of a step.
+        /// Distance of the second part of a step, or of the second surface of `target.second_share`.
         #[schemars(range(min = 0.001, max = 1000.0), extend("unit" = "m", "source" = "choice: 20 cm behind the first"))]
         pub second_distance_m: f64 = 0.7,
         /// Position of a step's edge, to the right of the target's centre; 0: the parts have equal size.
         #[schemars(range(min = -1000.0, max = 1000.0), extend("unit" = "m", "source" = "choice: half and half"))]
         pub edge_m: f64 = 0.0,
+        /// Share of the lines of sight that end on a second surface, and not on the target: a net, an edge or a
+        /// transparent plate in front of the target, or what is seen through it. The surface is a rectangle of
+        /// `length_m` by `width_m`, perpendicular to the axis and centred on it, at `second_distance_m`; 0: none.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none, as in the thesis"))]
+        pub second_share: f64 = 0.0,
+        /// Fraction of light that the second surface reflects diffusely.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: that of the first"))]
+        pub second_reflectance: f64 = 0.34,
         /// Side of a square retroreflective patch on a rectangle or a disc; 0: none.
         #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "m", "source" = "choice: none"))]
         pub retro_side_m: f64 = 0.0,
@@ -137,6 +145,19 @@ table! {
 }
 
 impl Target {
+    /// Returns the second surface as a target by itself; `None` if no line of sight ends on it.
+    pub fn second(&self) -> Option<Target> {
+        let &Target { length_m, width_m, cells, .. } = self;
+        (self.second_share > 0.0).then(|| Target {
+            distance_m: self.second_distance_m,
+            reflectance: self.second_reflectance,
+            length_m,
+            width_m,
+            cells,
+            ..Target::default()
+        })
+    }
+
     /// Returns whether the target is flat: a rectangle, a disc or a step.
     pub fn is_flat(&self) -> bool {
         matches!(self.shape, Shape::Rectangle | Shape::Disc | Shape::Step)

@@ -34,6 +34,11 @@ pub fn check(target: &Target, checked: &Checked) -> Result<()> {
             return fault(key, &deg, expected);
         }
     }
+    if target.shape == Shape::Step && target.second_share > 0.0 {
+        let expected =
+            "expected 0 with target.shape = step, whose second part is at target.second_distance_m";
+        return fault("target.second_share", &target.second_share, expected.to_owned());
+    }
     let side_m = target.retro_side_m;
     if side_m == 0.0 {
         return Ok(());
@@ -84,6 +89,16 @@ mod tests {
         assert!(found.contains("target.yaw_deg = -120: expected -89 to 89"), "{found}");
         let mesh = ["target.shape=mesh", "target.mesh_file=ball.obj", "target.yaw_deg=-120"];
         assert_eq!(error(&mesh), "");
+    }
+
+    #[test]
+    fn a_step_has_no_further_surface() {
+        let found = error(&["target.shape=step", "target.second_share=0.2"]);
+        assert!(
+            found.contains("target.second_share = 0.2: expected 0 with target.shape = step"),
+            "{found}"
+        );
+        assert_eq!(error(&["target.shape=disc", "target.second_share=0.2"]), "");
     }
 
     #[test]

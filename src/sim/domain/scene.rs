@@ -1,4 +1,4 @@
-//! Keys of a target that is no plain rectangle, and of the air.
+//! Keys of a target that is no plain rectangle, of a second surface, the air and the cover window.
 
 const PATCH: &str = "target.retro_side_m";
 const VISIBILITY: &str = "atmosphere.visibility_m";
@@ -12,7 +12,10 @@ const OF_SHAPE: [(&str, &[&str]); 4] = [
     ("mesh", &["target.mesh_unit_m", "target.mesh_file"]),
 ];
 /// Keys that decide something where another one is not 0.
-const OF_NUMBER: [(&str, &[&str]); 3] = [
+const OF_NUMBER: [(&str, &[&str]); 6] = [
+    ("target.second_share", &["target.second_distance_m", "target.second_reflectance"]),
+    ("cover.fraction", &COVER),
+    ("cover.dirt_per_h", &COVER),
     (PATCH, &["target.retro_x_m", "target.retro_y_m", "target.retro_cd_lx_m2"]),
     (
         VISIBILITY,
@@ -25,6 +28,14 @@ const OF_NUMBER: [(&str, &[&str]); 3] = [
         ],
     ),
     (RAIN, &["atmosphere.rain_db_km", "atmosphere.rain_exponent", LIDAR_RATIO, OVERLAP, AIRLIGHT]),
+];
+const COVER: [&str; 6] = [
+    "cover.delay_ps",
+    "cover.width_ps",
+    "cover.smear_fraction",
+    "cover.smear_ps",
+    "cover.temperature_coefficient_per_k",
+    "cover.age_h",
 ];
 const LIDAR_RATIO: &str = "atmosphere.lidar_ratio_sr";
 const OVERLAP: &str = "atmosphere.overlap_m";

@@ -29,6 +29,9 @@ pub struct Estimate {
     /// Second echo, where the estimator looks for one and has found it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub second: Option<EchoDepth>,
+    /// The cover window's light, where the estimator has a template of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pedestal: Option<Pedestal>,
     /// The status in full, where there is no depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<String>,
@@ -43,6 +46,18 @@ pub struct EchoDepth {
     pub sigma_m: f64,
 }
 
+/// The light of a cover window beside its template.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Pedestal {
+    /// Its amplitude; 1: as calibrated [1].
+    pub relative: f64,
+    /// Standard error of the amplitude; 0 if the histogram shows no such light [1].
+    pub relative_se: f64,
+    /// Sum of squared residuals in the template's bins beyond their number, in its own standard deviations; large if the
+    /// light has another shape [1].
+    pub misfit: f64,
+}
+
 impl Estimate {
     /// An estimate of which only the depth is known.
     pub fn of_depth(estimator: &'static str, depth_m: Option<f64>) -> Self {
@@ -55,6 +70,7 @@ impl Estimate {
             status: StatusSet::default(),
             chi_square: None,
             second: None,
+            pedestal: None,
             failure: None,
         }
     }

@@ -6,10 +6,11 @@ use rand_chacha::rand_core::Rng;
 
 use crate::error::Result;
 use crate::firmware::tof_top::Params;
+use crate::optics::budget::PixelPath;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Budget, Camera, PixelBudgets, Pixels};
 use crate::scenario::builtin::Source as FileSource;
-use crate::scenario::{Loaded, MOST_SEED, Scenario, dark, offsets};
+use crate::scenario::{Loaded, MOST_SEED, Scenario, cover_fractions, dark, offsets};
 use crate::sensor::streams::{Seeds, Source, stream};
 
 use super::Setup;
@@ -62,6 +63,7 @@ impl ArraySetup {
         let mut common = Setup::elaborated(loaded, without_light)?;
         let pixel_files = PixelFiles {
             offsets_ps: offsets::load(&common.scenario, &files)?,
+            cover_fractions: cover_fractions::load(&common.scenario, &files)?,
             columns: common.columns(&files)?,
             measured: dark::load(&common.scenario, &files)?,
         };
@@ -88,8 +90,7 @@ impl ArraySetup {
 
     /// Returns the number of rows and of columns.
     pub fn size(&self) -> [usize; 2] {
-        let array = &self.common.scenario.array;
-        [array.rows as usize, array.columns as usize]
+        self.common.scenario.array.size()
     }
 
     /// Returns the direction of a pixel's middle as a unit vector: to the right, down and forward [1].
@@ -146,9 +147,12 @@ impl ArraySetup {
         [row, column]: [usize; 2],
     ) -> (Budget, DarkRates) {
         let (common, place) = (&self.common, row * self.size()[1] + column);
-        let PixelFiles { offsets_ps, measured, .. } = &*common.pixel_files;
-        let offset_ps = offsets_ps.get(place).copied().unwrap_or_default();
-        let budget = budgets.of(scenario, common.budget.pulse.clone(), place, offset_ps);
+        let PixelFiles { offsets_ps, cover_fractions, measured, .. } = &*common.pixel_files;
+        let path = PixelPath {
+            offset_ps: offsets_ps.get(place).copied().unwrap_or_default(),
+            cover_fraction: cover_fractions.get(place).copied(),
+        };
+        let budget = budgets.of(scenario, common.budget.pulse.clone(), place, &path);
         let dark = if scenario.array.count() == 1 {
             common.dark.clone()
         } else {

@@ -17,7 +17,7 @@ use crate::scenario::builtin::Source;
 use crate::scenario::dark::Measured;
 use crate::scenario::mesh::Mesh;
 use crate::scenario::wiring::Wiring;
-use crate::scenario::{self, Array, Loaded, MOST_SEED, Scenario, dark, mesh, pulse};
+use crate::scenario::{self, Array, Loaded, MOST_SEED, Scenario, dark, glass, mesh, pulse};
 use crate::sim::timeline::pins_at_power_up;
 
 use super::converter::Converter;
@@ -62,6 +62,7 @@ impl Setup {
         let of_row = measured.as_ref().map(Measured::selected);
         let (dark, wiring) = (DarkRates::new(&scenario.spad, of_row), Wiring::of(&scenario.spad));
         let pulse = pulse::load(&scenario.laser, &files)?;
+        let glass = glass::load(&scenario.estimator, &files)?;
         let mesh = mesh::load(&scenario.target, &files)?;
         let budget = budget(&scenario, pulse, mesh.as_deref()).with_dark_rates(&dark);
         let of_row = (light.is_none() && wiring.has_unwired())
@@ -95,6 +96,7 @@ impl Setup {
             renamed,
             budget,
             dark,
+            glass,
             mesh,
             params,
             calibrated: converter.calibrated,
@@ -121,8 +123,12 @@ impl Setup {
 }
 
 impl Setup {
-    /// Checks that the estimator fits the instrument.
+    /// Checks that the estimator and its template of a cover window fit the instrument.
     pub fn check_estimator(&self) -> Result<()> {
+        if let Some(glass) = &self.glass {
+            let bins = self.known_bins();
+            glass.check(&bins.limits_ps(), bins.bin_ps())?;
+        }
         match self.params.estimator {
             FirmwareEstimator::Network => self.check_network(),
             FirmwareEstimator::LikelihoodEstimator => {

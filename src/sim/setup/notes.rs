@@ -6,6 +6,7 @@ use crate::kernel::Time;
 use crate::note::{Note, NoteCode, NoteValue};
 use crate::optics::budget::LIGHT_M_S;
 use crate::scenario::Shape;
+use crate::scenario::effects::Effect;
 use crate::sensor::light::Light;
 use crate::sim::domain;
 
@@ -182,7 +183,9 @@ impl Setup {
         ];
         let cause = factors.into_iter().find(|(_, factor)| *factor == 0.0);
         let cause = cause.map(|(key, factor)| (key, factor.into()));
-        let of_scene = || scenario.complex_scene().map(|effect| (effect.key, effect.value));
+        let second = || Effect::SecondTarget.occurrence(scenario);
+        let of_scene =
+            || scenario.extended_scene().or_else(second).map(|effect| (effect.key, effect.value));
         let usual = ("target.reflectance", scenario.target.reflectance.into());
         let (key, value) = cause.or_else(of_scene).unwrap_or(usual);
         note(key, value, "a photon a frame at least")

@@ -11,6 +11,8 @@ use super::converter::Converter;
 pub struct PixelFiles {
     /// Additional delay of each pixel's signal path; empty if there is none [ps].
     pub offsets_ps: Vec<f64>,
+    /// Fraction of the pulse energy that the cover window sends to each pixel; empty if it is by solid angle [1].
+    pub cover_fractions: Vec<f64>,
     /// Parts of the columns; empty if all have those of the scenario.
     pub columns: Vec<Column>,
     /// Dark count rates that were measured.

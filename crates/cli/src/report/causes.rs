@@ -13,9 +13,10 @@ use tofsim::sim::shot_recorder::Shot;
 use crate::text::svg::{Drawn, chart, legend, picture};
 
 /// Causes in the order in which they are stacked, with words and colours; `None` is unknown.
-pub const CAUSES: [(Option<Cause>, &str, RGBColor); 5] = [
+pub const CAUSES: [(Option<Cause>, &str, RGBColor); 6] = [
     (Some(Cause::Dark), "dark", RGBColor(80, 80, 80)),
     (Some(Cause::Ambient), "ambient", RGBColor(236, 180, 84)),
+    (Some(Cause::Cover), "cover", RGBColor(126, 87, 164)),
     (Some(Cause::Signal), "signal", RGBColor(43, 108, 176)),
     (Some(Cause::Afterpulse), "afterpulse", RGBColor(176, 58, 46)),
     (None, "hits", RGBColor(120, 150, 120)),

@@ -2,6 +2,7 @@
 
 use std::io::{self, Seek, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -9,10 +10,12 @@ use tempfile::SpooledTempFile;
 
 use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
+use tofsim::scenario::glass::GlassTemplate;
 use tofsim::firmware::depth_estimator::datapath::DEPTH_FRACTION;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
+use tofsim_learn::estimation::notes::PedestalWatch;
 use tofsim_learn::estimation::{Estimate, Panel};
 
 use super::pairs::{PairLog, PlaceInPair};
@@ -65,6 +68,9 @@ pub struct FrameLog {
     sums: (i128, i128),
     /// Whether the frames are those of a board.
     is_measured: bool,
+    /// The cover window's light, if there is a template of it.
+    glass: Option<Arc<GlassTemplate>>,
+    pedestals: PedestalWatch,
     /// The frames as elements of a JSON array, if they are wanted.
     json: Option<SpooledTempFile>,
 }
@@ -92,6 +98,7 @@ impl FrameLog {
             judge: Judge { truth_m: setup.true_depth_m(), limit_m },
             second: Opinions::new(second),
             json: json.then(|| SpooledTempFile::new(KEPT)),
+            glass: setup.glass.clone(),
             ..FrameLog::default()
         }
     }
@@ -133,6 +140,7 @@ impl FrameLog {
         let Waiting { frame, paired, estimates } = next;
         self.outliers += u64::from(self.judge.is_outlier(frame.depth_m()));
         self.tally.add(&estimates, &self.judge);
+        self.pedestals.add(&estimates);
         if self.rows.len() < ROWS {
             self.rows.push(frame.clone());
             self.readings.push(estimates.clone());
@@ -190,9 +198,11 @@ impl FrameLog {
         self.second.statistics(&self.judge)
     }
 
-    /// Returns the notes on second opinions.
+    /// Returns the notes on second opinions, and on a cover window's light.
     pub fn notes(&self) -> Vec<Note> {
-        self.second.notes()
+        let mut notes = self.second.notes();
+        notes.extend(self.glass.as_ref().and_then(|glass| self.pedestals.note(glass)));
+        notes
     }
 
     /// Copies what has been written of the frames, between commas.

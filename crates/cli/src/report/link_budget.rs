@@ -96,8 +96,18 @@ impl LinkBudget {
             row("signal", format!("{:.4}", budget.signal_per_shot), "detected photons per shot"),
         ];
         light.extend(retro(budget));
+        light.extend(second(setup));
         light.extend(air(budget));
+        light.extend(cover(setup));
         light.push(row("ambient", format!("{:.4e} /s", budget.ambient_rate_hz), "avalanches"));
+        if budget.second_rate_hz > 0.0 {
+            let rate = format!("{:.4e} /s", budget.second_rate_hz);
+            light.push(row(
+                "second ambient",
+                rate,
+                "avalanches, of ambient light from the second surface",
+            ));
+        }
         if budget.airlight_rate_hz > 0.0 {
             let rate = format!("{:.4e} /s", budget.airlight_rate_hz);
             light.push(row("airlight", rate, "avalanches, of ambient light that the air scatters"));
@@ -156,6 +166,15 @@ impl Findings for LinkBudget {
             object["transmission"] = json!(budget.transmission);
             object["airlight_rate_hz"] = json!(budget.airlight_rate_hz);
         }
+        for (key, value) in [
+            ("second_per_shot", budget.second_per_shot),
+            ("second_rate_hz", budget.second_rate_hz),
+            ("cover_per_shot", budget.cover_per_shot),
+        ] {
+            if value > 0.0 {
+                object[key] = json!(value);
+            }
+        }
         object
     }
 
@@ -190,6 +209,21 @@ fn row(name: &str, value: impl Into<String>, meaning: impl Into<String>) -> Budg
 fn retro(budget: &Budget) -> Option<BudgetRow> {
     let photons = budget.retro_per_shot;
     (photons > 0.0).then(|| row("patch", format!("{photons:.4}"), "the same of the patch"))
+}
+
+/// Returns the row of a second surface, if there is one.
+fn second(setup: &Setup) -> Option<BudgetRow> {
+    let (photons, distance_m) =
+        (setup.budget.second_per_shot, setup.scenario.target.second_distance_m);
+    let meaning = format!("the same of the second surface, at {distance_m} m");
+    (photons > 0.0).then(|| row("second surface", format!("{photons:.4}"), meaning))
+}
+
+/// Returns the row of a cover window, if there is one.
+fn cover(setup: &Setup) -> Option<BudgetRow> {
+    let (photons, delay_ps) = (setup.budget.cover_per_shot, setup.scenario.cover.delay_ps);
+    let meaning = format!("the same of the cover window, after {delay_ps} ps");
+    (photons > 0.0).then(|| row("cover", format!("{photons:.4}"), meaning))
 }
 
 /// Returns the rows of the air, if it scatters.

@@ -104,11 +104,13 @@ impl PairLog {
     }
 }
 
-/// Returns the first bin after the echo, if there is one; none if air behind it sends light back.
+/// Returns the first bin after the echo, if there is one; none if air, a second surface or a cover window sends light
+/// back too.
 pub fn right_of_echo(setup: &Setup) -> Option<usize> {
     setup.true_depth_m()?;
     let budget = &setup.budget;
-    if budget.backscatter_per_shot > 0.0 {
+    let others = [budget.backscatter_per_shot, budget.second_per_shot, budget.cover_per_shot];
+    if others.iter().any(|photons| *photons > 0.0) {
         return None;
     }
     let [_, last] = budget.target_ends();

@@ -4,23 +4,26 @@ use std::path::PathBuf;
 
 use clap::Subcommand;
 
-use tofsim::error::Result;
-use tofsim::network::Histogram;
+use tofsim::error::{Input, Result};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
 use tofsim_learn::calibration::candidates::{Calibration, Kind};
-use tofsim_learn::dataset::labelled::histograms;
-use tofsim_learn::dataset::sensor::Layout;
 use tofsim_learn::estimation::Acquisition;
 
 use crate::choice::{CALIBRATED, words};
 use crate::report::calibration::PulseFindings;
 use crate::report::writer::Report;
 
-use super::estimate::{check_bins, load_for, width};
+use super::estimate::width;
 use super::options::ResultArgs;
 use super::terminal::Console;
+
+mod files;
+mod glass;
+
+use files::HistogramFiles;
+use glass::GlassArgs;
 
 /// Fit parameters of an instrument to its histograms
 #[derive(Debug, clap::Args)]
@@ -32,6 +35,7 @@ pub struct Args {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Pulse(Box<PulseArgs>),
+    Glass(Box<GlassArgs>),
 }
 
 /// Fit width and shape of the pulse, with standard errors
@@ -73,50 +77,29 @@ struct PulseArgs {
 pub fn run(args: &Args, console: &Console) -> Result<()> {
     match &args.verb {
         Verb::Pulse(args) => args.run(console),
+        Verb::Glass(args) => args.run(console),
     }
 }
 
 impl PulseArgs {
     fn run(&self, console: &Console) -> Result<()> {
-        let layout = Layout::of(&self.files[0], self.bin_ps)?;
-        let setup = Setup::of_counts(load_for(layout, &self.scenario, &self.set)?)?;
-        let sensor = layout.filter(|layout| layout.has_times());
-        if let (Some(layout), None) = (layout, sensor) {
-            check_bins(&self.files[0], layout, &setup)?;
+        let files = HistogramFiles::new(&self.files, self.bin_ps, &self.scenario, &self.set)?;
+        let (setup, bins) = (&files.setup, &files.bins);
+        if let Some(file) = &setup.scenario.estimator.glass_file {
+            let expected = "expected none: the pulse is fitted to echoes without a cover window's light";
+            let fault = Input::new("calibrate pulse", expected).field("estimator.glass_file");
+            return Err(fault.value(file).into());
         }
-        let bins = sensor.and_then(|layout| layout.even_bins());
-        let bins = bins.unwrap_or_else(|| setup.known_bins());
         let shots = setup.params.frame_ctrl.shots_per_frame.into();
-        let acquisition = Acquisition::of(&setup, &bins, shots);
-        let histograms = self.all(sensor, &setup, &acquisition)?;
+        let acquisition = Acquisition::of(setup, bins, shots);
+        let histograms = files.read(&acquisition)?.into_iter().map(|(.., histogram)| histogram);
         let step_ps = self.step_ps.unwrap_or(bins.bin_ps());
-        let calibration = Calibration::new(&acquisition, histograms, self.shape, step_ps)?;
-        let notes = notes(&setup, &calibration);
+        let calibration =
+            Calibration::new(&acquisition, histograms.collect(), self.shape, step_ps)?;
+        let notes = notes(setup, &calibration);
         console.print_notes(&notes)?;
-        let report = Report::new(PulseFindings { calibration, shots }, &setup, &notes, console);
+        let report = Report::new(PulseFindings { calibration, shots }, setup, &notes, console);
         self.result.deliver(&report, console)
-    }
-
-    /// The histograms of all files, of the scenario's firmware or of another sensor.
-    fn all(
-        &self,
-        sensor: Option<Layout>,
-        setup: &Setup,
-        acquisition: &Acquisition,
-    ) -> Result<Vec<Histogram>> {
-        let mut all = Vec::new();
-        for path in &self.files {
-            let found = match sensor {
-                Some(layout) => layout.histograms(path, &self.files[0])?,
-                None => histograms(path, setup.params.histogram)?,
-            };
-            for (number, histogram) in found.enumerate() {
-                let histogram = histogram?;
-                acquisition.check_hits(&path.display().to_string(), number, &histogram)?;
-                all.push(histogram);
-            }
-        }
-        Ok(all)
     }
 }
 

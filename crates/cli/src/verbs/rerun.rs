@@ -29,6 +29,7 @@ const VERBS: [&str; 18] = [
     "vectors",
     "ila capture",
     "calibrate pulse",
+    "calibrate glass",
     "tdc",
     TDC_CALIBRATE,
     "spad",

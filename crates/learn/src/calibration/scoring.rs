@@ -120,7 +120,7 @@ fn slope(
         for j in 0..free {
             let cross = [0, 1, 2].map(|k| information(k, 3 + j));
             // What the echo can take over of the parameter; all of it, where the echo is not known.
-            let Some(taken) = solve(&echo_block, &cross, 1e-12, false) else { continue };
+            let Some(taken) = solve(&echo_block, &cross, 1e-12, &[false; 3]) else { continue };
             for (i, row) in left.iter_mut().enumerate().take(free) {
                 let others: f64 = (0..3).map(|k| information(k, 3 + i) * taken[k]).sum();
                 row[j] = information(3 + i, 3 + j) - others;

@@ -49,6 +49,10 @@ effects! {
     Ambient: "ambient", "ambient light";
     /// Avalanches of no light at all.
     DarkCounts: "dark_counts", "dark counts";
+    /// Light that a cover window sends back.
+    Cover: "cover", "cover", ScenarioEffect::Cover;
+    /// Light from a second surface.
+    SecondTarget: "second_target", "second target", ScenarioEffect::SecondTarget;
     /// The pulse is longer than half a bin.
     PulseWidth: "pulse_width", "pulse width";
     /// The pulse has an exponential tail.

@@ -32,8 +32,8 @@ pub fn present(effect: Effect, setup: &Setup, kind: EstimatorKind) -> EffectStat
     let unless = |is_off: bool, why: &str| {
         if is_off { EffectState::Off(why.to_owned()) } else { EffectState::On }
     };
-    if let Some([key]) = effect.of_scenario().map(ScenarioEffect::keys)
-        && key.is_usual(scenario)
+    if let Some(keys @ [key, ..]) = effect.of_scenario().map(ScenarioEffect::keys)
+        && keys.iter().all(|key| key.is_usual(scenario))
     {
         let why = match effect {
             Effect::DeadTime => ": a reset arms the diode for each shot",

@@ -9,6 +9,7 @@ use tofsim::network::Histogram;
 use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::optics::{Bins, Budget};
 use tofsim::scenario::QuenchMode;
+use tofsim::scenario::glass::GlassTemplate;
 use tofsim::sim::setup::Setup;
 
 /// Mean arrival of an echo for each metre of distance, 2 / c (eq. 3.23) [ps/m].
@@ -33,6 +34,8 @@ pub struct Acquisition<'a> {
     pub delay_ps: f64,
     /// Recovery of the diode, if it is not armed anew for each shot (MODE 1).
     pub free_running: Option<FreeRunning>,
+    /// Template of the cover window's light, whose amplitude is unknown.
+    pub glass: Option<&'a GlassTemplate>,
 }
 
 /// A diode that comes back by itself, and the chain that an old pulse may still travel in.
@@ -81,7 +84,8 @@ impl FreeRunning {
 impl<'a> Acquisition<'a> {
     /// Of steady clocks, light that leaves with the laser edge, and a diode that is armed for each shot.
     pub fn new(bins: &'a Bins, shots: u64, pulse: &'a Pulse) -> Self {
-        Acquisition { bins, shots, pulse, jitter_ps: 0.0, delay_ps: 0.0, free_running: None }
+        let (jitter_ps, delay_ps, free_running, glass) = (0.0, 0.0, None, None);
+        Acquisition { bins, shots, pulse, jitter_ps, delay_ps, free_running, glass }
     }
 
     /// Of a scenario, with the bins of its chain.
@@ -91,6 +95,7 @@ impl<'a> Acquisition<'a> {
             jitter_ps: SQRT_2 * scenario.pll.jitter_rms_ps,
             delay_ps: scenario.laser.delay_ps,
             free_running: FreeRunning::of(setup),
+            glass: setup.glass.as_deref(),
             ..Acquisition::new(bins, shots, &setup.budget.pulse)
         }
     }
@@ -113,7 +118,8 @@ impl<'a> Acquisition<'a> {
     /// Whether there is anything to estimate from.
     ///
     /// # Errors
-    /// For no bins, no shots or more than the widest word holds, or a width that is no width.
+    /// For no bins, no shots or more than the widest word holds, a width that is no width, or a template of other bins
+    /// or in MODE 1.
     pub fn check(&self) -> Result<(), Input> {
         let fault = |field, expected| Input::new("acquisition", expected).field(field);
         if self.bins.spans().is_empty() {
@@ -127,7 +133,13 @@ impl<'a> Acquisition<'a> {
             let expected = "expected a standard deviation of 1 to 1e6 [ps]";
             return Err(fault("pulse", expected).value(sigma_ps));
         }
-        Ok(())
+        let Some(glass) = self.glass else { return Ok(()) };
+        if self.free_running.is_some() {
+            let expected = "expected none in MODE 1 (firmware.mode): which shots find the diode armed depends on the \
+                            window's light in the shots before, of which a template of hazards has nothing";
+            return Err(fault("estimator.glass_file", expected));
+        }
+        glass.check(&self.bins.limits_ps(), self.bins.bin_ps())
     }
 }
 

@@ -3,7 +3,7 @@
 use tofsim::firmware::tof_top::status::{Status, StatusSet};
 use tofsim::network::Histogram;
 
-pub use tofsim::sim::estimates::{EchoDepth, Estimate};
+pub use tofsim::sim::estimates::{EchoDepth, Estimate, Pedestal};
 
 /// A dark and a lit histogram of equally many shots.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,19 +82,22 @@ pub struct Found {
     pub sigma_m: Option<f64>,
     /// The second echo, where the estimator looks for one and is sure of it.
     pub second: Option<EchoDepth>,
+    /// The cover window's light, from an estimator that has a template of it.
+    pub pedestal: Option<Pedestal>,
 }
 
 impl Found {
     /// A depth, of which nothing else is known.
     pub fn depth(depth_m: f64) -> Self {
-        Found { depth_m, sigma_m: None, second: None }
+        Found { depth_m, sigma_m: None, second: None, pedestal: None }
     }
 
     /// The result of an estimator in the form of all estimates.
     pub fn estimate(estimator: &'static str, found: Result<Self, Failure>) -> Estimate {
         match found {
-            Ok(Found { depth_m, sigma_m, second }) => {
-                Estimate { sigma_m, second, ..Estimate::of_depth(estimator, Some(depth_m)) }
+            Ok(Found { depth_m, sigma_m, second, pedestal }) => {
+                let depth = Estimate::of_depth(estimator, Some(depth_m));
+                Estimate { sigma_m, second, pedestal, ..depth }
             }
             Err(failure) => Estimate {
                 status: failure.status(),

@@ -57,7 +57,8 @@ impl<E: Clockless> Estimator for InFirmware<E> {
             return Err(Failure::Rejected(status));
         }
         let sigma_m = E::STATES_SIGMA.then(|| words.sigma_m().to_num());
-        Ok(Found { depth_m: words.depth_m().to_num(), sigma_m, second: None })
+        let depth_m = words.depth_m().to_num();
+        Ok(Found { sigma_m, ..Found::depth(depth_m) })
     }
 }
 

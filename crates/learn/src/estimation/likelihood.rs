@@ -6,12 +6,15 @@
 //! matched filter cannot tell signal and background, and the climb begins at the best of several of
 //! both.
 //!
+//! With a template of a cover window's light ([`tofsim::scenario::glass`]) its amplitude is free too ([`pedestal`]).
+//!
 //! An estimate is of one echo, because a pulse that is wider than told looks like two as well;
 //! [`two_echoes::TwoEchoes`] fits two.
 
 mod arming;
 mod climb;
 pub mod model;
+mod pedestal;
 pub(crate) mod solve;
 mod steady;
 mod stretches;
@@ -29,6 +32,7 @@ use super::matched_filter::MatchedFilter;
 
 use climb::{Top, climb};
 pub use model::Model;
+use pedestal::Misfit;
 
 /// Starts from which it is climbed in MODE 1.
 const CLIMBS: usize = 3;
@@ -48,6 +52,8 @@ pub struct Likelihood {
     bin_ps: f64,
     /// Delay of the light after the laser edge [ps].
     delay_ps: f64,
+    /// Fit of the cover window's light, if there is a template of it.
+    misfit: Option<Misfit>,
 }
 
 /// The most likely scene.
@@ -57,6 +63,8 @@ pub struct Fit {
     pub echo: Echo,
     /// Standard deviation of the arrival by the model's own curvature [ps].
     pub arrival_deviation_ps: f64,
+    /// Amplitude of the cover window's light and its standard error, if there is a template of it [1].
+    pub amplitude: Option<[f64; 2]>,
 }
 
 impl Likelihood {
@@ -64,11 +72,12 @@ impl Likelihood {
     /// from 4 standard deviations on.
     ///
     /// # Errors
-    /// When [`Acquisition::check`] fails.
+    /// As [`Model::new`].
     pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
         let (model, start) = (Model::new(acquisition)?, MatchedFilter::new(acquisition)?);
         let (first_ps, bin_ps) = (acquisition.bins.first_ps(), acquisition.bins.bin_ps());
-        Ok(Likelihood { model, start, first_ps, bin_ps, delay_ps: acquisition.delay_ps })
+        let (delay_ps, misfit) = (acquisition.delay_ps, acquisition.glass.map(Misfit::new));
+        Ok(Likelihood { model, start, first_ps, bin_ps, delay_ps, misfit })
     }
 
     /// The most likely scene of a histogram.
@@ -77,6 +86,9 @@ impl Likelihood {
     /// When there is no echo, or the climb does not end.
     pub fn fit(&self, histogram: &[u32]) -> Result<Fit, Failure> {
         hits(histogram, self.model.shots as u32)?;
+        if self.model.has_pedestal() {
+            return self.fit_with_pedestal(histogram);
+        }
         let start = self.start.best(histogram).ok_or(Failure::NoPeak)?.echo;
         match self.model.free_running {
             None => self.fit_from(histogram, start),
@@ -84,7 +96,7 @@ impl Likelihood {
         }
     }
 
-    /// The same from a scene that is near it already.
+    /// The same from a scene that is near it already, without a cover window's light.
     ///
     /// # Errors
     /// When there is no echo, or the climb does not end.
@@ -147,7 +159,8 @@ impl Fit {
     /// An echo of a top, the first or the second of its coordinates.
     fn of<const N: usize>(model: &Model, top: &Top<N>, which: usize) -> Self {
         let arrival_deviation_ps = top.variances[2 * which].sqrt() * model.sigma_ps;
-        Fit { echo: model.echo(&top.at, which), arrival_deviation_ps }
+        let amplitude = model::pedestal::<N>().map(|k| [top.at[k], top.variances[k].sqrt()]);
+        Fit { echo: model.echo(&top.at, which), arrival_deviation_ps, amplitude }
     }
 }
 
@@ -161,8 +174,10 @@ impl Estimator for Likelihood {
     }
 
     fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
-        let EchoDepth { depth_m, sigma_m } = self.depth(&self.fit(histogram)?);
-        Ok(Found { depth_m, sigma_m: Some(sigma_m), second: None })
+        let fit = self.fit(histogram)?;
+        let EchoDepth { depth_m, sigma_m } = self.depth(&fit);
+        let pedestal = self.pedestal(histogram, &[fit]);
+        Ok(Found { sigma_m: Some(sigma_m), pedestal, ..Found::depth(depth_m) })
     }
 }
 

@@ -5,7 +5,9 @@
 //! and N are fitted by least squares; a bin weighs as many shots as are still waiting after it, so
 //! that what is past a strong echo counts for little. The best place is where S times the square
 //! root of its weight is largest, and a parabola through three points of that finds it between the
-//! grid's.
+//! grid's. A template of a cover window's light is fitted along with both ([`pedestal`]).
+
+mod pedestal;
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -17,6 +19,8 @@ use tofsim::optics::Bins;
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, spans_ps};
 use super::coates::{Corrected, correct};
 use super::estimator::{Estimator, Failure, hits};
+
+use pedestal::{Glass, Projected};
 
 /// Range of a Gaussian on either side of its mean [sigma].
 const REACH: f64 = 5.0;
@@ -48,6 +52,10 @@ pub struct MatchedFilter {
     step_ps: f64,
     /// For each arrival on the grid, from 0 on.
     pulses: Vec<Pulse>,
+    /// Standard deviation of the pulse [ps].
+    sigma_ps: f64,
+    /// Template of a cover window's light.
+    glass: Option<Glass>,
 }
 
 /// A bin, which a chain may give in several pieces.
@@ -126,6 +134,8 @@ pub struct Match {
     pub echo: Echo,
     /// Signal in its own standard deviations [1].
     pub significance: f64,
+    /// Amplitude of the cover window's light; 0 without a template [1].
+    pub amplitude: f64,
 }
 
 impl MatchedFilter {
@@ -156,18 +166,43 @@ impl MatchedFilter {
             delay_ps: acquisition.delay_ps,
             step_ps,
             pulses: (0..=(end_ps / step_ps) as usize).map(pulse).collect(),
+            sigma_ps,
+            glass: acquisition.glass.map(|glass| Glass::new(glass, pieces.iter().map(|bin| bin.code))),
         })
     }
 
     /// The most likely echo, however faint; `None` where no signal above zero fits.
     pub fn best(&self, histogram: &[u32]) -> Option<Match> {
-        let counts = self.codes.iter().map(|&code| histogram[code as usize]);
-        let bins = correct(counts, self.shots - self.lost(histogram));
-        let flat = self.flat(&bins);
-        let fits: Vec<_> =
-            self.pulses.iter().map(|pulse| Fit::new(pulse, self, &bins, flat)).collect();
+        let (bins, beside) = self.corrected(histogram);
+        let fits = self.fits(&bins, &beside);
         let score = |place: usize| fits[place].score;
         let best = (0..fits.len()).max_by(|&a, &b| score(a).total_cmp(&score(b)))?;
+        self.refined(&fits, best, &bins, &beside)
+    }
+
+    /// The bins without pile-up, weighed, and what there is beside an echo.
+    fn corrected(&self, histogram: &[u32]) -> (Vec<Corrected>, Beside) {
+        let counts = self.codes.iter().map(|&code| histogram[code as usize]);
+        let mut bins = correct(counts, self.shots - self.lost(histogram));
+        self.glass.iter().for_each(|glass| glass.weigh(&mut bins));
+        let flat = self.flat(&bins);
+        let glass = self.glass.as_ref().map(|glass| glass.projected(&bins, &self.widths, flat));
+        (bins, Beside { flat, glass })
+    }
+
+    fn fits(&self, bins: &[Corrected], beside: &Beside) -> Vec<Fit> {
+        self.pulses.iter().map(|pulse| Fit::new(pulse, self, bins, beside)).collect()
+    }
+
+    /// The echo at a place of the grid and between its neighbours.
+    fn refined(
+        &self,
+        fits: &[Fit],
+        best: usize,
+        bins: &[Corrected],
+        beside: &Beside,
+    ) -> Option<Match> {
+        let score = |place: usize| fits[place].score;
         let fit = &fits[best];
         if fit.score <= 0.0 {
             return None;
@@ -185,10 +220,8 @@ impl MatchedFilter {
             signal: fit.signal,
             background_per_ps: fit.background / self.range_ps,
         };
-        Some(Match {
-            echo,
-            significance: fit.signal / self.signal_deviation(&self.pulses[best], &bins, fit),
-        })
+        let deviation = self.signal_deviation(&self.pulses[best], bins, fit, beside);
+        Some(Match { echo, significance: fit.signal / deviation, amplitude: fit.amplitude.max(0.0) })
     }
 
     /// Shots whose hit jitter puts before the laser edge, where it has no code: so many as hits come
@@ -216,15 +249,33 @@ impl MatchedFilter {
     }
 
     /// Standard deviation of the fitted signal.
-    fn signal_deviation(&self, pulse: &Pulse, bins: &[Corrected], fit: &Fit) -> f64 {
+    fn signal_deviation(
+        &self,
+        pulse: &Pulse,
+        bins: &[Corrected],
+        fit: &Fit,
+        beside: &Beside,
+    ) -> f64 {
         let terms = self.widths.iter().zip(bins).enumerate().map(|(k, (width, bin))| {
             let part =
                 k.checked_sub(pulse.first).and_then(|k| pulse.parts.get(k)).copied().unwrap_or(0.0);
-            let lever = bin.waiting * (part - width * fit.flat_part);
+            let mut alone = part - width * fit.flat_part;
+            if let Some(glass) = &beside.glass {
+                alone -= glass.shape[k] * fit.glass_part;
+            }
+            let lever = bin.waiting * alone;
             lever * lever * bin.variance
         });
         terms.sum::<f64>().sqrt() / fit.weight
     }
+}
+
+/// What there is beside an echo.
+struct Beside {
+    /// Weighted squares of the widths, and widths times hazards.
+    flat: [f64; 2],
+    /// A cover window's light, if there is a template of it.
+    glass: Option<Projected>,
 }
 
 /// Signal and background at one arrival, by least squares.
@@ -233,11 +284,15 @@ struct Fit {
     weight: f64,
     /// Fraction of the flat shape in the pulse.
     flat_part: f64,
+    /// Fraction of the window's light in the pulse.
+    glass_part: f64,
     /// Signal times the square root of the weight; what it explains, but for a constant.
     score: f64,
     signal: f64,
     /// Mean number of other avalanches in all bins.
     background: f64,
+    /// Amplitude of the window's light [1].
+    amplitude: f64,
 }
 
 impl Fit {
@@ -245,8 +300,9 @@ impl Fit {
         pulse: &Pulse,
         filter: &MatchedFilter,
         bins: &[Corrected],
-        [flat_squares, flat_product]: [f64; 2],
+        beside: &Beside,
     ) -> Self {
+        let [flat_squares, flat_product] = beside.flat;
         let (mut squares, mut with_flat, mut product) = (0.0, 0.0, 0.0);
         let there = bins[pulse.first..].iter().zip(&filter.widths[pulse.first..]);
         for (part, (bin, width)) in pulse.parts.iter().zip(there) {
@@ -256,13 +312,26 @@ impl Fit {
             product += weighted * bin.hazard;
         }
         let flat_part = if flat_squares > 0.0 { with_flat / flat_squares } else { 0.0 };
-        let weight = squares - flat_part * with_flat;
-        let alone = product - flat_part * flat_product;
+        let mut weight = squares - flat_part * with_flat;
+        let mut alone = product - flat_part * flat_product;
+        let mut glass_part = 0.0;
+        if let Some(glass) = &beside.glass {
+            let with_glass = glass.within(pulse, bins);
+            glass_part = with_glass / glass.squares;
+            weight -= glass_part * with_glass;
+            alone -= glass_part * glass.product;
+        }
         let tried = weight > FAINTEST * filter.shots as f64;
         let signal = if tried { alone / weight } else { 0.0 };
-        let background =
+        let mut background =
             if flat_squares > 0.0 { flat_product / flat_squares - signal * flat_part } else { 0.0 };
-        Fit { weight, flat_part, score: signal * weight.max(0.0).sqrt(), signal, background }
+        let mut amplitude = 0.0;
+        if let Some(glass) = &beside.glass {
+            amplitude = glass.product / glass.squares - signal * glass_part;
+            background -= amplitude * glass.flat_part;
+        }
+        let score = signal * weight.max(0.0).sqrt();
+        Fit { weight, flat_part, glass_part, score, signal, background, amplitude }
     }
 }
 

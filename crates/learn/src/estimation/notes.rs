@@ -4,6 +4,7 @@
 //! the limits of estimators' own constants. The limits of a network are those of its training.
 
 mod model_check;
+mod pedestal;
 
 use tofsim::Note;
 use tofsim::firmware::centroid_estimator::CentroidEstimator;
@@ -17,6 +18,7 @@ use super::peak_detection::PeakDetection;
 use super::registry::EstimatorKind;
 
 use model_check::{ModelCheck, OPTION};
+pub use pedestal::PedestalWatch;
 
 impl EstimatorKind {
     /// Returns the estimator's model, as the table of effects has it; `None` for networks.

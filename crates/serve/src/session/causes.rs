@@ -4,14 +4,16 @@ use serde::Serialize;
 
 use tofsim::Shot;
 use tofsim::optics::Cause;
+use tofsim::optics::hazard::BY_CAUSE;
 use tofsim::sim::frames::Frame;
 
 use super::instrument::Instrument;
 
 /// Causes in stacking order; `None` is unknown.
-const CAUSES: [(Option<Cause>, &str); 5] = [
+const CAUSES: [(Option<Cause>, &str); 6] = [
     (Some(Cause::Dark), "dark"),
     (Some(Cause::Ambient), "ambient"),
+    (Some(Cause::Cover), "cover"),
     (Some(Cause::Signal), "signal"),
     (Some(Cause::Afterpulse), "afterpulse"),
     (None, "unknown"),
@@ -85,10 +87,17 @@ pub fn unknown(frame: &Frame) -> Vec<Layer> {
 
 /// Returns a frame's histogram by expected cause.
 pub fn expected(instrument: &Instrument, frame: &Frame) -> Vec<Layer> {
-    let [signal, ambient, dark] = instrument.expected_causes(frame);
-    let layers = [("dark", dark), ("ambient", ambient), ("signal", signal)];
-    let mut layers: Vec<_> =
-        layers.into_iter().map(|(cause, counts)| Layer { cause, counts }).collect();
+    let expected = instrument.expected_causes(frame);
+    let of = |cause: Cause| {
+        BY_CAUSE
+            .iter()
+            .zip(&expected)
+            .find_map(|(of, counts)| (*of == cause).then(|| counts.clone()))
+    };
+    let layer = |(cause, name): &(Option<Cause>, &'static str)| {
+        Some(Layer { cause: name, counts: of((*cause)?)? })
+    };
+    let mut layers: Vec<_> = CAUSES.iter().filter_map(layer).collect();
     // Without light there is nothing to expect.
     let is_known = |bin: usize| layers.iter().any(|layer| layer.counts[bin] > 0.0);
     let unknown = frame.histogram.iter().enumerate();

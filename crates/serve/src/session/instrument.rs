@@ -9,6 +9,7 @@ use tofsim::error::Result;
 use tofsim::firmware::tof_top::status::Status;
 use tofsim::optics::Hazard;
 use tofsim::optics::cause_parts::cause_parts;
+use tofsim::optics::hazard::BY_CAUSE;
 use tofsim::sim::disagreements::Disagreements;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::second_opinion::SecondOpinion;
@@ -31,7 +32,7 @@ pub struct Instrument {
     /// Notes on the setup's results.
     pub notes: Vec<Note>,
     /// For each code, the fractions of signal, ambient light and dark counts, without and with laser [1].
-    parts: [Vec<[f64; 3]>; 2],
+    parts: [Vec<[f64; BY_CAUSE.len()]>; 2],
 }
 
 /// Estimate of a frame's depth.
@@ -113,13 +114,13 @@ impl Instrument {
         disagreements.notes(second)
     }
 
-    /// Splits a histogram into its expected parts of signal, ambient light and dark counts [hits].
-    pub fn expected_causes(&self, frame: &Frame) -> [Vec<f64>; 3] {
+    /// Splits a histogram into its expected parts of each of [`BY_CAUSE`] [hits].
+    pub fn expected_causes(&self, frame: &Frame) -> [Vec<f64>; BY_CAUSE.len()] {
         let parts = &self.parts[usize::from(frame.laser_en)];
         let of = |cause: usize| {
             let each = frame.histogram.iter().zip(parts);
             each.map(move |(&count, parts)| (f64::from(count) * parts[cause] * 10.0).round() / 10.0)
         };
-        [0, 1, 2].map(|cause| of(cause).collect())
+        std::array::from_fn(|cause| of(cause).collect())
     }
 }

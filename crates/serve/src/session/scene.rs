@@ -20,7 +20,7 @@ struct Key {
     of: fn(&Scenario) -> f64,
 }
 
-const KEYS: [Key; 5] = [
+const KEYS: [Key; 7] = [
     Key {
         key: DISTANCE,
         label: "Distance",
@@ -60,6 +60,22 @@ const KEYS: [Key; 5] = [
         range: [0.0, 150.0, 1.0],
         zero_is_far: false,
         of: |scenario| scenario.atmosphere.rain_mm_h,
+    },
+    Key {
+        key: "cover.fraction",
+        label: "Cover glass",
+        unit: "",
+        range: [0.0, 1e-3, 1e-5],
+        zero_is_far: false,
+        of: |scenario| scenario.cover.fraction,
+    },
+    Key {
+        key: "target.second_share",
+        label: "Second surface",
+        unit: "",
+        range: [0.0, 1.0, 0.01],
+        zero_is_far: false,
+        of: |scenario| scenario.target.second_share,
     },
 ];
 

@@ -82,7 +82,7 @@ fn a_cube_is_seen_as_its_faces_are_whichever_way_it_is_turned() {
     let aside = 0.04 / 2f64.sqrt();
     let expected = half(45.0, aside).diffuse.sum() + half(-45.0, -aside).diffuse.sum();
     assert_close(turned.diffuse.sum(), expected, 1e-3);
-    assert_close(turned.ends_m().unwrap()[0], 0.5, 1e-3);
+    assert_close(turned.surface_ends_m().unwrap()[0], 0.5, 1e-3);
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn the_front_of_a_mesh_is_where_its_file_has_the_largest_z() {
     let front = returned(|s| {
         (s.target.length_m, s.target.width_m, s.target.offset_y_m) = (0.04, 0.04, 0.06);
     });
-    let [near, _] = found.ends_m().unwrap();
+    let [near, _] = found.surface_ends_m().unwrap();
     let expected = (0.25f64 + 0.04 * 0.04).sqrt();
     assert_close(near, expected, 1e-3);
     assert!(found.diffuse.sum() > front.diffuse.sum(), "and its lower side is seen too");

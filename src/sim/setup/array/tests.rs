@@ -93,6 +93,39 @@ fn an_offset_moves_all_light_of_its_pixel_and_nothing_else() {
 }
 
 #[test]
+fn a_fraction_of_the_window_s_light_is_that_of_its_pixel() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines = ["row,column,fraction", "1,1,4e-5", "0,0,1e-5", "0,1,0", "1,0,3e-5"];
+    let fractions = file(&folder, "fractions.csv", "cover.fraction_file", &lines);
+    let found = array(&[&SIZE[..], &[&fractions]].concat());
+    let found: Vec<_> = pixels(&found).map(|pixel| pixel.budget.cover_per_shot).collect();
+    let even = array(&[&SIZE[..], &["cover.fraction=4e-5"]].concat());
+    let even: f64 = pixels(&even).map(|pixel| pixel.budget.cover_per_shot).sum();
+    for (found, fraction) in found.into_iter().zip([1e-5, 0.0, 3e-5, 4e-5]) {
+        assert!((found - even * fraction / 4e-5).abs() < 1e-9 * even, "{found}");
+    }
+    let error = |lines: &[&str]| {
+        let fractions = file(&folder, "faulty.csv", "cover.fraction_file", lines);
+        let keys = [&SIZE[..], &[&fractions]]
+            .concat()
+            .iter()
+            .map(|&key| key.to_owned())
+            .collect::<Vec<_>>();
+        ArraySetup::new(scenario::load("kc705", &keys).unwrap()).unwrap_err().to_string()
+    };
+    let found = error(&["row,column,fraction", "0,0,-1e-5"]);
+    assert!(
+        found.contains("faulty.csv:2:5: fraction = -1e-5: expected a fraction from 0 to 1"),
+        "{found}"
+    );
+    let found = error(&["row,column,fraction", "0,0,1e-5"]);
+    assert!(
+        found.contains("missing = row 0, column 1: expected a line for each of 2 x 2"),
+        "{found}"
+    );
+}
+
+#[test]
 fn a_measured_dark_rate_is_that_of_its_pixel() {
     let folder = tempfile::tempdir().unwrap();
     let lines = ["row,output,rate_hz", "0,0,500", "1,1,0", "1,0,7000", "39,29,1"];

@@ -7,6 +7,7 @@ use tofsim::sim::disagreements::Disagreements;
 use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
+use tofsim_learn::estimation::notes::PedestalWatch;
 use tofsim_learn::estimation::{Estimate, EstimatorKind, Panel};
 use tofsim_learn::quantize::{LikelihoodExplainer, explain};
 
@@ -92,6 +93,9 @@ impl<'a> Reading<'a> {
             let (code, key) = (NoteCode::EstimatorOutsideModel, "firmware.shots_per_frame");
             Note::new(code, key, shots, expected, text)
         }));
+        let mut pedestals = PedestalWatch::default();
+        self.rows.iter().for_each(|row| pedestals.add(&row.estimates));
+        notes.extend(self.setup.glass.as_ref().and_then(|glass| pedestals.note(glass)));
         notes
     }
 }

@@ -5,7 +5,7 @@ use std::array;
 
 use crate::estimation::estimator::Failure;
 
-use super::model::Model;
+use super::model::{Model, echoes, pedestal};
 use super::solve::{Matrix, inverse_diagonal, solve};
 
 /// Largest step of any coordinate in one iteration [sigma, e-folds].
@@ -50,12 +50,16 @@ pub fn climb<const N: usize>(
     let mut slope = model.slope(&at, histogram);
     for _ in 0..MOST_ITERATIONS {
         let (gradient, information) = &slope;
-        // At its lowest the background stays, unless it is to rise.
-        let held = at[N - 1] <= model.least_background() && gradient[N - 1] <= 0.0;
-        let step = solve(information, gradient, damping, held);
+        // At its lowest the background stays, unless it is to rise, and so does the window's light.
+        let mut held = [false; N];
+        held[N - 1] = at[N - 1] <= model.least_background() && gradient[N - 1] <= 0.0;
+        if let Some(k) = pedestal::<N>() {
+            held[k] = at[k] <= 0.0 && gradient[k] <= 0.0;
+        }
+        let step = solve(information, gradient, damping, &held);
         let gain = step.map(|step| (0..N).map(|k| step[k] * gradient[k]).sum::<f64>());
         if damping == 0.0 && gain.is_some_and(|gain| gain < TOLERANCE) {
-            return accept(at, value, information, held);
+            return accept(at, value, information, &held);
         }
         let tried = step.map(|step| go(model, &at, &step));
         let reached = tried.map(|to| (to, model.log_likelihood(&to, histogram)));
@@ -66,14 +70,14 @@ pub fn climb<const N: usize>(
                 slope = model.slope(&at, histogram);
             }
             None if damping == 0.0 && gain.is_some_and(|gain| gain < NOTHING) => {
-                return accept(at, value, information, held);
+                return accept(at, value, information, &held);
             }
             None => damping = (damping * 10.0).max(1e-3),
         }
-        if (0..N - 1).step_by(2).any(|k| is_outside(model, at[k])) {
+        if (0..2 * echoes::<N>()).step_by(2).any(|k| is_outside(model, at[k])) {
             return Err(Failure::NoPeak);
         }
-        if damping > STUCK || (1..N).step_by(2).any(|k| at[k].abs() > RUNAWAY) {
+        if damping > STUCK || (1..2 * echoes::<N>()).step_by(2).any(|k| at[k].abs() > RUNAWAY) {
             break;
         }
     }
@@ -86,6 +90,9 @@ fn go<const N: usize>(model: &Model, at: &[f64; N], step: &[f64; N]) -> [f64; N]
     let mut to = array::from_fn(|k| at[k] + step[k] * LONGEST / longest);
     let least = (at[N - 1] * FALL).max(model.least_background());
     to[N - 1] = to[N - 1].max(least);
+    if let Some(k) = pedestal::<N>() {
+        to[k] = to[k].max(0.0);
+    }
     to
 }
 
@@ -94,12 +101,12 @@ fn accept<const N: usize>(
     at: [f64; N],
     value: f64,
     information: &Matrix<N>,
-    held: bool,
+    held: &[bool; N],
 ) -> Result<Top<N>, Failure> {
     let variances = inverse_diagonal(information, held).ok_or(Failure::NoConvergence)?;
     // The deviation of ln S is that of S by S.
     let faint = |k: usize| variances[k + 1].sqrt() * SIGNIFICANCE > 1.0;
-    if (0..N - 1).step_by(2).any(faint) {
+    if (0..2 * echoes::<N>()).step_by(2).any(faint) {
         return Err(Failure::NoPeak);
     }
     Ok(Top { at, value, variances })

@@ -9,14 +9,16 @@
 //! comes before it. In MODE 1 not every shot finds the diode armed, nor the chain empty
 //! ([`super::arming`]).
 //!
-//! Coordinates are mu / sigma and ln S of each echo, and last N times the end of the last bin: numbers of
-//! order 1, and S stays positive. There are three of them, or five for two echoes, whose hazards add up.
+//! Coordinates are mu / sigma and ln S of each echo, the amplitude of the cover window's light if there is a template of
+//! it (1: as calibrated), and last N times the end of the last bin: numbers of order 1, and S stays positive. There are
+//! three of them, or five for two echoes, whose hazards add up, and one more with a template: an even number.
 
 use std::array;
 use std::sync::Arc;
 
 use tofsim::error::Input;
 use tofsim::kernel::pulse::Pulse;
+use tofsim::scenario::glass::GlassTemplate;
 
 use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, FreeRunning};
 
@@ -51,6 +53,18 @@ pub struct Model {
     pub(super) sigma_ps: f64,
     /// End of the last bin [ps].
     pub(super) end_ps: f64,
+    /// Template of the cover window's light: its hazard from the laser edge to the end of each stretch [1].
+    glass: Option<Arc<[f64]>>,
+}
+
+/// Returns the number of echoes among so many coordinates.
+pub(super) const fn echoes<const N: usize>() -> usize {
+    (N - 1) / 2
+}
+
+/// Returns the coordinate of the window's light, if it is among so many coordinates.
+pub(super) const fn pedestal<const N: usize>() -> Option<usize> {
+    if N.is_multiple_of(2) { Some(N - 2) } else { None }
 }
 
 /// Probabilities of the cells and their derivatives by the coordinates.
@@ -63,14 +77,25 @@ impl Model {
     /// For histograms that come about so.
     ///
     /// # Errors
-    /// When [`Acquisition::check`] fails.
+    /// When [`Acquisition::check`] fails, or clock edges jitter and there is a template of a cover window.
     pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
         acquisition.check()?;
         let Stretches { stretches, known, step_ps, end_ps } = Stretches::new(acquisition);
         let Acquisition { shots, free_running, .. } = *acquisition;
         let pulse = acquisition.pulse.clone();
         let sigma_ps = pulse.sigma_ps();
-        Ok(Model { stretches, known, step_ps, free_running, shots, pulse, sigma_ps, end_ps })
+        if acquisition.glass.is_some() && acquisition.jitter_ps > 0.0 {
+            let expected = "expected none where clock edges jitter (pll.jitter_rms_ps): jitter is in the template \
+                            already, and would blur it twice";
+            return Err(Input::new("acquisition", expected).field("estimator.glass_file"));
+        }
+        let glass = acquisition.glass.map(|glass| cumulated(glass, &stretches));
+        Ok(Model { stretches, known, step_ps, free_running, shots, pulse, sigma_ps, end_ps, glass })
+    }
+
+    /// Whether the window's light is in the model.
+    pub fn has_pedestal(&self) -> bool {
+        self.glass.is_some()
     }
 
     /// Cells: the codes, and last no code.
@@ -92,6 +117,12 @@ impl Model {
             libm::log(signal),
             background.max(self.least_background()),
         ]
+    }
+
+    /// Coordinates of an echo and of a window's light, within their limits.
+    pub fn coordinates_with(&self, echo: &Echo, amplitude: f64) -> [f64; 4] {
+        let [arrival, signal, background] = self.coordinates(echo);
+        [arrival, signal, amplitude.max(0.0), background]
     }
 
     /// An echo at coordinates, the first or the second.
@@ -128,13 +159,51 @@ impl Model {
         (gradient, self.information(&cells))
     }
 
-    /// The Cramér-Rao bound: the smallest standard deviation that an unbiased estimate of the
+    /// The Cramér-Rao bound without a window's light: the smallest standard deviation that an unbiased estimate of the
     /// distance can have, if signal and background are not known either [m]. `None` where the
     /// histogram tells nothing.
     pub fn cramer_rao_m(&self, echo: &Echo) -> Option<f64> {
-        let information = self.information(&self.cells(&self.coordinates(echo)));
-        let variance = inverse_diagonal(&information, false)?[0];
-        Some(variance.sqrt() * self.sigma_ps / ARRIVAL_PS_PER_M)
+        self.deviations_m(self.coordinates(echo)).map(|[deviation_m, ..]| deviation_m)
+    }
+
+    /// Returns the same bound for the distance of each echo of a scene, one or two: with the other echo, and the
+    /// amplitude of the window's light if there is a template of it, unknown too. The background is the first echo's [m].
+    pub fn cramer_rao_of(&self, echoes: &[Echo], amplitude: f64) -> Option<Vec<f64>> {
+        match (echoes, self.has_pedestal()) {
+            ([echo], false) => Some(vec![self.cramer_rao_m(echo)?]),
+            ([echo], true) => {
+                let deviations = self.deviations_m(self.coordinates_with(echo, amplitude))?;
+                Some(deviations[..1].to_vec())
+            }
+            ([one, other], false) => {
+                let deviations = self.deviations_m(self.coordinates_of_two(one, other))?;
+                Some(deviations[..2].to_vec())
+            }
+            ([one, other], true) => {
+                let [place, signal, second, second_signal, background] =
+                    self.coordinates_of_two(one, other);
+                let at = [place, signal, second, second_signal, amplitude, background];
+                Some(self.deviations_m(at)?[..2].to_vec())
+            }
+            _ => None,
+        }
+    }
+
+    /// Coordinates of two echoes, with the background of the first.
+    pub fn coordinates_of_two(&self, one: &Echo, other: &Echo) -> [f64; 5] {
+        let [place, signal, background] = self.coordinates(one);
+        let [second, second_signal, _] = self.coordinates(other);
+        [place, signal, second, second_signal, background]
+    }
+
+    /// Bounds of the distances of the echoes, which come first [m].
+    fn deviations_m<const N: usize>(&self, at: [f64; N]) -> Option<[f64; N]> {
+        let variances = inverse_diagonal(&self.information(&self.cells(&at)), &[false; N])?;
+        let deviation_m = |echo: usize| {
+            let variance: f64 = variances.get(2 * echo).copied().unwrap_or_default();
+            variance.sqrt() * self.sigma_ps / ARRIVAL_PS_PER_M
+        };
+        Some(array::from_fn(deviation_m))
     }
 
     /// When a part of the pulse has come, from its mean [ps].
@@ -142,9 +211,14 @@ impl Model {
         self.pulse.when(part)
     }
 
-    /// The probability of each code, where it has a cell of its own; 0 elsewhere [1].
+    /// The probability of each code, where it has a cell of its own, without a window's light; 0 elsewhere [1].
     pub fn probabilities(&self, echo: &Echo) -> Vec<f64> {
-        let mut chances = self.chances(&self.coordinates(echo));
+        self.probabilities_at(&self.coordinates(echo))
+    }
+
+    /// The same at coordinates.
+    pub fn probabilities_at<const N: usize>(&self, at: &[f64; N]) -> Vec<f64> {
+        let mut chances = self.chances(at);
         chances.pop();
         chances
     }
@@ -176,11 +250,15 @@ impl Model {
         &self,
         at: &[f64; N],
         signals: &[f64; N],
-        t_ps: f64,
+        (t_ps, glass): (f64, f64),
     ) -> (f64, [f64; N]) {
         let of_end = t_ps / self.end_ps;
         let (mut h, mut by) = (at[N - 1] * of_end, [of_end; N]);
-        for k in (0..N - 1).step_by(2) {
+        if let Some(k) = pedestal::<N>() {
+            h += at[k] * glass;
+            by[k] = glass;
+        }
+        for k in (0..2 * echoes::<N>()).step_by(2) {
             let since_ps = t_ps - at[k] * self.sigma_ps;
             let density = self.pulse.density(since_ps) * self.sigma_ps;
             let part = signals[k + 1] * self.pulse.part(since_ps);
@@ -206,8 +284,9 @@ impl Model {
             Cells { of: vec![0.0; self.cell_count()], by: vec![[0.0; N]; self.cell_count()] };
         let signals = signals(at);
         let (mut h, mut by) = (0.0, [0.0; N]);
-        for stretch in self.stretches.iter() {
-            let (next, next_by) = self.hazard(at, &signals, stretch.until_ps);
+        for (k, stretch) in self.stretches.iter().enumerate() {
+            let glass = self.glass.as_ref().map_or(0.0, |glass| glass[k]);
+            let (next, next_by) = self.hazard(at, &signals, (stretch.until_ps, glass));
             // In this form a small difference keeps its digits.
             let (none_yet, none_after) = (libm::exp(-h), libm::exp(-next));
             let p = -none_yet * libm::expm1(h - next);
@@ -226,7 +305,7 @@ impl Model {
     fn free_chances<const N: usize>(&self, free: &FreeRunning, at: &[f64; N]) -> Vec<f64> {
         let (signals, mut h) = (signals(at), 0.0);
         let first = self.stretches.iter().map(|stretch| {
-            let next = self.hazard(at, &signals, stretch.until_ps).0;
+            let next = self.hazard(at, &signals, (stretch.until_ps, 0.0)).0;
             let p = -libm::exp(-h) * libm::expm1(h - next);
             h = next;
             p
@@ -260,7 +339,34 @@ impl Model {
 
 /// S, where the coordinates have ln S.
 fn signals<const N: usize>(at: &[f64; N]) -> [f64; N] {
-    array::from_fn(|k| if k % 2 == 1 { libm::exp(at[k]) } else { 0.0 })
+    let is_signal = |k: usize| k % 2 == 1 && k < 2 * echoes::<N>();
+    array::from_fn(|k| if is_signal(k) { libm::exp(at[k]) } else { 0.0 })
+}
+
+/// Hazard of a template from the laser edge to the end of each stretch. A code's light is spread evenly over its
+/// stretches.
+fn cumulated(glass: &GlassTemplate, stretches: &[Stretch]) -> Arc<[f64]> {
+    let mut widths_ps = vec![0.0; glass.bins().len()];
+    let lengths_ps: Vec<_> = stretches
+        .iter()
+        .scan(0.0, |from_ps, stretch| {
+            Some(stretch.until_ps - std::mem::replace(from_ps, stretch.until_ps))
+        })
+        .collect();
+    let code = |stretch: &Stretch| stretch.cells.first().map(|&(cell, _)| cell);
+    for (stretch, length_ps) in stretches.iter().zip(&lengths_ps) {
+        if let Some(width_ps) = code(stretch).and_then(|code| widths_ps.get_mut(code)) {
+            *width_ps += length_ps;
+        }
+    }
+    let mut sum = 0.0;
+    let until = |(stretch, length_ps): (&Stretch, &f64)| {
+        if let Some((code, bin)) = code(stretch).and_then(|code| Some((code, glass.bins().get(code)?))) {
+            sum += bin.hazard * length_ps / widths_ps[code];
+        }
+        sum
+    };
+    stretches.iter().zip(&lengths_ps).map(until).collect()
 }
 
 impl<const N: usize> Cells<N> {

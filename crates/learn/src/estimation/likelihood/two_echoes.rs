@@ -62,13 +62,11 @@ impl Estimator for TwoEchoes {
     fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
         let alone = self.0.fit(histogram)?;
         let both = self.0.fit_both(histogram, &alone);
-        let (first, second) = both.map_or((alone, None), |both| (both.first, Some(both.second)));
-        let EchoDepth { depth_m, sigma_m } = self.0.depth(&first);
-        Ok(Found {
-            depth_m,
-            sigma_m: Some(sigma_m),
-            second: second.map(|second| self.0.depth(&second)),
-        })
+        let fits = both.map_or(vec![alone], |both| vec![both.first, both.second]);
+        let EchoDepth { depth_m, sigma_m } = self.0.depth(&fits[0]);
+        let second = fits.get(1).map(|second| self.0.depth(second));
+        let pedestal = self.0.pedestal(histogram, &fits);
+        Ok(Found { depth_m, sigma_m: Some(sigma_m), second, pedestal })
     }
 }
 
@@ -79,13 +77,32 @@ impl Likelihood {
         if self.model.free_running.is_some() {
             return None;
         }
-        let other = self.rest(histogram, &alone.echo)?;
-        let value = self.model.log_likelihood_of(&alone.echo, histogram);
-        let starts = [(alone.echo, other), self.halves(&alone.echo)];
+        let echo = &alone.echo;
+        match alone.amplitude {
+            None => self.both_beside(histogram, echo, self.model.coordinates(echo), |at| at),
+            Some([amplitude, _]) => {
+                let at = self.model.coordinates_with(echo, amplitude);
+                self.both_beside(histogram, echo, at, |[one, signal, other, other_signal, background]| {
+                    [one, signal, other, other_signal, amplitude, background]
+                })
+            }
+        }
+    }
+
+    /// Both echoes, of which one alone is most likely at the coordinates `alone`; `start` gives the coordinates of a climb
+    /// for those of two echoes.
+    fn both_beside<const ONE: usize, const TWO: usize>(
+        &self,
+        histogram: &[u32],
+        echo: &Echo,
+        alone: [f64; ONE],
+        start: impl Fn([f64; 5]) -> [f64; TWO],
+    ) -> Option<Both> {
+        let other = self.rest(histogram, echo, &self.model.probabilities_at(&alone))?;
+        let value = self.model.log_likelihood(&alone, histogram);
+        let starts = [(*echo, other), self.halves(echo)];
         let tops = starts.iter().filter_map(|(one, other)| {
-            let [place, signal, background] = self.model.coordinates(one);
-            let [other_place, other_signal, _] = self.model.coordinates(other);
-            let at = [place, signal, other_place, other_signal, background];
+            let at = start(self.model.coordinates_of_two(one, other));
             climb(&self.model, histogram, at).ok()
         });
         let top = tops.max_by(|a, b| a.value.total_cmp(&b.value))?;
@@ -93,11 +110,11 @@ impl Likelihood {
         (gain > SURE_GAIN).then(|| self.in_order(&top, gain))
     }
 
-    /// Returns the largest residual echo after one echo is removed.
-    fn rest(&self, histogram: &[u32], echo: &Echo) -> Option<Echo> {
+    /// Returns the largest residual echo after one echo is removed, with which the codes have those probabilities.
+    fn rest(&self, histogram: &[u32], echo: &Echo, probabilities: &[f64]) -> Option<Echo> {
         let shots = self.model.shots as f64;
         let (mut left, mut sums) = (shots, vec![[0.0; 3]]);
-        for (&count, chance) in histogram.iter().zip(self.model.probabilities(echo)) {
+        for (&count, chance) in histogram.iter().zip(probabilities) {
             let (hits, expected) = (f64::from(count), shots * chance);
             let [excess, all, waited] = sums[sums.len() - 1];
             sums.push([excess + hits - expected, all + expected + ADDED, waited + left]);
@@ -126,7 +143,7 @@ impl Likelihood {
         (half(-1.0), half(1.0))
     }
 
-    fn in_order(&self, top: &Top<5>, gain: f64) -> Both {
+    fn in_order<const N: usize>(&self, top: &Top<N>, gain: f64) -> Both {
         let fit = |which: usize| Fit::of(&self.model, top, which);
         let order = if top.at[0] <= top.at[2] { [0, 1] } else { [1, 0] };
         let [first, second] = order.map(fit);
