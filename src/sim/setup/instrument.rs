@@ -69,6 +69,7 @@ impl Setup {
             self.budget.pulse.clone()
         };
         let sigma_ps = pulse.sigma_ps();
+        let glass: Vec<_> = self.glass.iter().flat_map(|own| own.bins()).map(|bin| bin.hazard).collect();
         let wanted = Wanted {
             histogram: self.params.histogram,
             shots: if keys.assumed_shots > 0 { keys.assumed_shots } else { shots },
@@ -77,7 +78,7 @@ impl Setup {
             pulse,
             metres_per_ps: LIGHT_M_S / 2e12,
             delay_ps: scenario.laser.delay_ps,
-            glass: &[],
+            glass: &glass,
         };
         make(&wanted).map_err(|unfit| {
             let (field, value) = match unfit {
