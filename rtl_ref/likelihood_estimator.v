@@ -135,6 +135,12 @@ module likelihood_estimator #(
 
     wire unsure = flags[1] && start_score < 14'sd425;
     wire faint = flags[0] && start_score < 14'sd850;
+    // Half of what was calibrated is too little of a pedestal, and twice as much too much.
+    // Of no glass the limits are 0.
+    // verilator lint_off UNSIGNED
+    wire changed = Glass && (glass < {1'b0, GlassLight[23:1]} || {1'b0, glass} > {GlassLight, 1'b0});
+    // verilator lint_on UNSIGNED
+    wire no_fit = far || changed;
     wire no_echo = unsure || faint || flags[2] || start_score < 14'sd297;
 
     // A fit without an echo is the first, and those that follow it
@@ -207,9 +213,9 @@ module likelihood_estimator #(
                 depth <= solved_depth - $signed({4'd0, LaserDelay});
                 sigma <= solved_sigma;
                 chi_square <= sum_chi;
-                status <= {unarmed, far, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
+                status <= {unarmed, no_fit, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
                            flags[3] || flags[4], no_echo};
-                valid <= !(unarmed || far || cut != 6'd0 || flags[5] || flags[6] || best_score > 14'sd331 || used_up
+                valid <= !(unarmed || no_fit || cut != 6'd0 || flags[5] || flags[6] || best_score > 14'sd331 || used_up
                            || flags[3] || flags[4] || no_echo);
                 scan <= 1'b0;
             end

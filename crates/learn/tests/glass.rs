@@ -6,6 +6,7 @@
 mod bound;
 mod calibration;
 mod estimators;
+mod firmware;
 
 use rand::Rng;
 use rand_distr::{Binomial, Distribution};

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+
 /// All of the pedestal, as the pulse's ROM counts parts.
 const ALL: f64 = 131_071.0;
 /// Photons per shot as a word has them, 14 fraction bits.
@@ -9,32 +10,51 @@ const ONE: f64 = 16_384.0;
 /// Largest pedestal [photons a shot].
 pub const MOST_LIGHT: f64 = 256.0;
 
+/// Part of a pedestal, late in its tail, whose bins a fit of another window leaves out [1].
+const LATE: f64 = 1.0 / 1024.0;
+
 /// Shape and strength of a pedestal; without bins, there is none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Glass {
-    /// Part of the pedestal in each of the first bins, of 131,071; later bins have none.
-    pub parts: Arc<[u32]>,
+    /// Part of the pedestal in each bin, of 131,071; bins after the last have none.
+    parts: Arc<[u32]>,
+    /// Bins that each fit goes over, from bin 0 on: all but a thousandth of the pedestal is in them.
+    bins: usize,
     /// Photons per shot, with 14 fraction bits, when it was calibrated.
     pub light: i64,
 }
 
 impl Glass {
-    /// Returns the words of a pedestal with these hazards, of which the last that is not zero ends it.
+    /// Returns the words of a pedestal with these hazards.
     pub fn of(hazards: &[f64]) -> Self {
         let light: f64 = hazards.iter().sum();
+        if light <= 0.0 {
+            return Glass::default();
+        }
+        let mut until = 0.0;
+        let early = hazards.iter().take_while(|&&hazard| {
+            until += hazard;
+            until < (1.0 - LATE) * light
+        });
+        let bins = (early.count() + 1).min(hazards.len());
         let part = |&hazard: &f64| libm::round(hazard / light * ALL) as u32;
-        let bins = hazards.iter().rposition(|hazard| part(hazard) > 0).map_or(0, |last| last + 1);
-        let parts = hazards[..bins].iter().map(part).collect();
-        Glass { parts, light: libm::round(light * ONE) as i64 }
+        let parts = hazards.iter().map(part).collect();
+        Glass { parts, bins, light: libm::round(light * ONE) as i64 }
     }
 
-    /// Returns the number of bins with light of the pedestal; 0 without one.
+    /// Returns the number of bins that each fit goes over; 0 without a pedestal.
     pub fn bins(&self) -> usize {
-        self.parts.len()
+        self.bins
     }
 
-    /// Returns the part of the pedestal in a bin.
+    /// Returns the part of the pedestal in a bin, of 131,071.
     pub fn part(&self, bin: usize) -> i64 {
         self.parts.get(bin).copied().unwrap_or(0).into()
+    }
+
+    /// Returns the least and the most light of a pedestal for which the calibration holds, half of it and twice as
+    /// much: a fit is sure to settle from there.
+    pub fn limits(&self) -> [i64; 2] {
+        [self.light / 2, 2 * self.light]
     }
 }

@@ -96,13 +96,16 @@ impl LikelihoodEstimator {
         let unsure = flag(1) && d.start_score.get() < SURE_SCORE;
         let faint = flag(0) && d.start_score.get() < CERTAIN_SCORE;
         let no_echo = unsure || faint || flag(2) || d.start_score.get() < LEAST_SCORE;
+        let glass = solver.glass.get() as i64;
+        let [least, most] = p.glass.limits();
+        let has_changed = p.glass.bins() > 0 && (glass < least || glass > most);
         let reasons = [
             (no_echo, Status::NoEcho),
             (flag(3) || flag(4), Status::CutOff),
             (d.used_up, Status::UsedUp),
             (self.likelihood_scan.registers.best_score.get() > ANOTHER_SCORE, Status::Another),
             (solver.cut != 0 || flag(5) || flag(6), Status::NotSettled),
-            (self.likelihood_sums.far, Status::NoFit),
+            (self.likelihood_sums.far || has_changed, Status::NoFit),
             (d.unarmed, Status::Unarmed),
         ];
         d.status = U::new(StatusSet::of(&reasons).bits().into());

@@ -9,10 +9,10 @@ use super::bound::{echo, exact};
 use super::*;
 
 /// Detected photons per shot of the target.
-const SIGNAL: f64 = 0.1;
-const DISTANCES_M: [f64; 7] = [0.05, 0.1, 0.15, 0.2, 0.4, 0.6, 0.9];
+pub const SIGNAL: f64 = 0.1;
+pub const DISTANCES_M: [f64; 7] = [0.05, 0.1, 0.15, 0.2, 0.4, 0.6, 0.9];
 /// The window's light over the target's.
-const GLASS: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
+pub const GLASS: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 
 /// Depths of frames against the bound with a pedestal.
 struct Errors {
@@ -45,7 +45,7 @@ fn errors(estimator: &dyn Estimator, bins: &Bins, light: &Light, frames: usize) 
 }
 
 /// A template of so many frames.
-fn template(bins: &Bins, glass: f64, frames: usize) -> GlassTemplate {
+pub fn template(bins: &Bins, glass: f64, frames: usize) -> GlassTemplate {
     let light = Light { glass, ..Light::DARK };
     calibrated(bins, &light.drawn(bins, frames, 99)).unwrap().template
 }

@@ -133,7 +133,7 @@ impl<'a> Estimations<'a> {
     fn begin(&mut self, draw: &mut Draw) {
         self.begun += 1;
         let kind = self.begun / WHOLE % KINDS;
-        self.pedestal = 0.5 + 1.5 * (draw.below(1000) as f64 / 1000.0);
+        self.pedestal = 0.3 + 2.2 * (draw.below(1000) as f64 / 1000.0);
         self.histogram =
             if self.cuts { self.of_kind(kind, draw) } else { self.histogram(kind, draw) };
         let place = 1 + self.begun / WHOLE % (STATES - 1);

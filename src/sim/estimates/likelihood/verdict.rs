@@ -118,13 +118,15 @@ pub fn verdict<I: Instrument>(
         || faint && start.score < score(CERTAIN_SCORE, 10_000.0)
         || start.score < score(LEAST_SCORE, 25.0)
         || wide;
+    let [least, most] = p.words().glass.limits().map(whole);
+    let has_changed = p.has_glass() && (last.glass < least || last.glass > most);
     let reasons = [
         (no_echo, Status::NoEcho),
         (at_begin || at_end, Status::CutOff),
         (waiting.is_some_and(|shots| shots < whole(LEAST_WAITING as i64)), Status::UsedUp),
         (other.score > score(ANOTHER_SCORE, 36.0), Status::Another),
         (cut > 0 || to_left || to_right, Status::NotSettled),
-        (far, Status::NoFit),
+        (far || has_changed, Status::NoFit),
     ];
     let found = Found {
         depth: to_depth(last.arrival) - scales.delay,
