@@ -17,7 +17,7 @@ use super::terminal::{Console, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
-const VERBS: [&str; 18] = [
+const VERBS: [&str; 19] = [
     "budget",
     "estimate",
     "quantize --explore",
