@@ -70,6 +70,9 @@ impl Scenario {
     pub fn obstacles(&self, method: Method) -> impl Iterator<Item = Occurrence> {
         Effect::ALL.into_iter().filter_map(move |effect| {
             let limit = effect.limit(method)?;
+            if (effect.row().spares)(self).contains(&method) {
+                return None;
+            }
             Some(effect.occurrence(self)?.within(limit)).filter(Occurrence::is_beyond)
         })
     }

@@ -53,15 +53,15 @@ impl GlassTemplate {
     /// If there is no bin with light.
     pub fn new(source: &str, bins: Vec<GlassBin>) -> Result<Self> {
         let limit = |name: &str, ps: f64| Input::new(source, "").field(name).value(ps);
-        let limits = bins.iter().map(|bin| {
-            [limit(HEADER[1], bin.from_ps), limit(HEADER[2], bin.until_ps)]
-        });
+        let limits =
+            bins.iter().map(|bin| [limit(HEADER[1], bin.from_ps), limit(HEADER[2], bin.until_ps)]);
         GlassTemplate::with(source, limits.collect(), bins)
     }
 
     fn with(source: &str, limits: Vec<[Input; 2]>, bins: Vec<GlassBin>) -> Result<Self> {
         if bins.iter().all(|bin| bin.hazard == 0.0) {
-            let expected = "expected a bin with a hazard above 0, or no template (estimator.glass_file)";
+            let expected =
+                "expected a bin with a hazard above 0, or no template (estimator.glass_file)";
             return Err(Input::new(source, expected).field(HEADER[3]).into());
         }
         Ok(GlassTemplate { bins: bins.into(), limits: limits.into() })
@@ -70,6 +70,27 @@ impl GlassTemplate {
     /// Returns the bins, by code.
     pub fn bins(&self) -> &[GlassBin] {
         &self.bins
+    }
+
+    /// Returns the same light in other bins, between whose limits the photons up to a time run straight [ps].
+    pub fn over(&self, limits_ps: &[[f64; 2]]) -> Self {
+        let own: Vec<_> = self.bins.iter().filter(|bin| bin.until_ps > bin.from_ps).collect();
+        let within = |[from_ps, until_ps]: [f64; 2], of: &dyn Fn(&GlassBin) -> f64| {
+            let part = |bin: &&GlassBin| {
+                let shared_ps = until_ps.min(bin.until_ps) - from_ps.max(bin.from_ps);
+                of(bin) * (shared_ps / (bin.until_ps - bin.from_ps)).max(0.0)
+            };
+            own.iter().map(part).sum::<f64>()
+        };
+        let bin = |&[from_ps, until_ps]: &[f64; 2]| GlassBin {
+            from_ps,
+            until_ps,
+            hazard: within([from_ps, until_ps], &|bin| bin.hazard),
+            hazard_se: within([from_ps, until_ps], &|bin| bin.hazard_se.powi(2)).sqrt(),
+        };
+        let bins: Vec<_> = limits_ps.iter().map(bin).collect();
+        let limits = vec![self.limits[0].clone(); bins.len()];
+        GlassTemplate { bins: bins.into(), limits: limits.into() }
     }
 
     /// Returns the mean number of detected photons of the window's light per shot [1].
@@ -90,7 +111,9 @@ impl GlassTemplate {
             return Err(Input::new(source, expected).field(HEADER[0]).value(rows));
         }
         for ((bin, faults), limits_ps) in self.bins.iter().zip(&*self.limits).zip(limits_ps) {
-            for ((found, fault), ps) in [bin.from_ps, bin.until_ps].iter().zip(faults).zip(limits_ps) {
+            for ((found, fault), ps) in
+                [bin.from_ps, bin.until_ps].iter().zip(faults).zip(limits_ps)
+            {
                 if (found - ps).abs() > TOLERANCE * bin_ps {
                     let expected = format!(
                         "expected {ps:.3}, the limit of this instrument's bin: the template is for another chain \
@@ -119,14 +142,17 @@ fn parse(source: &str, text: &str) -> Result<GlassTemplate> {
     let (mut bins, mut limits) = (Vec::new(), Vec::new());
     while input.advance()? {
         if input.field::<usize>(0) != Some(bins.len()) {
-            return Err(input.fault(0, format!("expected {}, the next from 0 on", bins.len())).into());
+            return Err(input
+                .fault(0, format!("expected {}, the next from 0 on", bins.len()))
+                .into());
         }
         let number = |index, least, most: f64, expected: &str| {
             let found = input.field::<f64>(index).filter(|found| (least..=most).contains(found));
             found.ok_or_else(|| input.fault(index, expected))
         };
         let from_ps = number(1, 0.0, LATEST_PS, "expected the begin of the bin, 0 to 1e9 ps")?;
-        let until_ps = number(2, from_ps, LATEST_PS, "expected the end of the bin, from_ps to 1e9 ps")?;
+        let until_ps =
+            number(2, from_ps, LATEST_PS, "expected the end of the bin, from_ps to 1e9 ps")?;
         let hazard = number(3, 0.0, MOST_HAZARD, "expected photons per shot in the bin, 0 to 20")?;
         let hazard_se = number(4, 0.0, MOST_HAZARD, "expected a standard error, 0 to 20")?;
         limits.push([1, 2].map(|index| input.fault(index, "")));
@@ -160,12 +186,26 @@ mod tests {
     fn another_chain_or_bin_width_is_a_fault_at_its_place() {
         let found = parsed("0,0,25,0.5,0.01\n1,25,51,0.25,0.02\n2,51,75,0,0\n").unwrap();
         let error = found.check(&LIMITS_PS, 25.0).unwrap_err().to_string();
-        assert!(error.starts_with("g.csv:4:6: until_ps = 51: expected 50.000, the limit"), "{error}");
+        assert!(
+            error.starts_with("g.csv:4:6: until_ps = 51: expected 50.000, the limit"),
+            "{error}"
+        );
         let error = found.check(&LIMITS_PS[..2], 25.0).unwrap_err().to_string();
         assert_eq!(error, "g.csv: code = 3 rows: expected 2, one for each bin (tdc.bins)");
         let made = GlassTemplate::new("made", found.bins().to_vec()).unwrap();
         let error = made.check(&LIMITS_PS, 25.0).unwrap_err().to_string();
         assert!(error.starts_with("made: until_ps = 51: expected 50.000"), "{error}");
+    }
+
+    #[test]
+    fn the_same_light_in_other_bins() {
+        let found = parsed("0,0,25,0.5,0.03\n1,25,50,0.25,0.04\n2,0,0,0,0\n").unwrap();
+        let other = found.over(&[[0.0, 12.5], [12.5, 50.0], [0.0, 0.0], [50.0, 75.0]]);
+        let hazards: Vec<_> = other.bins().iter().map(|bin| bin.hazard).collect();
+        assert_eq!(hazards, [0.25, 0.5, 0.0, 0.0]);
+        assert!((other.bins()[1].hazard_se - 0.04f64.hypot(0.03 * 0.5f64.sqrt())).abs() < 1e-12);
+        assert_eq!(other.photons(), found.photons());
+        assert_eq!(found.over(&LIMITS_PS[..2]).bins(), &found.bins()[..2]);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! `tofsim calibrate pulse`: from histograms to keys, a file and a picture.
 
+mod glass;
+
 use std::fs;
 use std::path::Path;
 

@@ -34,6 +34,8 @@ pub(super) struct Row {
     pub breaks: &'static [&'static [Method]],
     /// The methods that only more of it invalidates, and the largest value that does not [the key's unit].
     pub above: (f64, &'static [Method]),
+    /// The methods that it leaves valid in a scenario that has what they need.
+    pub spares: fn(&Scenario) -> &'static [Method],
     /// Why, as a clause.
     pub why: &'static str,
     /// Settings that show the effect.
@@ -47,6 +49,7 @@ impl Row {
         when: |_| true,
         breaks: &[],
         above: (0.0, &[]),
+        spares: |_| &[],
         why: "",
         example: &[],
     };
@@ -61,6 +64,7 @@ macro_rules! effects {
             $(when: $when:expr,)?
             breaks: [$($breaks:expr),* $(,)?],
             $(above: $above:expr,)?
+            $(spares: $spares:expr,)?
             why: $why:literal,
             example: [$($example:literal),* $(,)?],
         }
@@ -86,6 +90,7 @@ macro_rules! effects {
             $(when: $when,)?
             breaks: &[$($breaks),*],
             $(above: $above,)?
+            $(spares: $spares,)?
             why: $why,
             example: &[$($example),*],
             ..Row::EMPTY
@@ -95,6 +100,14 @@ macro_rules! effects {
 
 fn is_free_running(scenario: &Scenario) -> bool {
     scenario.firmware.mode == QuenchMode::FreeRunning
+}
+
+/// Returns the methods that have the cover window's light in their model, if its template is known.
+fn with_template(scenario: &Scenario) -> &'static [Method] {
+    match scenario.estimator.glass_file {
+        Some(_) => &[CramerRaoBound, Likelihood, TwoEchoes, Matched],
+        None => &[],
+    }
 }
 
 fn has_cover(scenario: &Scenario) -> bool {
@@ -208,7 +221,7 @@ effects! {
     /// A second surface shares the field of view with the target.
     SecondTarget {
         keys: [key!(target.second_share)],
-        breaks: [&[CramerRaoBound, Likelihood, LikelihoodEstimator, Matched], SEARCHES],
+        breaks: [&[Likelihood, LikelihoodEstimator, Matched], SEARCHES],
         why: "the light of a shot is two echoes of the laser's pulse",
         example: ["target.second_share=0.5", "target.second_distance_m=0.45", "target.second_reflectance=0.9"],
     }
@@ -217,6 +230,7 @@ effects! {
         keys: [key!(cover.fraction), key!(cover.fraction_file), key!(cover.dirt_per_h)],
         when: has_cover,
         breaks: [&[CramerRaoBound], MODELS, SEARCHES],
+        spares: with_template,
         why: "the light of a shot is not one echo of the laser's pulse: the cover window sends some back, which piles up before the echo",
         example: ["cover.fraction=1e-4", "cover.delay_ps=600", "cover.smear_fraction=0.3"],
     }

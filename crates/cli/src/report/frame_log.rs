@@ -10,8 +10,8 @@ use tempfile::SpooledTempFile;
 
 use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
-use tofsim::scenario::glass::GlassTemplate;
 use tofsim::firmware::depth_estimator::datapath::DEPTH_FRACTION;
+use tofsim::scenario::glass::GlassTemplate;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;

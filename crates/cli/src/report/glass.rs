@@ -75,10 +75,7 @@ impl Findings for GlassFindings {
             row("relative standard error", format!("{:.2} %", 100.0 * found.relative_se())),
             row("mean delay from the laser edge", format!("{:.1} ps", found.delay_ps[0])),
             row("width (standard deviation)", format!("{:.1} ps", found.delay_ps[1])),
-            row(
-                "pedestal",
-                format!("{:.0} to {:.0} ps", found.support_ps[0], found.support_ps[1]),
-            ),
+            row("pedestal", format!("{:.0} to {:.0} ps", found.support_ps[0], found.support_ps[1])),
             row("ambient light and dark counts", format!("{rate:.3} +- {rate_se:.3} MHz")),
             row("change over the histograms", change),
         ];

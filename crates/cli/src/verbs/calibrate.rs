@@ -86,7 +86,8 @@ impl PulseArgs {
         let files = HistogramFiles::new(&self.files, self.bin_ps, &self.scenario, &self.set)?;
         let (setup, bins) = (&files.setup, &files.bins);
         if let Some(file) = &setup.scenario.estimator.glass_file {
-            let expected = "expected none: the pulse is fitted to echoes without a cover window's light";
+            let expected =
+                "expected none: the pulse is fitted to echoes without a cover window's light";
             let fault = Input::new("calibrate pulse", expected).field("estimator.glass_file");
             return Err(fault.value(file).into());
         }

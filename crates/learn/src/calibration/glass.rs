@@ -133,16 +133,17 @@ impl GlassCalibration {
     ) -> Result<Self> {
         acquisition.check()?;
         if acquisition.free_running.is_some() {
-            let expected = "expected 0: in MODE 1 it depends on the shots before which of them can have a hit";
+            let expected =
+                "expected 0: in MODE 1 it depends on the shots before which of them can have a hit";
             return Err(Input::new(SOURCE, expected).field("firmware.mode").value(1).into());
         }
         if histograms.is_empty() {
             return Err(Input::new(SOURCE, "expected a histogram at least").into());
         }
         let cells = Cells::new(acquisition, histograms);
-        if let Some(used_up) = (0..cells.hits.len()).find(|&bin| {
-            cells.waiting[bin] - cells.hits[bin] < FEWEST_WAITING
-        }) {
+        if let Some(used_up) =
+            (0..cells.hits.len()).find(|&bin| cells.waiting[bin] - cells.hits[bin] < FEWEST_WAITING)
+        {
             let expected = format!(
                 "expected {FEWEST_WAITING} shots or more that are still waiting then: pile-up hides the rest; \
                  take more histograms, or dim the laser"

@@ -12,6 +12,7 @@ use tofsim::network::Histogram;
 use tofsim::optics::dark::DarkRates;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::Scenario;
+use tofsim::scenario::glass::GlassTemplate;
 use tofsim::scenario::mesh::Mesh;
 use tofsim::sensor::streams::{self, stream};
 use tofsim::sim::fast::histogram::independent_shots;
@@ -37,6 +38,7 @@ struct Setting {
     known_bins: Bins,
     pulse: Pulse,
     dark: DarkRates,
+    glass: Option<Arc<GlassTemplate>>,
     mesh: Option<Arc<Mesh>>,
     /// The array whose pixels the scenes are, if there are several.
     array: Option<Arc<ArraySetup>>,
@@ -146,10 +148,11 @@ impl HistogramSource {
 
     /// Returns the acquisition of the histograms of a setting.
     pub fn acquisition(&self, setting: usize) -> Acquisition<'_> {
-        let Setting { scenario, known_bins, pulse, .. } = &self.settings[setting];
+        let Setting { scenario, known_bins, pulse, glass, .. } = &self.settings[setting];
         let shots = scenario.firmware.shots_per_frame;
         let delay_ps = scenario.laser.delay_ps;
-        Acquisition { delay_ps, ..Acquisition::new(known_bins, shots, pulse) }
+        let glass = glass.as_deref();
+        Acquisition { delay_ps, glass, ..Acquisition::new(known_bins, shots, pulse) }
     }
 
     /// Budget of a white target at a scene's distance, or of a pixel of an array, in an irradiance of 1 W/m^2/nm: what all
@@ -205,8 +208,8 @@ impl Setting {
         }
         let (scenario, pulse) = (setup.scenario.clone(), setup.budget.pulse.clone());
         let (bins, known_bins, dark) = (setup.bins(), setup.known_bins(), setup.dark.clone());
-        let mesh = setup.mesh.clone();
-        Ok(Setting { scenario, bins, known_bins, pulse, dark, mesh, array: None })
+        let (glass, mesh) = (setup.glass.clone(), setup.mesh.clone());
+        Ok(Setting { scenario, bins, known_bins, pulse, dark, glass, mesh, array: None })
     }
 
     fn shots(&self) -> u32 {

@@ -16,7 +16,8 @@ use crate::estimation::likelihood::Model;
 /// Bins as good as none, of each bin.
 const FINER: u64 = 8;
 
-/// The Cramer-Rao bound of a distance, with signal and background unknown too: twice the standard deviation that no
+/// The Cramer-Rao bound of a distance, with signal and background unknown too, and a second echo and the amplitude of a
+/// cover window's light if there are such: twice the standard deviation that no
 /// unbiased estimate is below. `None` if an effect invalidates the model of the light, or no light returns [mm].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Bound {
@@ -40,8 +41,10 @@ impl Bound {
             return Ok(Bound { invalid_because, ..Bound::default() });
         }
         let of = |bins: &Bins| -> Result<Option<f64>> {
-            let model = Model::new(&Acquisition::of(setup, bins, setup.shots(1)))?;
-            Ok(model.cramer_rao_m(&(&setup.budget).into()).map(|sd_m| 2e3 * sd_m))
+            let glass = setup.glass.as_ref().map(|glass| glass.over(&bins.limits_ps()));
+            let acquisition = Acquisition::of(setup, bins, setup.shots(1));
+            let model = Model::new(&Acquisition { glass: glass.as_ref(), ..acquisition })?;
+            Ok(model.bound_of_scene_m(&setup.budget).map(|sd_m| 2e3 * sd_m))
         };
         let (own, scale) = (&setup.params.tdc, setup.params.tdc.decoder.scale);
         let bin = Time::from_fs(scale.bin().fs() / FINER);

@@ -1,5 +1,7 @@
 //! A scenario with some of its effects off.
 
+use std::sync::Arc;
+
 use tofsim::error::Result;
 use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_decoder::Calibration;
@@ -72,6 +74,7 @@ impl Variant {
             (false, true) => Bins::of_tdc(&setup.params.tdc.clone().with_delays(known.evened())),
             (false, false) => bins.clone(),
         };
+        setup.glass = setup.glass.map(|glass| Arc::new(glass.over(&assumed_bins.limits_ps())));
         Ok(Variant { effects, setup, bins, assumed_bins, assumed_shots })
     }
 

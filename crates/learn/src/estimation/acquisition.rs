@@ -164,6 +164,22 @@ impl From<&Budget> for Echo {
     }
 }
 
+/// Returns the echoes of a plain scene, that of the target first and that of a second surface after it: neither a patch nor
+/// the air is one.
+pub fn echoes(budget: &Budget) -> Vec<Echo> {
+    let target = Echo::from(budget);
+    let second = budget.second_per_shot;
+    if second == 0.0 {
+        return vec![target];
+    }
+    if budget.signal_per_shot == 0.0 {
+        return vec![Echo { signal: second, ..target }];
+    }
+    let [near, far] = budget.target_ends();
+    let at = if near == budget.mean_arrival { far } else { near };
+    vec![target, Echo { arrival_ps: ps(at), signal: second, ..target }]
+}
+
 /// Code, begin and end of each stretch of time that has a code, in order of time [code, ps, ps].
 pub fn spans_ps(bins: &Bins) -> impl Iterator<Item = (u16, f64, f64)> {
     bins.spans().iter().map(|span| (span.code, ps(span.from), ps(span.until)))

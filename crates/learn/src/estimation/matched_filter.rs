@@ -167,7 +167,9 @@ impl MatchedFilter {
             step_ps,
             pulses: (0..=(end_ps / step_ps) as usize).map(pulse).collect(),
             sigma_ps,
-            glass: acquisition.glass.map(|glass| Glass::new(glass, pieces.iter().map(|bin| bin.code))),
+            glass: acquisition
+                .glass
+                .map(|glass| Glass::new(glass, pieces.iter().map(|bin| bin.code))),
         })
     }
 
@@ -221,7 +223,11 @@ impl MatchedFilter {
             background_per_ps: fit.background / self.range_ps,
         };
         let deviation = self.signal_deviation(&self.pulses[best], bins, fit, beside);
-        Some(Match { echo, significance: fit.signal / deviation, amplitude: fit.amplitude.max(0.0) })
+        Some(Match {
+            echo,
+            significance: fit.signal / deviation,
+            amplitude: fit.amplitude.max(0.0),
+        })
     }
 
     /// Shots whose hit jitter puts before the laser edge, where it has no code: so many as hits come
@@ -296,12 +302,7 @@ struct Fit {
 }
 
 impl Fit {
-    fn new(
-        pulse: &Pulse,
-        filter: &MatchedFilter,
-        bins: &[Corrected],
-        beside: &Beside,
-    ) -> Self {
+    fn new(pulse: &Pulse, filter: &MatchedFilter, bins: &[Corrected], beside: &Beside) -> Self {
         let [flat_squares, flat_product] = beside.flat;
         let (mut squares, mut with_flat, mut product) = (0.0, 0.0, 0.0);
         let there = bins[pulse.first..].iter().zip(&filter.widths[pulse.first..]);

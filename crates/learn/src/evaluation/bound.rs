@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use tofsim::error::Input;
+use tofsim::scenario::effects::Method;
 
 use crate::dataset::blocks::Last;
 use crate::dataset::source::scaled;
@@ -14,7 +15,8 @@ use crate::estimation::likelihood::Model;
 const MOST_LIGHTS: u64 = 1024;
 
 /// Twice the root mean square of the bound over the grid's lights at each distance; `None` where a
-/// scene tells nothing, as without a laser, and where shots differ or their light is not one echo [mm].
+/// scene tells nothing, as without a laser, and where shots differ or their light is not of one or two echoes and a cover
+/// window with a template [mm].
 ///
 /// # Errors
 /// When the acquisition of a setting makes no sense.
@@ -26,6 +28,11 @@ pub fn two_sd_mm(
     let settings = 0..grid.settings() as usize;
     let models = settings.map(|setting| Model::new(&source.acquisition(setting)));
     let models = models.collect::<Result<Vec<_>, Input>>()?;
+    // Light that is spread in time for another reason is not of one or two echoes and a window with a template.
+    let plain: Vec<_> = source
+        .scenarios()
+        .map(|scenario| scenario.obstacles(Method::CramerRaoBound).next().is_none())
+        .collect();
     let apart = grid.lights().div_ceil(MOST_LIGHTS).max(1);
     let bound = |&distance_m: &f64| {
         let mut white = Last(None);
@@ -33,11 +40,11 @@ pub fn two_sd_mm(
             let scene = Scene { distance_m, ..grid.scene_at(0, light) };
             let white = white.or(scene.setting, |_| source.white(&scene));
             let budget = scaled(white, &scene);
-            if !budget.variation.is_none() || budget.spread.is_some() {
+            let is_valid = budget.spread.is_none() || plain[scene.setting];
+            if !budget.variation.is_none() || !is_valid {
                 return None;
             }
-            let model = &models[scene.setting];
-            let standard_deviation = model.cramer_rao_m(&(&budget).into())?;
+            let standard_deviation = models[scene.setting].bound_of_scene_m(&budget)?;
             Some(standard_deviation * standard_deviation)
         };
         let lights = (0..grid.lights()).step_by(apart as usize);

@@ -222,6 +222,7 @@ fn a_template_is_refused_where_its_model_does_not_hold() {
     let error = Likelihood::new(&acquisition(&other, Some(&template))).unwrap_err().to_string();
     assert!(error.contains("the limit of this instrument's bin"), "{error}");
     let name = |number| ("mine.npy".to_owned(), number);
-    let error = GlassCalibration::new(&Acquisition { free_running, ..acquisition(&bins, None) }, &[], name);
+    let error =
+        GlassCalibration::new(&Acquisition { free_running, ..acquisition(&bins, None) }, &[], name);
     assert!(error.unwrap_err().to_string().contains("firmware.mode = 1: expected 0"));
 }

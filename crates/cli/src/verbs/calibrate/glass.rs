@@ -132,9 +132,8 @@ fn notes(found: &GlassCalibration) -> Vec<Note> {
         let expected = format!("{COARSE} at most");
         Note::new(NoteCode::FewHits, "relative_se", relative_se, expected, text)
     });
-    let changed = found.change.filter(|[change, se]| {
-        change.abs() > CHANGED && change.abs() > 5.0 * se
-    });
+    let changed =
+        found.change.filter(|[change, se]| change.abs() > CHANGED && change.abs() > 5.0 * se);
     let changed = changed.map(|[change, se]| {
         let text = format!(
             "the cover window's light changed by {:+.1} +- {:.1} % over the histograms: the template is their mean; wait \

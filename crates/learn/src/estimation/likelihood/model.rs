@@ -18,9 +18,12 @@ use std::sync::Arc;
 
 use tofsim::error::Input;
 use tofsim::kernel::pulse::Pulse;
+use tofsim::optics::Budget;
 use tofsim::scenario::glass::GlassTemplate;
 
-use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, FreeRunning};
+use crate::estimation::acquisition::{
+    ARRIVAL_PS_PER_M, Acquisition, Echo, FreeRunning, echoes as echoes_of,
+};
 
 use super::arming::Arming;
 use super::solve::{Matrix, inverse_diagonal};
@@ -55,6 +58,8 @@ pub struct Model {
     pub(super) end_ps: f64,
     /// Template of the cover window's light: its hazard from the laser edge to the end of each stretch [1].
     glass: Option<Arc<[f64]>>,
+    /// All photons of the template [1].
+    photons: Option<f64>,
 }
 
 /// Returns the number of echoes among so many coordinates.
@@ -90,7 +95,19 @@ impl Model {
             return Err(Input::new("acquisition", expected).field("estimator.glass_file"));
         }
         let glass = acquisition.glass.map(|glass| cumulated(glass, &stretches));
-        Ok(Model { stretches, known, step_ps, free_running, shots, pulse, sigma_ps, end_ps, glass })
+        let photons = acquisition.glass.map(GlassTemplate::photons);
+        Ok(Model {
+            stretches,
+            known,
+            step_ps,
+            free_running,
+            shots,
+            pulse,
+            sigma_ps,
+            end_ps,
+            glass,
+            photons,
+        })
     }
 
     /// Whether the window's light is in the model.
@@ -187,6 +204,13 @@ impl Model {
             }
             _ => None,
         }
+    }
+
+    /// Returns the bound of the target's distance in a plain scene: with a second surface and the cover window's light, if
+    /// there are such [m].
+    pub fn bound_of_scene_m(&self, budget: &Budget) -> Option<f64> {
+        let amplitude = self.photons.map_or(0.0, |photons| budget.cover_per_shot / photons);
+        self.cramer_rao_of(&echoes_of(budget), amplitude)?.first().copied()
     }
 
     /// Coordinates of two echoes, with the background of the first.
@@ -361,7 +385,9 @@ fn cumulated(glass: &GlassTemplate, stretches: &[Stretch]) -> Arc<[f64]> {
     }
     let mut sum = 0.0;
     let until = |(stretch, length_ps): (&Stretch, &f64)| {
-        if let Some((code, bin)) = code(stretch).and_then(|code| Some((code, glass.bins().get(code)?))) {
+        if let Some((code, bin)) =
+            code(stretch).and_then(|code| Some((code, glass.bins().get(code)?)))
+        {
             sum += bin.hazard * length_ps / widths_ps[code];
         }
         sum

@@ -23,9 +23,8 @@ pub struct Misfit {
 impl Misfit {
     /// For a template.
     pub fn new(glass: &GlassTemplate) -> Self {
-        let error = |bin: &tofsim::scenario::glass::GlassBin| {
-            (bin.hazard > 0.0).then_some(bin.hazard_se)
-        };
+        let error =
+            |bin: &tofsim::scenario::glass::GlassBin| (bin.hazard > 0.0).then_some(bin.hazard_se);
         Misfit { errors: glass.bins().iter().map(error).collect() }
     }
 
@@ -37,7 +36,8 @@ impl Misfit {
             let (hits, expected) = (f64::from(hits), shots * p);
             if let Some(error) = error.filter(|_| expected >= FEW) {
                 let of_template = left * amplitude * error;
-                sum += (hits - expected).powi(2) / (expected * (1.0 - p) + of_template * of_template);
+                sum +=
+                    (hits - expected).powi(2) / (expected * (1.0 - p) + of_template * of_template);
                 count += 1.0;
             }
             left -= hits;

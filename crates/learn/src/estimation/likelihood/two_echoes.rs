@@ -82,9 +82,14 @@ impl Likelihood {
             None => self.both_beside(histogram, echo, self.model.coordinates(echo), |at| at),
             Some([amplitude, _]) => {
                 let at = self.model.coordinates_with(echo, amplitude);
-                self.both_beside(histogram, echo, at, |[one, signal, other, other_signal, background]| {
-                    [one, signal, other, other_signal, amplitude, background]
-                })
+                self.both_beside(
+                    histogram,
+                    echo,
+                    at,
+                    |[one, signal, other, other_signal, background]| {
+                        [one, signal, other, other_signal, amplitude, background]
+                    },
+                )
             }
         }
     }

@@ -22,7 +22,9 @@ pub struct PedestalWatch {
 impl PedestalWatch {
     /// Adds the estimates of a frame.
     pub fn add(&mut self, estimates: &[Estimate]) {
-        let Some(pedestal) = estimates.iter().find_map(|estimate| estimate.pedestal) else { return };
+        let Some(pedestal) = estimates.iter().find_map(|estimate| estimate.pedestal) else {
+            return;
+        };
         self.frames += 1.0;
         self.misfit += pedestal.misfit;
         if pedestal.relative_se > 0.0 {
