@@ -105,7 +105,7 @@ fn is_free_running(scenario: &Scenario) -> bool {
 /// Returns the methods that have the cover window's light in their model, if its template is known.
 fn with_template(scenario: &Scenario) -> &'static [Method] {
     match scenario.estimator.glass_file {
-        Some(_) => &[CramerRaoBound, Likelihood, TwoEchoes, Matched],
+        Some(_) => &[CramerRaoBound, Likelihood, TwoEchoes, LikelihoodEstimator, SecondOpinion, Matched],
         None => &[],
     }
 }

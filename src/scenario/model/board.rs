@@ -188,7 +188,7 @@ table! {
         #[schemars(range(min = 0, max = 16_777_215), extend("unit" = "shots", "source" = "choice: the actual number", "formerly" = "told_shots"))]
         pub assumed_shots: u64 = 0,
         /// Template of the cover window's light: the `glass.csv` of `tofsim calibrate glass`, for `likelihood`,
-        /// `two-echoes` and `matched`. They fit its amplitude along with the echo.
+        /// `two-echoes`, `matched`, and `likelihood_estimator` in the firmware. They fit its amplitude along with the echo.
         #[schemars(extend("source" = "choice: none"))]
         pub glass_file: Option<String> = None,
     }

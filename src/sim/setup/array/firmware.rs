@@ -55,6 +55,10 @@ impl ArraySetup {
                 let expected = "expected ones or leading with array.chains_file: the order of the taps is that of one chain";
                 return Err(fault("tdc.decoder", &Decoder::Reordered.name(), expected));
             }
+            if let Some(name) = &setup.scenario.estimator.glass_file {
+                let expected = "expected none with array.chains_file: a template is for the bins of one chain";
+                return Err(fault("estimator.glass_file", name, expected));
+            }
             params.tdc = first.converter.tdc.clone();
             params.channels = others.iter().map(|other| other.converter.tdc.clone()).collect();
             let edges: Option<Vec<_>> =
