@@ -108,15 +108,11 @@ module likelihood_estimator #(
     wire [BinBits+1:0] box_sum;
     wire [CountBits-1:0] ambient_ended;
     wire [BinBits+10:0] arrival;
-    wire [23:0] strength, ambient;
-    // Without a glass nobody reads them.
-    // verilator lint_off UNUSEDSIGNAL
-    wire [23:0] glass;
+    wire [23:0] strength, ambient, glass;
     wire [16:0] word_glass;
     wire [4:0] hazard_bits;
     wire [9:0] hazard_reciprocal;
     wire [(CountBits > 16 ? CountBits + 8 : 24)-1:0] weight_first;
-    // verilator lint_on UNUSEDSIGNAL
     wire word_window;
     wire [25:0] glass_light;
     wire signed [CountBits+23:0] sum_14;
@@ -329,34 +325,28 @@ module likelihood_estimator #(
         .weight_first(weight_first)
     );
 
-    generate
-        if (Glass) begin : g_glass
-            likelihood_glass #(
-                .CountBits(CountBits)
-            ) likelihood_glass (
-                .clk_sys(clk_sys),
-                .pass(sums),
-                .phase(phase),
-                .glass(glass),
-                .word_glass(word_glass),
-                .hazard_bits(hazard_bits),
-                .hazard_reciprocal(hazard_reciprocal),
-                .residual(residual),
-                .weight_first(weight_first),
-                .share(share),
-                .slope(slope),
-                .glass_light(glass_light),
-                .sum_14(sum_14),
-                .sum_24(sum_24),
-                .sum_34(sum_34),
-                .sum_44(sum_44),
-                .score_4(score_4)
-            );
-        end else begin : g_no_glass
-            assign glass_light = 26'd0;
-            assign {sum_14, sum_24, sum_34, sum_44, score_4} = 0;
-        end
-    endgenerate
+    // Without a glass it stays in place, with constant inputs: a generate block would put its own scope into its path.
+    likelihood_glass #(
+        .CountBits(CountBits)
+    ) likelihood_glass (
+        .clk_sys(clk_sys),
+        .pass(Glass && sums),
+        .phase(Glass && phase),
+        .glass(Glass ? glass : 24'd0),
+        .word_glass(word_glass),
+        .hazard_bits(hazard_bits),
+        .hazard_reciprocal(hazard_reciprocal),
+        .residual(Glass ? residual : {CountBits + 9{1'b0}}),
+        .weight_first(weight_first),
+        .share(share),
+        .slope(slope),
+        .glass_light(glass_light),
+        .sum_14(sum_14),
+        .sum_24(sum_24),
+        .sum_34(sum_34),
+        .sum_44(sum_44),
+        .score_4(score_4)
+    );
 
     likelihood_scan #(
         .Used(Used),
