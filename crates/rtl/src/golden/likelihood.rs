@@ -135,7 +135,7 @@ impl<'a> Estimations<'a> {
         let kind = self.begun / WHOLE % KINDS;
         if self.params.glass.bins() > 0 {
             // Now and then it is beyond what the estimator takes.
-            let [least, most] = if draw.one_in(4) { [0.3, 2.5] } else { [0.6, 1.8] };
+            let [least, most] = [[0.3, 0.49], [2.02, 2.5], [0.6, 1.8], [0.6, 1.8]][draw.below(4) as usize];
             self.pedestal = least + (most - least) * (draw.below(1000) as f64 / 1000.0);
         }
         self.histogram =
