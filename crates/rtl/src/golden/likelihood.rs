@@ -134,8 +134,12 @@ impl<'a> Estimations<'a> {
         self.begun += 1;
         let kind = self.begun / WHOLE % KINDS;
         if self.params.glass.bins() > 0 {
-            // Now and then it is beyond what the estimator takes.
-            let [least, most] = [[0.3, 0.49], [2.02, 2.5], [0.6, 1.8], [0.6, 1.8]][draw.below(4) as usize];
+            // Of kinds that do not depend on it, it is beyond what the estimator takes.
+            let [least, most] = match kind {
+                RISING => [0.3, 0.49],
+                0 | FALLING => [2.02, 2.5],
+                _ => [0.6, 1.8],
+            };
             self.pedestal = least + (most - least) * (draw.below(1000) as f64 / 1000.0);
         }
         self.histogram =
