@@ -325,6 +325,7 @@ module likelihood_estimator #(
         .weight_first(weight_first)
     );
 
+    wire signed [CountBits+8:0] glass_residual = Glass ? residual : {CountBits + 9{1'b0}};
     // Without a glass it stays in place, with constant inputs: a generate block would put its own scope into its path.
     likelihood_glass #(
         .CountBits(CountBits)
@@ -336,7 +337,7 @@ module likelihood_estimator #(
         .word_glass(word_glass),
         .hazard_bits(hazard_bits),
         .hazard_reciprocal(hazard_reciprocal),
-        .residual(Glass ? residual : {CountBits + 9{1'b0}}),
+        .residual(glass_residual),
         .weight_first(weight_first),
         .share(share),
         .slope(slope),
