@@ -8,6 +8,7 @@ mod cells;
 mod clocks;
 mod decoders;
 mod gates;
+mod glass;
 mod record;
 mod recorded;
 mod rounding;

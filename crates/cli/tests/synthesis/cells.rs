@@ -56,7 +56,10 @@ impl Cells {
     }
 
     fn by(sources: &Sources, (top, option): (&str, &str), name: &str, command: &str) -> Self {
-        let sources = yosys::needed(sources, top);
+        let mut needed = yosys::needed(sources, top);
+        // A memory that only the command names.
+        needed.extend(sources.clone().into_iter().filter(|(name, _)| command.contains(name)));
+        let sources = needed;
         let script = format!(
             "read_verilog {}\n{command}\nsynth_xilinx -family xc7 -top {top}{option}\n\
              tee -q -o stat.json stat -json\n\
