@@ -64,7 +64,9 @@ const ALONE: &str = "in this histogram";
 
 /// The box of so many bins with the clearest rise after the pedestal's peak.
 fn second_rise(cells: &Cells, ambient: &Ambient, length: usize) -> Option<Range<usize>> {
-    let boxes: Vec<_> = cells.boxes_of(length).collect();
+    // All light before the laser edge comes with it, which is a peak by itself.
+    let is_later = |bins: &Range<usize>| cells.limits[bins.start].1[0] > 0.0;
+    let boxes: Vec<_> = cells.boxes_of(length).filter(is_later).collect();
     let rates: Vec<_> = boxes.iter().map(|bins| Ambient::of(cells, bins.clone())).collect();
     let first = (0..boxes.len()).find(|&place| ambient.excess(cells, &boxes[place]) > SURE)?;
     // The peak of the pedestal: where the rate first falls by more than chance.
