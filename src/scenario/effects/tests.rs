@@ -97,3 +97,21 @@ fn the_key_that_makes_more_than_one_echo_is_named() {
     let rain = |s: &mut Scenario| s.atmosphere.rain_mm_h = 5.0;
     assert_eq!(key(&rain), named("atmosphere.rain_mm_h", "5"));
 }
+
+#[test]
+fn a_template_of_the_window_leaves_the_methods_valid_that_take_it() {
+    let behind = |file: Option<&str>| {
+        with(|s| (s.cover.fraction, s.estimator.glass_file) = (1e-4, file.map(Into::into)))
+    };
+    let (without, with_template) = (behind(None), behind(Some("glass.csv")));
+    for method in [Method::CramerRaoBound, Method::Likelihood, Method::TwoEchoes, Method::Matched] {
+        assert_eq!(found(&without, method)[0].0, "cover.fraction", "{method:?}");
+        assert_eq!(found(&with_template, method), [], "{method:?}");
+    }
+    for method in [Method::LikelihoodEstimator, Method::Centroid, Method::Peak] {
+        assert_eq!(found(&with_template, method), found(&without, method), "{method:?}");
+    }
+    let two = with(|s| s.target.second_share = 0.5);
+    assert_eq!(found(&two, Method::CramerRaoBound), []);
+    assert_eq!(found(&two, Method::Likelihood).len(), 1);
+}

@@ -76,7 +76,11 @@ impl Cells {
 
     /// Boxes, by their first bin.
     fn boxes(&self) -> impl Iterator<Item = Range<usize>> {
-        let length = self.box_bins;
+        self.boxes_of(self.box_bins)
+    }
+
+    /// Boxes of so many bins.
+    fn boxes_of(&self, length: usize) -> impl Iterator<Item = Range<usize>> {
         (0..=self.limits.len() - length).map(move |from| from..from + length)
     }
 

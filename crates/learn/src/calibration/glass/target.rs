@@ -32,7 +32,10 @@ pub fn check(
     histograms: &[Histogram],
     name: &impl Fn(usize) -> (String, usize),
 ) -> Result<()> {
-    let found = second_rise(cells, ambient).map(|bins| {
+    // Short boxes show the dip before a near echo, long ones a faint echo.
+    let lengths = [cells.box_bins, cells.box_bins.div_ceil(2)];
+    let found = lengths.iter().find_map(|&length| second_rise(cells, ambient, length));
+    let found = found.map(|bins| {
         let hits = |one: &Histogram| hits(cells, one, &bins) as u64;
         let most = (0..histograms.len()).max_by_key(|&k| hits(&histograms[k])).unwrap_or(0);
         (most, bins, "in all histograms together")
@@ -59,9 +62,11 @@ pub fn check(
 
 const ALONE: &str = "in this histogram";
 
-/// The box with the clearest rise after the pedestal's peak.
-fn second_rise(cells: &Cells, ambient: &Ambient) -> Option<Range<usize>> {
-    let boxes: Vec<_> = cells.boxes().collect();
+/// The box of so many bins with the clearest rise after the pedestal's peak.
+fn second_rise(cells: &Cells, ambient: &Ambient, length: usize) -> Option<Range<usize>> {
+    // All light before the laser edge comes with it, which is a peak by itself.
+    let is_later = |bins: &Range<usize>| cells.limits[bins.start].1[0] > 0.0;
+    let boxes: Vec<_> = cells.boxes_of(length).filter(is_later).collect();
     let rates: Vec<_> = boxes.iter().map(|bins| Ambient::of(cells, bins.clone())).collect();
     let first = (0..boxes.len()).find(|&place| ambient.excess(cells, &boxes[place]) > SURE)?;
     // The peak of the pedestal: where the rate first falls by more than chance.
