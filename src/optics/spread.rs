@@ -31,7 +31,7 @@ pub struct Spread {
     pub from: f64,
     /// Time between nodes [fs].
     pub step: f64,
-    /// Cumulative fraction at the nodes, for each [`Origin`]; empty if there is no such light [1].
+    /// Cumulative fraction at the nodes, for each of the [`ORIGINS`]; empty if there is no such light [1].
     parts: [Arc<[f64]>; ORIGINS],
     /// Arrival times of the middle of the pulse from the nearest and from the farthest part of the target.
     pub ends: [Time; 2],

@@ -198,10 +198,10 @@ mod tests {
         let of_a_klux = |wavelength_nm, sigma_nm| of_sun_w_m2_nm(1.0, wavelength_nm, sigma_nm);
         // Means of the standard's 1 nm values with the weights of the passbands, by another program.
         for (wavelength_nm, sigma_nm, expected) in [
-            (940.0, 10.0, 3.383_92e-3),
-            (905.0, 10.0, 6.591_6e-3),
-            (850.0, 10.0, 8.875_1e-3),
-            (940.0, 30.0, 4.988_4e-3),
+            (940.0, 10.0, 3.383_93e-3),
+            (905.0, 10.0, 6.591_55e-3),
+            (850.0, 10.0, 8.875_06e-3),
+            (940.0, 30.0, 4.989_25e-3),
         ] {
             let found = of_a_klux(wavelength_nm, sigma_nm);
             assert!((found / expected - 1.0).abs() < 1e-4, "{found} for {expected}");

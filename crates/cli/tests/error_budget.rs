@@ -53,7 +53,7 @@ fn the_object_has_each_effect_with_figures_or_a_reason() {
     assert_eq!((&found["frames_per_variant"], &found["scenario"]), (&40.into(), &"kc705".into()));
     assert!(found["notes"].is_array() && found["hash"].is_string() && found["set"].is_array());
     let point = &found["points"][0];
-    assert_eq!(point["effects"].as_array().unwrap().len(), 19);
+    assert_eq!(point["effects"].as_array().unwrap().len(), 21);
     for row in point["effects"].as_array().unwrap() {
         let is_on = row["state"] == "on";
         assert_eq!(row["alone"].is_object() && row["all_but"].is_object(), is_on, "{row}");

@@ -25,6 +25,7 @@ mod estimate;
 mod evaluate;
 mod evaluate_array;
 mod fidelities;
+mod glass;
 mod golden;
 mod grid;
 mod ila_array;

@@ -43,7 +43,7 @@ def test_hits_are_told_apart_by_what_caused_them() -> None:
     frames = tofsim.simulate("bright", 2, "cycle", by_cause=True)
     causes = frames.by_cause
     assert causes is not None
-    assert set(causes) == {"dark", "ambient", "signal", "afterpulse", "unknown"}
+    assert set(causes) == {"dark", "ambient", "cover", "signal", "afterpulse", "unknown"}
     assert (np.sum(list(causes.values()), axis=0) == frames.histograms).all()
     assert causes["ambient"].sum() > 0 and causes["signal"].sum() > 0
     assert frames.histograms.tobytes() == tofsim.simulate("bright", 2).histograms.tobytes()

@@ -9,7 +9,8 @@ use crate::kernel::Time;
 
 use crate::optics::variation::Variation;
 
-use super::{Cause, Hazard, cover_beside, cumulative, growth};
+use super::Hazard;
+use super::cause::{Cause, cover_beside, cumulative, growth};
 
 /// Half width of the integration range [standard deviations].
 const REACH: i32 = 6;
