@@ -37,14 +37,14 @@ const SLOW: [&str; 15] = [
     "tof_top.reordered",
 ];
 
-/// The reports of a `verify` that has to pass.
-pub fn verified(args: &[&str]) -> Vec<Value> {
+/// The reports of a `verify` that has to pass; `check` names it.
+pub fn verified(check: &str, args: &[&str]) -> Vec<Value> {
     let folder = common::empty();
     let output = common::output(folder.path(), &[&["verify", "--json"], args].concat());
     let text = String::from_utf8(output.stdout).unwrap();
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
     let reports: Value = serde_json::from_str(&text).unwrap_or_else(|_| panic!("{errors}"));
-    assert_eq!(output.status.code(), Some(0), "{text}{errors}");
+    assert_eq!(output.status.code(), Some(0), "{check}: {text}{errors}");
     assert_eq!(reports["passed"], true);
     let blocks = reports["blocks"].as_array().unwrap().clone();
     for block in &blocks {

@@ -61,7 +61,9 @@ pub fn verified_as<Name: AsRef<str> + Sync>(
         let name = name.as_ref();
         let check = format!("{name} in {simulator} {what}");
         let inputs = inputs(simulator, name, options);
-        let answer = record.answer(&check, &inputs, || Ok(verify(simulator, name, options)));
+        let answer = record.answer(&check, &inputs, || {
+            Ok(verify(&check, &[&["--simulator", simulator, "--block", name], options].concat()))
+        });
         Passed::read(&answer)
     };
     names.par_iter().map(of).collect()
@@ -77,10 +79,9 @@ impl Passed {
 }
 
 /// Runs a block, which has to pass; what is known of it.
-fn verify(simulator: &str, name: &str, options: &[&str]) -> String {
-    let args = [&["--simulator", simulator, "--block", name], &STRICTLY[..], options].concat();
-    let blocks = super::verified(&args);
-    let [block] = &blocks[..] else { panic!("{name}: {blocks:?}") };
+fn verify(check: &str, args: &[&str]) -> String {
+    let blocks = super::verified(check, &[&STRICTLY[..], args].concat());
+    let [block] = &blocks[..] else { panic!("{check}: {blocks:?}") };
     let goals = &block["goals"];
     format!("{} cycles, {} of {} goals", block["cycles"], goals["met"], goals["of"])
 }
