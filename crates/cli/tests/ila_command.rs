@@ -34,12 +34,13 @@ static CORE: LazyLock<Record> = LazyLock::new(|| {
 
 const SCRIPT: &str = "crates/rtl/tests/board/vivado.tcl";
 
-/// All that Yosys reads: the script, the core, and what is in `rtl_ref`.
+/// All that Yosys reads: the script, the core, and Verilog, memories and scripts of `rtl_ref`.
 fn inputs_of_core(root: &Path, core: &str) -> Inputs {
     let text = |file: &str| fs::read_to_string(root.join(file)).unwrap();
     let inputs = Inputs::default().version("yosys", "-V").text("core", core);
     let inputs = inputs.text("script", text(SCRIPT));
-    files(&root.join("rtl_ref")).iter().fold(inputs, |inputs, file| {
+    let sources = files(&root.join("rtl_ref"));
+    sources.iter().filter(|file| !file.ends_with(".md")).fold(inputs, |inputs, file| {
         let text = text(&format!("rtl_ref/{file}"));
         if file.ends_with(".v") { inputs.verilog(file, &text) } else { inputs.text(file, text) }
     })
