@@ -9,6 +9,8 @@ use crate::hierarchy::Entry;
 const OPTION: &str = "--signals";
 /// Number of names suggested for a glob without a match.
 const OFFERED: usize = 3;
+/// Part of a glob that is compared with names, all of which are shorter [characters].
+const LONGEST: usize = 200;
 
 /// Selects the entries that match any of `globs`; without globs, all entries but the RAM's words.
 ///
@@ -68,10 +70,11 @@ fn names(entry: &Entry) -> [String; 3] {
 
 /// Returns the paths below the top that are most similar to `glob`.
 fn nearest(glob: &str, candidates: &[Entry]) -> String {
-    let plain: String = glob.chars().filter(|c| !"*?[]{}".contains(*c)).collect();
+    let plain = glob.chars().filter(|c| !"*?[]{}".contains(*c)).take(LONGEST);
+    let plain = plain.collect::<String>().to_lowercase();
     let score = |candidate: &Entry| {
-        let likeness = names(candidate)
-            .map(|name| strsim::normalized_damerau_levenshtein(&plain.to_lowercase(), &name));
+        let likeness =
+            names(candidate).map(|name| strsim::normalized_damerau_levenshtein(&plain, &name));
         (likeness.into_iter().fold(0.0, f64::max), candidate.below_top())
     };
     let outside = candidates.iter().filter(|candidate| !candidate.in_ram());

@@ -1,11 +1,14 @@
 //! `tofsim ila capture` as users and scripts meet it.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
+use std::sync::LazyLock;
 
 use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup};
 
 use crate::common::{self, empty, files, json, refused, setup, stdout};
+use crate::record::{Inputs, Record};
 
 #[test]
 fn the_command_writes_all_forms_and_says_when_it_triggered() {
@@ -24,11 +27,30 @@ fn the_command_writes_all_forms_and_says_when_it_triggered() {
     assert!(table.contains("triggered") && table.contains("clk_sys"), "{table}");
 }
 
+static CORE: LazyLock<Record> = LazyLock::new(|| {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/ila_command/core.record");
+    Record::read(path, "cargo test -p tofsim-cli --test cli the_core_for_vivado")
+});
+
+const SCRIPT: &str = "crates/rtl/tests/board/vivado.tcl";
+
+/// All that Yosys reads: the script, the core, and Verilog, memories and scripts of `rtl_ref`.
+fn inputs_of_core(root: &Path, core: &str) -> Inputs {
+    let text = |file: &str| fs::read_to_string(root.join(file)).unwrap();
+    let inputs = Inputs::default().version("yosys", "-V").text("core", core);
+    let inputs = inputs.text("script", text(SCRIPT));
+    let sources = files(&root.join("rtl_ref"));
+    sources.iter().filter(|file| !file.ends_with(".md")).fold(inputs, |inputs, file| {
+        let text = text(&format!("rtl_ref/{file}"));
+        if file.ends_with(".v") { inputs.verilog(file, &text) } else { inputs.text(file, text) }
+    })
+}
+
 /// The commands of Vivado are those of the script's own test: Yosys finds each net, and its width, in the board's top.
 #[test]
 fn the_core_for_vivado_has_the_probes_of_the_configuration_on_nets_of_the_board() {
     let folder = empty();
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let tcl = |probes: &str| stdout(folder.path(), &["ila", "tcl", "--probes", probes, "kc705"]);
     let shot = tcl("shot");
     for line in [
@@ -42,23 +64,31 @@ fn the_core_for_vivado_has_the_probes_of_the_configuration_on_nets_of_the_board(
         assert!(shot.lines().any(|other| other == line), "{line}: {shot}");
     }
     let all = [&shot, &tcl("fig_6_6"), &tcl("fig_6_21")].map(String::as_str).concat();
-    let run = |ila: &str| {
+    let run = |core: &str| {
         let file = folder.path().join("ila.tcl");
-        fs::write(&file, ila).unwrap();
+        fs::write(&file, core).unwrap();
         let mut yosys = Command::new("yosys");
-        yosys.arg("-c").arg(format!("{root}/crates/rtl/tests/board/vivado.tcl"));
-        yosys.env("SCRIPT", format!("{root}/rtl_ref/kc705.tcl")).env("SLACK", "max 0.1 min 0.1");
+        yosys.arg("-c").arg(root.join(SCRIPT));
+        yosys.env("SCRIPT", root.join("rtl_ref/kc705.tcl")).env("SLACK", "max 0.1 min 0.1");
         yosys.env("OUT", folder.path().join("out")).env("ILA", file);
         let done = yosys.output().expect("yosys: apt-get install yosys");
         let said = [done.stdout, done.stderr].concat();
         (done.status.success(), String::from_utf8_lossy(&said).into_owned())
     };
-    let (is_done, said) = run(&all);
-    assert!(is_done, "{said}");
-    assert!(said.contains("create_debug_port u_ila_0 probe"), "{said}");
-    assert!(said.contains("write_debug_probes -force"), "{said}");
-    let (is_done, _) = run(&all.replace("tof_top/spad_rst}", "tof_top/spad_reset}"));
-    assert!(!is_done, "a net that is not there");
+    let done = CORE.answer("the nets of the core", &inputs_of_core(&root, &all), || {
+        let (is_done, said) = run(&all);
+        assert!(is_done, "{said}");
+        assert!(said.contains("create_debug_port u_ila_0 probe"), "{said}");
+        assert!(said.contains("write_debug_probes -force"), "{said}");
+        Ok("found".to_owned())
+    });
+    assert_eq!(done, "found");
+    let other = all.replace("tof_top/spad_rst}", "tof_top/spad_reset}");
+    let done = CORE.answer("a net that is not there", &inputs_of_core(&root, &other), || {
+        assert!(!run(&other).0);
+        Ok("refused".to_owned())
+    });
+    assert_eq!(done, "refused");
 }
 
 #[test]

@@ -10,8 +10,13 @@ use tofsim_rtl::verify::task::DEFAULT;
 
 use crate::common;
 
+use recorded::{LOCKSTEP, Passed};
+
 /// Lines of a block's own bench, at least.
 const CYCLES: u64 = 20_000;
+
+/// A frame of a hundredth of the shots.
+const SHORT: [&str; 2] = ["-s", "firmware.shots_per_frame=300"];
 
 /// Configurations that take Icarus more than five seconds each: `./check --full` runs them.
 const SLOW: [&str; 15] = [
@@ -32,14 +37,14 @@ const SLOW: [&str; 15] = [
     "tof_top.reordered",
 ];
 
-/// The reports of a `verify` that has to pass.
-pub fn verified(args: &[&str]) -> Vec<Value> {
+/// The reports of a `verify` that has to pass; `check` names it.
+pub fn verified(check: &str, args: &[&str]) -> Vec<Value> {
     let folder = common::empty();
     let output = common::output(folder.path(), &[&["verify", "--json"], args].concat());
     let text = String::from_utf8(output.stdout).unwrap();
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
     let reports: Value = serde_json::from_str(&text).unwrap_or_else(|_| panic!("{errors}"));
-    assert_eq!(output.status.code(), Some(0), "{text}{errors}");
+    assert_eq!(output.status.code(), Some(0), "{check}: {text}{errors}");
     assert_eq!(reports["passed"], true);
     let blocks = reports["blocks"].as_array().unwrap().clone();
     for block in &blocks {
@@ -72,9 +77,7 @@ fn late_and_early(names: &[String]) -> impl Iterator<Item = (Vec<String>, &'stat
 /// comes later, for a fraction of the time.
 fn pass_in_icarus(names: &[String]) {
     for (names, cycles) in late_and_early(names) {
-        let named = names.iter().flat_map(|name| ["--block", name]);
-        let blocks = verified(&["--cycles", cycles].into_iter().chain(named).collect::<Vec<_>>());
-        assert_eq!(blocks.len(), names.len());
+        recorded::verified("icarus", &names, &["--cycles", cycles]);
     }
 }
 
@@ -87,9 +90,12 @@ fn every_block_passes_in_icarus() {
 #[test]
 #[ignore = "long: ./check --full"]
 fn every_slow_configuration_passes_in_icarus() {
-    for (names, cycles) in late_and_early(&SLOW.map(str::to_owned)) {
-        recorded::verified("icarus", &names, &["--cycles", cycles]);
-    }
+    pass_in_icarus(&SLOW.map(str::to_owned));
+}
+
+/// Verifies a run of the whole in a simulator.
+fn whole_passes(simulator: &str, options: &[&str]) -> Passed {
+    recorded::verified(simulator, &["tof_top"], options).pop().unwrap()
 }
 
 /// Of an array with two banks. Those of the other estimators are configurations of `tof_top`.
@@ -98,11 +104,11 @@ fn every_slow_configuration_passes_in_icarus() {
 fn whole_images_of_the_likelihood_estimator_pass_in_both_simulators() {
     let keys = ["array.rows=4", "array.columns=3", "firmware.shots_per_frame=300"];
     let set = keys.iter().flat_map(|key| ["-s", *key]);
-    let image: Vec<_> = ["--top", "--scenario", "array"].into_iter().chain(set).collect();
+    let image: Vec<_> = ["--scenario", "array"].into_iter().chain(set).collect();
     for simulator in ["icarus", "verilator"] {
-        let blocks = verified(&[&image[..], &["--simulator", simulator]].concat());
+        let passed = whole_passes(simulator, &image);
         // Four rows whose estimates last longer than their shots.
-        assert!(blocks[0]["cycles"].as_u64().unwrap() > 4 * 3 * 3781, "{blocks:?}");
+        assert!(passed.cycles > 4 * 3 * 3781, "{passed:?}");
     }
 }
 
@@ -120,28 +126,21 @@ fn every_configuration_of_every_block_passes_in_verilator() {
 
 #[test]
 fn a_frame_of_sixteen_neurons_passes_in_icarus() {
-    verified(&[
-        "--top",
-        "-s",
-        "firmware.shots_per_frame=300",
-        "-s",
-        "estimator.network=uniform-16",
-    ]);
+    whole_passes("icarus", &[&SHORT[..], &["-s", "estimator.network=uniform-16"]].concat());
 }
 
 #[test]
 fn two_frames_of_300_shots_pass_in_icarus() {
     for rate in 0..4 {
         let rate = format!("firmware.laser_freq={rate}");
-        let short = ["--top", "--frames", "2", "-s", "firmware.shots_per_frame=300", "-s", &rate];
-        verified(&short);
+        whole_passes("icarus", &[&SHORT[..], &["--frames", "2", "-s", &rate]].concat());
     }
 }
 
 #[test]
 fn the_validation_scenarios_pass_in_icarus() {
     for scenario in ["spad_validation", "histogram_validation", "estimator_validation"] {
-        verified(&["--top", "--scenario", scenario, "--cycles", "20000"]);
+        whole_passes("icarus", &["--scenario", scenario, "--cycles", "20000"]);
     }
 }
 
@@ -153,10 +152,11 @@ fn the_centroid_estimator_passes_with_other_windows_and_scales() {
         ["half_width=8", "background=false", "offset_m=0.0338", "slope_m=0.00356"],
     ] {
         let keys = keys.map(|key| format!("estimator.centroid_{key}"));
-        let set = keys.iter().flat_map(|key| ["-s", key]);
-        let args: Vec<_> = ["--block", "centroid_estimator"].into_iter().chain(set).collect();
-        let blocks = verified(&args);
-        assert_eq!(blocks[0]["goals"]["met"], blocks[0]["goals"]["of"], "{}", blocks[0]);
+        let set: Vec<_> = keys.iter().flat_map(|key| ["-s", key]).collect();
+        let [passed] = &recorded::verified("icarus", &["centroid_estimator"], &set)[..] else {
+            panic!()
+        };
+        assert_eq!(passed.goals.0, passed.goals.1, "{keys:?}");
     }
 }
 
@@ -164,22 +164,20 @@ fn the_centroid_estimator_passes_with_other_windows_and_scales() {
 #[ignore = "long: ./check --full"]
 fn the_top_passes_with_the_centroid_estimator_in_its_socket() {
     let kind = ["-s", "estimator.kind=centroid"];
-    let short = ["--top", "--frames", "2", "-s", "firmware.shots_per_frame=300"];
     for simulator in ["icarus", "verilator"] {
-        let blocks = verified(&[&["--simulator", simulator], &kind[..], &short].concat());
+        let two = [&SHORT[..], &["--frames", "2"], &kind].concat();
+        let cycles = whole_passes(simulator, &two).cycles;
         let frames = 2 * (300 * 6 + 274 + 312 + 1);
-        let cycles = blocks[0]["cycles"].as_u64().unwrap();
         assert!((frames..frames + 8).contains(&cycles), "{cycles} cycles");
     }
-    verified(&[&["--top", "--scenario", "estimator_validation"], &kind[..]].concat());
+    whole_passes("icarus", &[&["--scenario", "estimator_validation"], &kind[..]].concat());
 }
 
 #[test]
 fn uneven_chains_and_passive_quenching_pass_in_icarus() {
     for chain in ["table6_3", "ideal", "kintex7"] {
         let chain = format!("tdc.profile={chain}");
-        let short = ["--top", "-s", "firmware.shots_per_frame=300", "-s", "firmware.mode=1"];
-        verified(&[&short[..], &["-s", &chain]].concat());
+        whole_passes("icarus", &[&SHORT[..], &["-s", "firmware.mode=1", "-s", &chain]].concat());
     }
 }
 
@@ -190,8 +188,11 @@ fn a_chain_whose_taps_are_reached_out_of_order_passes_in_icarus() {
     let chain = folder.path().join("uneven.toml");
     std::fs::write(&chain, format!("offset_ps = 2230.0\ntap_delays_ps = {delays:?}\n")).unwrap();
     let chain = format!("tdc.profile={}", chain.display());
-    verified(&["--block", "carry_chain", "--block", "tdc", "-s", &chain]);
-    verified(&["--top", "-s", "firmware.shots_per_frame=300", "-s", &chain]);
+    let in_icarus = |names: &[&str], options: &[&str]| {
+        recorded::verified_as(&LOCKSTEP, "with uneven taps", "icarus", names, options)
+    };
+    in_icarus(&["carry_chain", "tdc"], &["-s", &chain]);
+    in_icarus(&["tof_top"], &[&SHORT[..], &["-s", &chain]].concat());
 }
 
 #[test]
@@ -199,10 +200,13 @@ fn each_calibration_of_a_silicon_chain_passes_in_icarus() {
     let folder = common::empty();
     for converter in &common::CONVERTERS[4..] {
         let keys = common::converter(*converter, folder.path());
-        let set = keys.iter().flat_map(|key| ["-s", key]);
-        verified(&["--block", "tdc_decoder"].into_iter().chain(set.clone()).collect::<Vec<_>>());
-        let top = ["--top", "-s", "firmware.shots_per_frame=300"];
-        verified(&top.into_iter().chain(set).collect::<Vec<_>>());
+        let set: Vec<_> = keys.iter().flat_map(|key| ["-s", key]).collect();
+        let in_icarus = |name: &str, options: &[&str]| {
+            let what = format!("with {}", converter.join(", calibration "));
+            recorded::verified_as(&LOCKSTEP, &what, "icarus", &[name], options)
+        };
+        in_icarus("tdc_decoder", &set);
+        in_icarus("tof_top", &[&SHORT[..], &set].concat());
     }
 }
 
@@ -211,8 +215,7 @@ fn each_calibration_of_a_silicon_chain_passes_in_icarus() {
 fn full_frames_at_every_rate_pass_in_verilator() {
     for (rate, period) in [(0, 25), (1, 13), (2, 8), (3, 6)] {
         let rate = format!("firmware.laser_freq={rate}");
-        let top = ["tof_top".to_owned()];
-        let [passed] = &recorded::verified("verilator", &top, &["-s", &rate])[..] else { panic!() };
+        let passed = whole_passes("verilator", &["-s", &rate]);
         let frame = 30_000 * period + 541;
         assert!((frame..frame + 8).contains(&passed.cycles), "{passed:?}");
     }

@@ -87,6 +87,9 @@ fn a_frame_is_drawn_as_a_whole_where_the_row_changes_nothing_and_refused_elsewhe
     assert!(refused(&["spad.pulse_gap_ns=10"]).contains("spad.pulse_gap_ns = 10: "));
 }
 
+/// Few shots, at which the network is wrong.
+const SHORT: &str = "firmware.shots_per_frame=3000";
+
 /// Codes and keys of the notes of a run.
 fn notes(keys: &[&str]) -> Vec<(String, String)> {
     let args = ["run", "--waves", "none", "--json"];
@@ -101,7 +104,7 @@ fn network_and_second_opinion_say_what_they_do_not_know() {
     let pair = |code: &str, key: &str| (code.to_owned(), key.to_owned());
     assert_eq!(notes(&[]), []);
     assert_eq!(notes(&["spad.row_outputs=30"]), [], "without crosstalk it decides nothing");
-    let found = notes(&["spad.row_outputs=30", "spad.crosstalk_probability=0.1"]);
+    let found = notes(&[SHORT, "spad.row_outputs=30", "spad.crosstalk_probability=0.1"]);
     assert!(found.contains(&pair("outside-training", "spad.row_outputs")), "{found:?}");
     assert!(found.contains(&pair("second-opinion", "spad.crosstalk_probability")), "{found:?}");
     let found = notes(&["spad.pulse_ns=30", "spad.pulse_gap_ns=5"]);
@@ -114,7 +117,7 @@ fn network_and_second_opinion_say_what_they_do_not_know() {
     let file = format!("spad.dark_file={}", folder.path().join("dark.csv").display());
     assert_eq!(notes(&[&file]), [pair("outside-training", "spad.dark_file")]);
     let said = |kind: &str, key: &str| {
-        let args = ["run", "--waves", "none", "--estimator", kind, "-s", key];
+        let args = ["run", "--waves", "none", "--estimator", kind, "-s", SHORT, "-s", key];
         let said = output(
             empty().path(),
             &with(&args, &["spad.row_outputs=30", "spad.crosstalk_probability=0.2"]),

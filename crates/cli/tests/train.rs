@@ -261,8 +261,8 @@ fn other_numbers_of_neurons_are_trained_and_run() {
 fn weights_that_fit_no_words_are_saturated_and_told() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let args = ["train", "--quick", "--profile", "uniform", "--seed", "2", "-o", "wide"];
-    let done = output(folder, &[&args[..], &["--with", "limits.penalty=0.0001"]].concat());
+    let loose = ["--with", "limits.penalty=0.0001", "-o", "wide"];
+    let done = output(folder, &[&SMALL[..], &END, &loose].concat());
     let told = String::from_utf8(done.stderr).unwrap();
     assert!(done.status.success() && told.contains("do not fit their words"), "{told}");
     let network = Network::load(&folder.join("wide/network.toml")).unwrap();

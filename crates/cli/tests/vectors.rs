@@ -139,7 +139,8 @@ fn what_there_is_not_is_refused() {
     refused(&["tdc", "--scenario", "nowhere"]);
     let error = refused(&["tof_top", "-s", "pll.lock_time_us=1.0000001"]);
     assert!(error.contains("expected whole picoseconds"), "{error}");
-    let error = refused(&["tof_top", "--scenario", "kc705", "-s", "firmware.dsp_en=false"]);
+    let endless = ["-s", "firmware.dsp_en=false", "-s", "firmware.shots_per_frame=40"];
+    let error = refused(&[&["tof_top"], &endless[..]].concat());
     assert!(error.contains("never ends"), "{error}");
 }
 

@@ -105,7 +105,7 @@ fn a_block_in_vhdl_works_in_a_design_in_verilog() {
     for file in ["tdc", "tdc_latch", "tdc_decoder", "carry_chain"] {
         fs::copy(format!("{OWN}/{file}.v"), folder.path().join(format!("{file}.v"))).unwrap();
     }
-    let args = ["--block", "tdc", "--cycles", "2000"];
+    let args = ["--block", "tdc.default", "--cycles", "2000"];
     for (old, new, status) in [("", "", 0), ("count + 1", "count + 2", 1)] {
         planted(folder.path(), ("coarse_counter", old, new));
         let output = verify(folder.path(), folder.path(), &args);

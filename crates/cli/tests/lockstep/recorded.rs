@@ -12,7 +12,8 @@ use tofsim_rtl::verify::task::DEFAULT;
 use crate::common;
 use crate::record::{Inputs, Record};
 
-static LOCKSTEP: LazyLock<Record> = LazyLock::new(|| {
+/// Of the design as it comes, and of scenarios.
+pub static LOCKSTEP: LazyLock<Record> = LazyLock::new(|| {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/lockstep/lockstep.record");
     Record::read(path, "cargo test -p tofsim-cli --test cli lockstep -- --include-ignored")
 });
@@ -40,11 +41,29 @@ pub struct Passed {
 }
 
 /// Verifies those blocks in a simulator, with options of their vectors; all have to pass.
-pub fn verified(simulator: &str, names: &[String], options: &[&str]) -> Vec<Passed> {
-    let of = |name: &String| {
-        let check = [&[&name[..], "in", simulator], options].concat().join(" ");
+pub fn verified<Name: AsRef<str> + Sync>(
+    simulator: &str,
+    names: &[Name],
+    options: &[&str],
+) -> Vec<Passed> {
+    verified_as(&LOCKSTEP, &options.join(" "), simulator, names, options)
+}
+
+/// Verifies them by that record, where `what` stands for the options: they may have paths of temporary files.
+pub fn verified_as<Name: AsRef<str> + Sync>(
+    record: &Record,
+    what: &str,
+    simulator: &str,
+    names: &[Name],
+    options: &[&str],
+) -> Vec<Passed> {
+    let of = |name: &Name| {
+        let name = name.as_ref();
+        let check = format!("{name} in {simulator} {what}");
         let inputs = inputs(simulator, name, options);
-        let answer = LOCKSTEP.answer(&check, &inputs, || Ok(verify(simulator, name, options)));
+        let answer = record.answer(&check, &inputs, || {
+            Ok(verify(&check, &[&["--simulator", simulator, "--block", name], options].concat()))
+        });
         Passed::read(&answer)
     };
     names.par_iter().map(of).collect()
@@ -60,10 +79,9 @@ impl Passed {
 }
 
 /// Runs a block, which has to pass; what is known of it.
-fn verify(simulator: &str, name: &str, options: &[&str]) -> String {
-    let args = [&["--simulator", simulator, "--block", name], &STRICTLY[..], options].concat();
-    let blocks = super::verified(&args);
-    let [block] = &blocks[..] else { panic!("{name}: {blocks:?}") };
+fn verify(check: &str, args: &[&str]) -> String {
+    let blocks = super::verified(check, &[&STRICTLY[..], args].concat());
+    let [block] = &blocks[..] else { panic!("{check}: {blocks:?}") };
     let goals = &block["goals"];
     format!("{} cycles, {} of {} goals", block["cycles"], goals["met"], goals["of"])
 }

@@ -38,8 +38,9 @@ fn lines(shown: &str) -> Vec<String> {
 #[test]
 fn a_bar_moves_and_fits_80_columns() {
     let folder = empty();
-    let stages = "'stages=[{candidates=4,epochs=20,samples=2010}]'";
-    let line = format!("train --quick --with {stages} --with checkpoint_epochs=20 -o t");
+    let stages = "--with 'stages=[{candidates=4,epochs=20,samples=1005}]'";
+    let end = "--with finish.blocks=0 --with checkpoint_epochs=20";
+    let line = format!("train --quick {stages} {end} -o t");
     let shown = on_terminal(folder.path(), &line, &[]);
     let lines = lines(&shown);
     let longest = lines.iter().map(|line| line.chars().count()).max();
