@@ -135,8 +135,8 @@ mod tests {
     use std::sync::atomic::{AtomicU64, Ordering};
 
     use super::*;
-    use crate::scenario::load;
     use crate::sim::Stepping;
+    use crate::sim::image::tests::array;
 
     use ImageFidelity::{Histograms, Shots};
 
@@ -147,21 +147,6 @@ mod tests {
         Shots(Stepping::LeapShots),
     ];
 
-    /// An array of 3 x 2 pixels, of a target that is no plane.
-    fn array(further: &[&str]) -> ArraySetup {
-        let keys = [
-            "array.rows=3",
-            "array.columns=2",
-            "firmware.shots_per_frame=60",
-            "spad.pdp=8e-4",
-            "target.length_m=0.5",
-            "target.width_m=0.5",
-            "target.tilt_deg=35",
-        ];
-        let keys = [&keys, further].concat().into_iter().map(str::to_owned);
-        ArraySetup::new(load("kc705", &keys.collect::<Vec<_>>()).unwrap()).unwrap()
-    }
-
     fn nothing() {}
 
     #[test]
@@ -169,7 +154,9 @@ mod tests {
         let own = ["tdc.profile=kintex7", "array.chains_file=../chains/columns.csv"];
         let likelihood = [&own[..], &["estimator.kind=likelihood"]].concat();
         let setups = [array(&[]), array(&likelihood)];
+        let crosstalk = array(&["spad.crosstalk_probability=0.3"]);
         let cases = setups.iter().flat_map(|array| FIDELITIES.map(|fidelity| (array, fidelity)));
+        let cases = cases.chain(FIDELITIES[1..].iter().map(|fidelity| (&crosstalk, *fidelity)));
         for (array, fidelity) in cases {
             let all = array.images(fidelity, 4, None, &|_| ()).unwrap();
             let mut images = LiveImages::new(array, fidelity, None).unwrap();
