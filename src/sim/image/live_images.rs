@@ -17,7 +17,7 @@ use super::pixel_frame::{Expected, PixelFrame};
 
 /// The pixels of an array, ready for their next image. Image `n` is that of [`ArraySetup::images`].
 pub struct LiveImages {
-    /// What the pixels of each column have in common, as their firmware.
+    /// What the pixels of each column have in common, as their firmware ([`ArraySetup::columns`]).
     columns: Vec<Setup>,
     pixels: Vec<LivePixel>,
     notes: Vec<Note>,
@@ -57,8 +57,7 @@ impl LiveImages {
             (0..rows * columns).into_par_iter().map(pixel).collect::<Result<_>>()?;
         let notes = merged(pixels.iter().map(|(notes, _)| &notes[..]));
         let pixels = pixels.into_iter().map(|(_, pixel)| pixel).collect();
-        let columns = (0..columns).map(|column| array.column(column)).collect();
-        Ok(LiveImages { columns, pixels, notes, done: 0 })
+        Ok(LiveImages { columns: array.columns(), pixels, notes, done: 0 })
     }
 
     /// Returns what the frames of each pixel can be expected to hold, by row, then column.

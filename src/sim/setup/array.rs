@@ -113,6 +113,13 @@ impl ArraySetup {
         }
     }
 
+    /// Returns the part that the pixels of each column have in common; that of all columns, if their TDCs have the same
+    /// chain. Pixel `n` by row, then column, has the one with index `n` modulo their number.
+    pub fn columns(&self) -> Vec<Setup> {
+        let own = self.common.pixel_files.columns.len().max(1);
+        (0..own).map(|column| self.column(column)).collect()
+    }
+
     /// Returns the setup of a pixel. Its random streams have a seed of their own, by row and column, and those that it shares
     /// with its row a seed of the row: the first 64 bits of the streams [`Source::Pixel`] and [`Source::Row`], of which 63
     /// count.
