@@ -170,8 +170,7 @@ fn what_air_and_patch_send_back_does_not_go_with_the_reflectance() {
 fn pixels_have_the_probabilities_of_their_setups() {
     let own = ["tdc.profile=kintex7", "array.chains_file=../chains/columns.csv"];
     for more in [&[][..], &own] {
-        let keys =
-            ["array.rows=2", "array.columns=3", "target.length_m=0.5", "target.tilt_deg=35"];
+        let keys = ["array.rows=2", "array.columns=3", "target.length_m=0.5", "target.tilt_deg=35"];
         let keys: Vec<_> = keys.iter().chain(more).map(|&key| key.to_owned()).collect();
         let array = Arc::new(ArraySetup::new(scenario::load("kc705", &keys).unwrap()).unwrap());
         let source = HistogramSource::of_arrays(std::slice::from_ref(&array)).unwrap();
