@@ -75,10 +75,21 @@ impl Haze {
         self.air.from_m
     }
 
+    /// Returns the distance beyond which the air returns no light, because surfaces have ended all of the beam; infinite
+    /// if they do not [m].
+    pub fn farthest_m(&self) -> f64 {
+        let end = self.hidden.iter().find(|[_, hidden_sr]| self.beside(*hidden_sr) == 0.0);
+        end.map_or(f64::INFINITY, |[end_m, _]| *end_m)
+    }
+
     /// Returns the solid angle of the beam at a distance [sr].
     fn open_sr(&self, at_m: f64) -> f64 {
         let before = self.hidden.partition_point(|[end_m, _]| *end_m < at_m);
-        let hidden_sr = before.checked_sub(1).map_or(0.0, |last| self.hidden[last][1]);
+        self.beside(before.checked_sub(1).map_or(0.0, |last| self.hidden[last][1]))
+    }
+
+    /// Returns what is left of the beam's solid angle [sr].
+    fn beside(&self, hidden_sr: f64) -> f64 {
         let open_sr = self.cone_sr - hidden_sr;
         if open_sr > ROUNDING * self.cone_sr { open_sr } else { 0.0 }
     }

@@ -65,7 +65,9 @@ impl Spread {
         let (begin, length) = (begin_ps * 1e3, (end_ps - begin_ps) * 1e3);
         let surfaces_m = returned.surface_ends_m().unwrap_or([horizon_m; 2]);
         let [near_m, far_m] = match &returned.air {
-            Some(haze) => [surfaces_m[0].min(haze.nearest_m()), horizon_m],
+            Some(haze) => {
+                [surfaces_m[0].min(haze.nearest_m()), surfaces_m[1].max(haze.farthest_m())]
+            }
             None => surfaces_m,
         };
         let [near_m, far_m] = [near_m.min(horizon_m), far_m.min(horizon_m)];

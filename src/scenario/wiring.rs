@@ -38,6 +38,12 @@ impl Wiring {
         Wiring { simulated, on_tdc }
     }
 
+    /// Returns the wiring of a pixel of an array whose row is simulated: the output of each column, that of its own column
+    /// on the TDC.
+    pub fn of_column(column: usize, columns: usize) -> Self {
+        Wiring { simulated: 0..columns, on_tdc: column..column + 1 }
+    }
+
     /// Returns whether some simulated outputs are not connected to the TDC.
     pub fn has_unwired(&self) -> bool {
         self.simulated != self.on_tdc

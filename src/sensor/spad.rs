@@ -140,7 +140,7 @@ impl Spads {
             self.avalanche = Time::NEVER;
             light.take(now);
             let dark = light.dark_part(now);
-            let diode = row.pick(dark);
+            let diode = light.spad().unwrap_or_else(|| row.pick(dark));
             let differ = row.effects().on_tdc.is_some();
             self.dark_part = differ.then(|| row.dark_part(diode, dark));
             let fires = row.carrier(diode, now, dead_time, again);

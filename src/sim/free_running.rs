@@ -60,7 +60,6 @@ impl FreeRunning {
             dead_time: Time::from_ps_f64(spad.dead_time_ns * 1e3),
             effects: Effects {
                 dark_rates: Vec::new(),
-                on_tdc: None,
                 crosstalk_probability: 0.0,
                 ..effects(spad, &setup.dark)
             },

@@ -43,6 +43,7 @@ use super::estimates::{Clockless, Estimate};
 use super::jitter::Jitter;
 use super::timeline::Timeline;
 
+use detector::SimulatedRow;
 pub(super) use detector::effects;
 use pixel_files::PixelFiles;
 
@@ -86,8 +87,8 @@ pub struct Setup {
     pll: Pll,
     /// Light on the SPADs that are on the TDC.
     pub(super) light: Light,
-    /// Light on all SPADs that are simulated, if these are more.
-    row_light: Option<Light>,
+    /// The SPADs that are simulated, if these are more.
+    row: Option<SimulatedRow>,
     pub(super) pins: Pins,
     /// Seeds of the random streams: the scenario's, or those of a pixel.
     pub(super) seeds: Seeds,
@@ -157,20 +158,21 @@ impl Setup {
         let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, self.seeds.row));
         let calibrates = self.params.tdc_calibration.is_some();
         let front_end = detector::front_end(scenario, calibrates, self.seed());
+        let spads = detector::spads(&scenario.spad, &self.dark, self.row.as_ref(), self.seeds);
         Device::new(
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
             self.disturbance.clone(),
             self.light_of_row().clone(),
-            (detector::spads(scenario, &self.dark, self.seed()), front_end),
+            (spads, front_end),
             Timeline::new(scenario),
         )
     }
 
     /// Returns the light on all SPADs that are simulated.
     pub(super) fn light_of_row(&self) -> &Light {
-        self.row_light.as_ref().unwrap_or(&self.light)
+        self.row.as_ref().map_or(&self.light, |row| &row.light)
     }
 
     /// Returns the avalanche times of each code.

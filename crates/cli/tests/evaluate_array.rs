@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::{empty, files, json, output, stdout};
+use crate::common::{empty, files, json, output, refused, stdout};
 
 /// An array of 2 x 3 pixels that look at a tilted plane; the pixel in row 1 and column 2 has a longer signal path.
 const SMALL: [&str; 12] = [
@@ -74,6 +74,48 @@ fn errors_by_pixel_are_those_of_the_pixel() {
     assert!(csv.contains("\nlikelihood_estimator,1,2,8,0,0,"), "{csv}");
     let scenes = fs::read_to_string(out.join("scenes.csv")).unwrap();
     assert!(scenes.contains("pixel_row,pixel_column"), "{scenes}");
+}
+
+#[test]
+fn columns_with_chains_of_their_own_are_drawn_and_estimated_by_these() {
+    let folder = empty();
+    let usual = ["-s", "tdc.profile=kintex7", "-s", "estimator.kind=likelihood"];
+    // A wall, so that it is the chains that decide.
+    let usual = [&SMALL[..8], &usual].concat();
+    let own = [&usual[..], &["-s", "array.chains_file=../chains/columns.csv"]].concat();
+    let kind = ["--estimator", "likelihood_estimator", "--json"];
+    let more = ["--repeats", "40", "--check", "3", "--seed", "5"];
+    let drawn = json(folder.path(), &[&["evaluate"], &own[..], &kind, &more].concat());
+    for check in drawn["cross_check"].as_array().unwrap() {
+        assert_eq!(check["other_depths"], 0, "{check}");
+        assert!(check["p_value"].as_f64().unwrap() > 1e-6, "{check}");
+    }
+    let more = ["--repeats", "40", "--format", "npy", "-o", "data"];
+    stdout(folder.path(), &[&["dataset"], &own[..], &more].concat());
+    let data =
+        |set: &[&str]| json(folder.path(), &[&["evaluate", "--data", "data"], set, &kind].concat());
+    let images = |report: &Value| report["estimators"][0]["images"][0].clone();
+    for images in [images(&drawn), images(&data(&own))] {
+        let number = |key: &str| images[key].as_f64().unwrap();
+        assert_eq!((&images["images"], number("fill_rate")), (&40.into(), 1.0));
+        assert!(number("bias_by_pixel_mm") < 0.3 * number("sd_by_pixel_mm"), "{images}");
+    }
+    // Those of two columns fit no echo of another chain.
+    let rate = images(&data(&usual))["fill_rate"].as_f64().unwrap();
+    assert!((0.3..0.4).contains(&rate), "{rate}");
+    for (words, said) in [
+        (
+            [&["evaluate", "--data", "data"], &own[..], &["-s", "array.columns=2"]].concat(),
+            "columns = 3: expected 2, as array.columns has it",
+        ),
+        (
+            [&["estimate", "data/histograms.npy"], &own[..]].concat(),
+            "array.chains_file = ../chains/columns.csv: expected none",
+        ),
+    ] {
+        let error = refused(folder.path(), &words);
+        assert!(error.contains(said), "{error}");
+    }
 }
 
 #[test]

@@ -145,14 +145,17 @@ fn several_images_are_a_first_axis_and_every_file_is_the_same_for_any_number_of_
 fn a_pixel_alone_is_that_of_the_image_at_every_fidelity() {
     let folder = empty();
     let path = folder.path();
-    for fidelity in ["shot", "cycle", "histogram"] {
+    let crosstalk = &["-s", "spad.crosstalk_probability=0.3"][..];
+    for (fidelity, set) in [
+        ("shot", &[][..]),
+        ("cycle", &[]),
+        ("histogram", &[]),
+        ("shot", crosstalk),
+        ("cycle", crosstalk),
+    ] {
         let of = |more: &[&str], name: &str| {
-            stdout(
-                path,
-                &image(
-                    &[&["--images", "2", "--fidelity", fidelity, "-q", "-o", name], more].concat(),
-                ),
-            );
+            let words = ["--images", "2", "--fidelity", fidelity, "-q", "-o", name];
+            stdout(path, &image(&[&words, set, more].concat()));
             rows(&path.join(name).join("pixels.csv"))
         };
         let whole = of(&[], "whole");
@@ -168,7 +171,7 @@ fn a_pixel_alone_is_that_of_the_image_at_every_fidelity() {
             continue;
         }
         let words = ["run", "--json", "--waves", "none", "--frames", "2", "--fidelity", fidelity];
-        let run = json(path, &[&words, &SMALL[..], &["--pixel", "4,5"]].concat());
+        let run = json(path, &[&words, &SMALL[..], set, &["--pixel", "4,5"]].concat());
         for (row, frame) in alone.iter().zip(run["frames"].as_array().unwrap()) {
             assert_eq!(row["hits"].parse::<u64>().unwrap(), frame["hits"], "{fidelity}");
             let depth = row["depth_radial_m"].parse::<f64>().ok();

@@ -1,8 +1,8 @@
 //! Columns of an array's depth images: [`ImageDepths`] has the statistics.
 
-use tofsim::sim::image::{Pixel, PixelFrame, ends_and_median};
+use tofsim::sim::image::{Pixel, ends_and_median};
 use tofsim::sim::setup::array::ArraySetup;
-use tofsim_learn::evaluation::images::{ImageDepths, PixelDepths, RadialDepth};
+use tofsim_learn::evaluation::images::{ImageDepths, PixelDepths};
 
 use crate::figure::Figure;
 
@@ -15,20 +15,11 @@ pub struct Images {
     depths: ImageDepths,
 }
 
-/// Returns the true depth of a pixel and its valid depths.
-pub fn depths(pixel: &Pixel) -> PixelDepths {
-    let depth = |frame: &PixelFrame| {
-        let PixelFrame { radial_m, sigma_m, .. } = *frame;
-        frame.valid.then_some(RadialDepth { radial_m, sigma_m })
-    };
-    let depths = pixel.frames.iter().map(depth).collect();
-    PixelDepths { true_m: pixel.expected.radial_m, depths }
-}
-
 impl Images {
     /// Of the pixels of an array, by row, then column; a depth with a larger error than `limit_m` is an outlier [m].
     pub fn new(array: ArraySetup, pixels: Vec<Pixel>, limit_m: f64) -> Self {
-        let depths = ImageDepths::new(array.size(), pixels.iter().map(depths).collect(), limit_m);
+        let depths = pixels.iter().map(|pixel| PixelDepths::of(&pixel.expected, &pixel.frames));
+        let depths = ImageDepths::new(array.size(), depths.collect(), limit_m);
         Images { array, pixels, depths }
     }
 

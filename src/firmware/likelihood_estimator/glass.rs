@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-
 /// All of the pedestal, as the pulse's ROM counts parts.
 const ALL: f64 = 131_071.0;
 /// Photons per shot as a word has them, 14 fraction bits.

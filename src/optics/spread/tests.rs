@@ -197,3 +197,20 @@ fn a_budget_is_as_continuous_as_the_scene() {
     assert!(ball.signal_per_shot < plain.signal_per_shot && ball.spread.is_some());
     assert_eq!(ball.backscatter_per_shot, 0.0);
 }
+
+#[test]
+fn light_ends_where_surfaces_have_ended_all_of_the_beam() {
+    let air = Air::of(&scenario(|s| s.atmosphere.visibility_m = 5.0));
+    let until = |horizon_m: f64, ended_sr: f64| {
+        let mut returned = Returned::default();
+        returned.diffuse.add(0.8, 0.0, 1.0, 1.0);
+        returned.air = Some(Haze::new(air, 1.0, vec![[0.8, ended_sr], [0.5, 0.3]]));
+        let (spread, air) =
+            Spread::new(&returned, None, &Pulse::default(), Time::ZERO, horizon_m, COARSE);
+        (spread.parts.iter().map(|part| part.len()).max(), spread, air)
+    };
+    let [near, far] = [2.0, 7.0].map(|horizon_m| until(horizon_m, 0.7));
+    assert_eq!(near, far);
+    let [near, far] = [2.0, 7.0].map(|horizon_m| until(horizon_m, 0.6));
+    assert!(near.0 < far.0 && near.2 < far.2, "a part of the beam goes on");
+}

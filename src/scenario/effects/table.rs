@@ -105,7 +105,9 @@ fn is_free_running(scenario: &Scenario) -> bool {
 /// Returns the methods that have the cover window's light in their model, if its template is known.
 fn with_template(scenario: &Scenario) -> &'static [Method] {
     match scenario.estimator.glass_file {
-        Some(_) => &[CramerRaoBound, Likelihood, TwoEchoes, LikelihoodEstimator, SecondOpinion, Matched],
+        Some(_) => {
+            &[CramerRaoBound, Likelihood, TwoEchoes, LikelihoodEstimator, SecondOpinion, Matched]
+        }
         None => &[],
     }
 }
@@ -115,7 +117,7 @@ fn has_cover(scenario: &Scenario) -> bool {
 }
 
 fn has_unwired_outputs(scenario: &Scenario) -> bool {
-    Wiring::of(&scenario.spad).has_unwired()
+    Wiring::of(&scenario.spad).has_unwired() || scenario.array.columns > 1
 }
 
 effects! {
@@ -269,7 +271,7 @@ effects! {
         keys: [key!(spad.crosstalk_probability)],
         when: has_unwired_outputs,
         breaks: [&[IndependentShots], MODELS],
-        why: "SPADs that are not on the TDC set off those that are (spad.row_outputs)",
+        why: "SPADs that are not on the TDC set off those that are (spad.row_outputs, array.columns)",
         example: ["spad.crosstalk_probability=0.4", "spad.row_outputs=30"],
     }
     /// A monostable or a recovery time shapes the pulses on `tdc_stop`.

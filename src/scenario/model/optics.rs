@@ -190,8 +190,8 @@ table! {
         /// Fraction of the trapped carriers that are in traps of the second kind; 0: there is one kind.
         #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none"))]
         pub afterpulse_second_share: f64 = 0.0,
-        /// Probability that an avalanche fires a neighbour in the row at once, if both are simulated (connected, or
-        /// with `row_outputs`) and the neighbour is armed.
+        /// Probability that an avalanche fires a neighbour in the row at once, if both are simulated (connected, with
+        /// `row_outputs`, or pixels of an array) and the neighbour is armed.
         #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none, as in the thesis"))]
         pub crosstalk_probability: f64 = 0.0,
     }

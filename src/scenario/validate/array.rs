@@ -52,12 +52,6 @@ pub fn check(scenario: &Scenario, checked: &Checked) -> Result<()> {
     if array.count() == 1 {
         return Ok(());
     }
-    if array.columns > 1 && spad.crosstalk_probability > 0.0 {
-        let expected =
-            "expected 0: crosstalk between the pixels of a row is not modelled (array.columns)";
-        let value = &spad.crosstalk_probability;
-        return fault("spad.crosstalk_probability", value, expected.to_owned());
-    }
     if scenario.firmware.dark_frames {
         let expected = "expected false: an array has no dark frames (array.rows, array.columns)";
         return fault("firmware.dark_frames", &true, expected.to_owned());
@@ -131,13 +125,6 @@ mod tests {
             let found = error(&["array.rows=2", &set]);
             assert!(found.contains(&format!("{key} = {value}: expected")), "{found}");
         }
-        let crosstalk = "spad.crosstalk_probability=0.2";
-        assert_eq!(error(&["array.rows=2", crosstalk]), "", "a row of one pixel has none");
-        let found = error(&["array.columns=2", crosstalk]);
-        assert!(
-            found.contains("spad.crosstalk_probability = 0.2: expected 0: crosstalk"),
-            "{found}"
-        );
         let found = error(&["array.rows=2", "control=[{at_us=1,laser_en=false}]"]);
         assert!(found.contains("control = 1: expected no changes"), "{found}");
     }

@@ -1,7 +1,7 @@
 //! Tests that unused draws have no effect, and that waiting times match the rates.
 
 use super::*;
-use crate::optics::Budget;
+use crate::optics::{Budget, Hazard};
 
 fn optics() -> Light {
     let ambient_rate_hz = 0.27e9;

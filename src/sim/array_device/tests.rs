@@ -31,6 +31,7 @@ fn the_firmware_of_an_array_has_the_depths_of_its_pixels_alone() {
         &["array.banks=1", "estimator.kind=network"][..],
         &["array.banks=2", "estimator.kind=centroid"],
         &["array.banks=2", "estimator.kind=likelihood"],
+        &["array.banks=2", "estimator.kind=centroid", "spad.crosstalk_probability=0.3"],
     ] {
         let setup = array(set);
         let [rows, columns] = setup.size();

@@ -17,7 +17,7 @@ use super::pixel_frame::{Expected, PixelFrame};
 
 /// The pixels of an array, ready for their next image. Image `n` is that of [`ArraySetup::images`].
 pub struct LiveImages {
-    /// What the pixels of each column have in common, as their firmware.
+    /// What the pixels of each column have in common, as their firmware ([`ArraySetup::columns`]).
     columns: Vec<Setup>,
     pixels: Vec<LivePixel>,
     notes: Vec<Note>,
@@ -57,8 +57,7 @@ impl LiveImages {
             (0..rows * columns).into_par_iter().map(pixel).collect::<Result<_>>()?;
         let notes = merged(pixels.iter().map(|(notes, _)| &notes[..]));
         let pixels = pixels.into_iter().map(|(_, pixel)| pixel).collect();
-        let columns = (0..columns).map(|column| array.column(column)).collect();
-        Ok(LiveImages { columns, pixels, notes, done: 0 })
+        Ok(LiveImages { columns: array.columns(), pixels, notes, done: 0 })
     }
 
     /// Returns what the frames of each pixel can be expected to hold, by row, then column.
@@ -135,8 +134,8 @@ mod tests {
     use std::sync::atomic::{AtomicU64, Ordering};
 
     use super::*;
-    use crate::scenario::load;
     use crate::sim::Stepping;
+    use crate::sim::image::tests::array;
 
     use ImageFidelity::{Histograms, Shots};
 
@@ -147,21 +146,6 @@ mod tests {
         Shots(Stepping::LeapShots),
     ];
 
-    /// An array of 3 x 2 pixels, of a target that is no plane.
-    fn array(further: &[&str]) -> ArraySetup {
-        let keys = [
-            "array.rows=3",
-            "array.columns=2",
-            "firmware.shots_per_frame=60",
-            "spad.pdp=8e-4",
-            "target.length_m=0.5",
-            "target.width_m=0.5",
-            "target.tilt_deg=35",
-        ];
-        let keys = [&keys, further].concat().into_iter().map(str::to_owned);
-        ArraySetup::new(load("kc705", &keys.collect::<Vec<_>>()).unwrap()).unwrap()
-    }
-
     fn nothing() {}
 
     #[test]
@@ -169,7 +153,9 @@ mod tests {
         let own = ["tdc.profile=kintex7", "array.chains_file=../chains/columns.csv"];
         let likelihood = [&own[..], &["estimator.kind=likelihood"]].concat();
         let setups = [array(&[]), array(&likelihood)];
+        let crosstalk = array(&["spad.crosstalk_probability=0.3"]);
         let cases = setups.iter().flat_map(|array| FIDELITIES.map(|fidelity| (array, fidelity)));
+        let cases = cases.chain(FIDELITIES[1..].iter().map(|fidelity| (&crosstalk, *fidelity)));
         for (array, fidelity) in cases {
             let all = array.images(fidelity, 4, None, &|_| ()).unwrap();
             let mut images = LiveImages::new(array, fidelity, None).unwrap();

@@ -11,10 +11,18 @@ use crate::sim::Stepping;
 
 use ImageFidelity::{Histograms, Shots};
 
+mod crosstalk;
+
 const STEPPINGS: [Stepping; 3] = [Stepping::EveryCycle, Stepping::SkipIdle, Stepping::LeapShots];
 
-/// An array of 3 x 2 pixels with a photon in two or three shots each, of a target that is no plane.
-fn array() -> ArraySetup {
+/// The array of a scenario with such keys.
+fn of_keys(keys: &[&[&str]]) -> ArraySetup {
+    let keys: Vec<_> = keys.concat().into_iter().map(str::to_owned).collect();
+    ArraySetup::new(scenario::load("kc705", &keys).unwrap()).unwrap()
+}
+
+/// An array of 3 x 2 pixels with a photon in two or three shots each, of a target that is no plane; with further keys.
+pub(super) fn array(further: &[&str]) -> ArraySetup {
     let keys = [
         "array.rows=3",
         "array.columns=2",
@@ -24,7 +32,7 @@ fn array() -> ArraySetup {
         "target.width_m=0.5",
         "target.tilt_deg=35",
     ];
-    ArraySetup::new(scenario::load("kc705", &keys.map(str::to_owned)).unwrap()).unwrap()
+    of_keys(&[&keys, further])
 }
 
 fn frames(pixels: &[Pixel]) -> Vec<Vec<PixelFrame>> {
@@ -33,7 +41,7 @@ fn frames(pixels: &[Pixel]) -> Vec<Vec<PixelFrame>> {
 
 #[test]
 fn images_are_the_same_on_any_number_of_threads() {
-    let array = array();
+    let array = array(&[]);
     for fidelity in [Histograms, Shots(Stepping::LeapShots)] {
         let on = |threads| {
             let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -51,7 +59,7 @@ fn images_are_the_same_on_any_number_of_threads() {
 
 #[test]
 fn a_pixel_gives_the_same_alone_and_in_every_stepping() {
-    let array = array();
+    let array = array(&[]);
     let images = STEPPINGS.map(|stepping| array.images(Shots(stepping), 3, None, &|_| ()).unwrap());
     for (stepping, pixels) in STEPPINGS.iter().zip(&images) {
         assert_eq!(frames(pixels), frames(&images[0]), "{stepping:?}");
@@ -66,7 +74,7 @@ fn a_pixel_gives_the_same_alone_and_in_every_stepping() {
 #[test]
 fn drawn_histograms_have_the_hits_of_shots_and_those_that_are_expected() {
     let count = 600;
-    let setup = array().pixel(1, 1);
+    let setup = array(&[]).pixel(1, 1);
     let hits = |fidelity| {
         let pixel = simulate(&setup, fidelity, count, None, None).unwrap();
         let hits = || pixel.frames.iter().map(|frame| frame.hits as f64);
@@ -86,14 +94,14 @@ fn drawn_histograms_have_the_hits_of_shots_and_those_that_are_expected() {
 
 #[test]
 fn rows_of_a_tilted_plane_are_expected_nearer_from_top_to_bottom() {
-    let images = array().images(Histograms, 1, None, &|_| ()).unwrap();
+    let images = array(&[]).images(Histograms, 1, None, &|_| ()).unwrap();
     let radial_m: Vec<_> = images.iter().map(|pixel| pixel.expected.radial_m.unwrap()).collect();
     assert!(radial_m.windows(3).all(|row| row[0] > row[2] + 0.01), "{radial_m:?}");
 }
 
 #[test]
 fn a_stop_ends_images_without_a_result() {
-    let array = array();
+    let array = array(&[]);
     for fidelity in [Histograms, Shots(Stepping::SkipIdle), Shots(Stepping::LeapShots)] {
         let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
         let after_one = |frames| {
@@ -130,8 +138,7 @@ fn sigma_holds_where_each_column_has_a_chain_of_its_own() {
         "laser.average_power_w=0.0023",
         "lens.area_m2=9.5e-4",
     ];
-    let loaded = scenario::load("kc705", &keys.map(str::to_owned)).unwrap();
-    let pixels = ArraySetup::new(loaded).unwrap().images(Histograms, 60, None, &|_| ()).unwrap();
+    let pixels = of_keys(&[&keys]).images(Histograms, 60, None, &|_| ()).unwrap();
     let mut squares = Vec::new();
     for pixel in &pixels {
         let true_m = pixel.expected.radial_m.unwrap();

@@ -1,6 +1,6 @@
 //! The setups of an array's pixels: what they have in common is elaborated once.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use rand_chacha::rand_core::Rng;
 
@@ -10,12 +10,15 @@ use crate::optics::budget::PixelPath;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Budget, Camera, PixelBudgets, Pixels};
 use crate::scenario::builtin::Source as FileSource;
+use crate::scenario::effects::Effect;
+use crate::scenario::wiring::Wiring;
 use crate::scenario::{Loaded, MOST_SEED, Scenario, cover_fractions, dark, offsets};
+use crate::sensor::light::Light;
 use crate::sensor::streams::{Seeds, Source, stream};
 
 use super::Setup;
 use super::converter::Converter;
-use super::detector::by_budget;
+use super::detector::{SimulatedRow, by_budget, by_budgets};
 use super::pixel_files::{Column, PixelFiles};
 
 mod firmware;
@@ -30,6 +33,8 @@ pub struct ArraySetup {
     common: Setup,
     /// The light on each pixel; `None` for a single one that sees a cone.
     budgets: Option<PixelBudgets>,
+    /// The light on each row, where crosstalk joins its pixels; made when first needed.
+    rows: Arc<[OnceLock<Arc<Light>>]>,
 }
 
 impl ArraySetup {
@@ -54,7 +59,8 @@ impl ArraySetup {
     pub fn of_counts(loaded: Loaded) -> Result<Self> {
         let files = loaded.files.clone();
         let Some(pixels) = Pixels::of(&loaded.scenario) else {
-            return Ok(ArraySetup { common: Setup::of_counts(loaded)?, budgets: None });
+            let common = Setup::of_counts(loaded)?;
+            return Ok(ArraySetup { common, budgets: None, rows: Arc::default() });
         };
         let without_light = |scenario: &Scenario, pulse, _: Option<&_>| {
             let pulse_energy_j = scenario.laser.pulse_energy_j();
@@ -69,7 +75,8 @@ impl ArraySetup {
         };
         (common.no_depth, common.pixel_files) = (None, Arc::new(pixel_files));
         let budgets = PixelBudgets::new(&common.scenario, pixels, common.mesh.as_deref());
-        Ok(ArraySetup { common, budgets: Some(budgets) })
+        let rows = (0..common.scenario.array.rows).map(|_| OnceLock::new()).collect();
+        Ok(ArraySetup { common, budgets: Some(budgets), rows })
     }
 
     /// Returns the part that all pixels have in common: everything but light and random streams.
@@ -107,22 +114,44 @@ impl ArraySetup {
         }
     }
 
+    /// Returns the part that the pixels of each column have in common; that of all columns, if their TDCs have the same
+    /// chain. Pixel `n` by row, then column, has the one with index `n` modulo their number.
+    pub fn columns(&self) -> Vec<Setup> {
+        let own = self.common.pixel_files.columns.len().max(1);
+        (0..own).map(|column| self.column(column)).collect()
+    }
+
     /// Returns the setup of a pixel. Its random streams have a seed of their own, by row and column, and those that it shares
     /// with its row a seed of the row: the first 64 bits of the streams [`Source::Pixel`] and [`Source::Row`], of which 63
     /// count.
     pub fn pixel(&self, row: usize, column: usize) -> Setup {
         let Some(budgets) = &self.budgets else { return self.common.clone() };
+        let (budget, dark) = self.light(budgets, &self.common.scenario, [row, column]);
+        let pixel = self.column(column).with_light(budget, dark, self.seeds(row, column));
+        Setup { row: self.row(budgets, row, column), ..pixel }
+    }
+
+    fn seeds(&self, row: usize, column: usize) -> Seeds {
         let scenario = &self.common.scenario;
-        let seeds = if scenario.array.count() == 1 {
-            scenario.seed.into()
-        } else {
-            let seed = |source, number: usize| {
-                stream(scenario.seed, source, number as u64).next_u64() & MOST_SEED
-            };
-            Seeds { pixel: seed(Source::Pixel, number(row, column)), row: seed(Source::Row, row) }
+        if scenario.array.count() == 1 {
+            return scenario.seed.into();
+        }
+        let seed = |source, number: usize| {
+            stream(scenario.seed, source, number as u64).next_u64() & MOST_SEED
         };
-        let (budget, dark) = self.light(budgets, scenario, [row, column]);
-        self.column(column).with_light(budget, dark, seeds)
+        Seeds { pixel: seed(Source::Pixel, number(row, column)), row: seed(Source::Row, row) }
+    }
+
+    /// Returns the row of a pixel as its TDC sees it, if crosstalk joins the row's pixels. Each of them simulates all of
+    /// the row, with the same random numbers, so that it sees the same avalanches alone as in an image.
+    fn row(&self, budgets: &PixelBudgets, row: usize, column: usize) -> Option<SimulatedRow> {
+        let scenario = &self.common.scenario;
+        Effect::Crosstalk.occurrence(scenario)?;
+        let columns = self.size()[1];
+        let spad =
+            |column| (self.light(budgets, scenario, [row, column]).0, self.seeds(row, column));
+        let light = self.rows[row].get_or_init(|| Arc::new(by_budgets((0..columns).map(spad))));
+        Some(SimulatedRow { light: Arc::clone(light), wiring: Wiring::of_column(column, columns) })
     }
 
     /// Returns the budget of a pixel that sees white surfaces in an irradiance of 1 W/m^2/nm, from which

@@ -1,5 +1,7 @@
 //! The detector of a setup: light, diodes, and what makes pulses of their outputs.
 
+use std::sync::Arc;
+
 use crate::kernel::Time;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Budget, Hazard};
@@ -9,18 +11,39 @@ use crate::sensor::front_end::FrontEnd;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::ring::Ring;
 use crate::sensor::row::Effects;
+use crate::sensor::row_light::RowLight;
 use crate::sensor::shaper::{self, Shaper};
 use crate::sensor::spad::Spads;
 use crate::sensor::streams::Seeds;
 
 use super::recalibration;
 
-/// The diodes of the row that are simulated, at power-up.
-pub(super) fn spads(scenario: &Scenario, dark: &DarkRates, seed: u64) -> Spads {
-    let spad = &scenario.spad;
+/// A row of SPADs that is simulated, where those on the TDC are not all of it.
+#[derive(Clone, Debug)]
+pub(super) struct SimulatedRow {
+    /// Light on all of its SPADs.
+    pub light: Arc<Light>,
+    /// Which of them are on the TDC.
+    pub wiring: Wiring,
+}
+
+/// The diodes of the row that are simulated, at power-up. What they do besides firing is one for all pixels of an
+/// array's row, if they are simulated together.
+pub(super) fn spads(
+    spad: &Spad,
+    dark: &DarkRates,
+    row: Option<&SimulatedRow>,
+    seeds: Seeds,
+) -> Spads {
     let dead_time = Time::from_ps_f64(spad.dead_time_ns * 1e3);
-    let count = Wiring::of(spad).simulated.len();
-    Spads::new(count, dead_time, Time::NEVER).with_effects(effects(spad, dark), seed)
+    let (wiring, seed) = match row {
+        Some(row) => (row.wiring.clone(), seeds.row),
+        None => (Wiring::of(spad), seeds.pixel),
+    };
+    let is_row = row.is_some() || spad.row_outputs > 0;
+    let on_tdc = is_row.then(|| wiring.places());
+    let effects = Effects { on_tdc, ..effects(spad, dark) };
+    Spads::new(wiring.simulated.len(), dead_time, Time::NEVER).with_effects(effects, seed)
 }
 
 /// Returns the parameters of the shaper of pulses on `tdc_stop`, if there is one.
@@ -41,10 +64,20 @@ pub(super) fn front_end(scenario: &Scenario, calibrates: bool, seed: u64) -> Fro
 
 /// Returns the light of the link budget.
 pub(super) fn by_budget(budget: &Budget, seeds: impl Into<Seeds>) -> Light {
-    Light::Optics(Box::new(Optics::new(Hazard::new(budget), Hazard::dark(budget), seeds)))
+    Light::Optics(Box::new(optics(budget, seeds)))
 }
 
-/// Returns what a scenario's diodes do besides firing.
+/// Returns the light of the link budget of each SPAD of a row.
+pub(super) fn by_budgets(spads: impl Iterator<Item = (Budget, Seeds)>) -> Light {
+    let spads = spads.map(|(budget, seeds)| optics(&budget, seeds));
+    Light::Row(Box::new(RowLight::new(spads.collect())))
+}
+
+fn optics(budget: &Budget, seeds: impl Into<Seeds>) -> Optics {
+    Optics::new(Hazard::new(budget), Hazard::dark(budget), seeds)
+}
+
+/// Returns what a scenario's diodes do besides firing, all of them on the TDC.
 pub(crate) fn effects(spad: &Spad, dark: &DarkRates) -> Effects {
     Effects {
         trap_probability: spad.afterpulse_probability,
@@ -54,6 +87,6 @@ pub(crate) fn effects(spad: &Spad, dark: &DarkRates) -> Effects {
         paralysable: spad.dead_time_kind == DeadTimeKind::Paralysable,
         crosstalk_probability: spad.crosstalk_probability,
         dark_rates: dark.parts().to_vec(),
-        on_tdc: (spad.row_outputs > 0).then(|| Wiring::of(spad).places()),
+        on_tdc: None,
     }
 }

@@ -21,7 +21,7 @@ use crate::scenario::{self, Array, Loaded, MOST_SEED, Scenario, dark, glass, mes
 use crate::sim::timeline::pins_at_power_up;
 
 use super::converter::Converter;
-use super::detector::by_budget;
+use super::detector::{SimulatedRow, by_budget};
 use super::stimulus::stimulus;
 use super::{Setup, fits, recalibration};
 
@@ -65,8 +65,10 @@ impl Setup {
         let glass = glass::load(&scenario.estimator, &files)?;
         let mesh = mesh::load(&scenario.target, &files)?;
         let budget = budget(&scenario, pulse, mesh.as_deref()).with_dark_rates(&dark);
-        let of_row = (light.is_none() && wiring.has_unwired())
-            .then(|| by_budget(&budget.of_row(&wiring, &dark), scenario.seed));
+        let row = (light.is_none() && wiring.has_unwired()).then(|| {
+            let light = by_budget(&budget.of_row(&wiring, &dark), scenario.seed);
+            SimulatedRow { light: Arc::new(light), wiring }
+        });
         let light = light.unwrap_or_else(|| by_budget(&budget, scenario.seed));
         let mut estimators = EstimatorParams::of(&histogram);
         estimators.centroid_estimator = Arc::new(centroid(&scenario.estimator, histogram));
@@ -106,7 +108,7 @@ impl Setup {
             network,
             pll,
             light,
-            row_light: of_row,
+            row,
             pins,
             no_depth,
             seeds,

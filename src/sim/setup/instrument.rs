@@ -69,7 +69,8 @@ impl Setup {
             self.budget.pulse.clone()
         };
         let sigma_ps = pulse.sigma_ps();
-        let glass: Vec<_> = self.glass.iter().flat_map(|own| own.bins()).map(|bin| bin.hazard).collect();
+        let glass: Vec<_> =
+            self.glass.iter().flat_map(|own| own.bins()).map(|bin| bin.hazard).collect();
         let wanted = Wanted {
             histogram: self.params.histogram,
             shots: if keys.assumed_shots > 0 { keys.assumed_shots } else { shots },

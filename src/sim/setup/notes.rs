@@ -144,7 +144,7 @@ impl Setup {
     fn without_light(&self) -> Option<Note> {
         let stimulus = &self.scenario.stimulus;
         let (key, file) = match (&self.light, &self.params.histogram_source) {
-            (Light::Optics(_), _) => return None,
+            (Light::Optics(_) | Light::Row(_), _) => return None,
             (Light::List(_), _) => ("stimulus.photons", &stimulus.photons),
             (Light::None, HistogramSource::Preload(_)) => {
                 ("stimulus.histogram", &stimulus.histogram)

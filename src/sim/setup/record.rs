@@ -74,7 +74,11 @@ impl Setup {
     pub fn entries(&self, globs: &[String]) -> Result<Vec<hierarchy::Entry>> {
         let mut entries = hierarchy::entries(&self.params);
         entries.extend(hierarchy::column_entries(&self.params));
-        entries.extend(hierarchy::row_entries(self.scenario.spad.row_outputs as usize));
+        let outputs = match &self.row {
+            Some(row) => row.wiring.simulated.len(),
+            None => self.scenario.spad.row_outputs as usize,
+        };
+        entries.extend(hierarchy::row_entries(outputs));
         waves::select(entries, hierarchy::ram_entries(&self.params.histogram), globs)
     }
 
@@ -96,7 +100,7 @@ impl Setup {
         let (scenario, params) = (&self.scenario, &self.params);
         let given = match &self.light {
             Light::List(list) => Some(list),
-            Light::Optics(_) | Light::None => None,
+            Light::Optics(_) | Light::None | Light::Row(_) => None,
         };
         let pulse = &self.budget.pulse;
         // Each pixel has a dark rate of its own.

@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::firmware::tof_top::FirmwareEstimator;
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
@@ -107,6 +107,11 @@ impl Args {
     /// Returns the setup of the histograms, as far as it is known.
     fn setup(&self, layout: Option<Layout>) -> Result<Setup> {
         let mut loaded = load_for(layout, &self.scenario, &self.set)?;
+        if let Some(file) = &loaded.scenario.array.chains_file {
+            let expected = "expected none: all histograms are taken to be of one chain; `evaluate --data` has that of each column";
+            let fault = Input::new(format!("scenario {}", loaded.name), expected);
+            return Err(fault.field("array.chains_file").value(file).into());
+        }
         if let Some(network) = &self.network {
             loaded.scenario.estimator.network = from_here(network, &loaded)?;
             loaded.scenario.estimator.kind = FirmwareEstimator::Network;

@@ -38,7 +38,7 @@ mod measured;
 pub use args::Args;
 use args::SHOWN;
 
-/// Estimators of one setting.
+/// Estimators of one setting, or of one of its columns.
 type Estimators = Vec<Box<dyn Estimator>>;
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
@@ -63,7 +63,10 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     args.output.as_ref().map_or(Ok(()), look)?;
     let stop = stop_signal();
     let evaluation = args.draws.on_threads(rows.count(), console, |done| {
-        let of = |scene: &Scene| &estimators[scene.setting][..];
+        let of = |scene: &Scene| {
+            let columns = &estimators[scene.setting];
+            &columns[scene.pixel % columns.len()][..]
+        };
         Evaluation::with(source, &rows, seed, of, stop.as_deref(), done)
     })?;
     let of = |column| Figures::over(&evaluation, column, &grid, 1e-3 * args.outlier_limit_mm);
@@ -243,16 +246,24 @@ impl Args {
         self.estimator.iter().all(|kind| kind.is_network())
     }
 
-    /// The estimators for the histograms of each setting.
-    fn estimators(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Estimators>> {
-        let of_setting = |(k, setup): (usize, &Setup)| {
+    /// The estimators for the histograms of each setting: one set for all pixels, or for the chain of each column.
+    fn estimators(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Vec<Estimators>>> {
+        let of_column = |setting: usize, pixel: usize, setup: &Setup| {
+            let scene = Scene { setting, pixel, ..Scene::default() };
+            let acquisition = scenes.source.acquisition_of(&scene);
+            let needs = EstimatorInputs { acquisition, network, setup };
+            let estimators = self.estimator.iter().map(|kind| kind.estimator(&needs));
+            Ok(estimators.collect::<std::result::Result<Vec<_>, Input>>()?)
+        };
+        let of_setting = |(setting, setup): (usize, &Setup)| {
             if self.measures_a_network() {
                 setup.check_network()?;
             }
-            let needs =
-                EstimatorInputs { acquisition: scenes.source.acquisition(k), network, setup };
-            let estimators = self.estimator.iter().map(|kind| kind.estimator(&needs));
-            Ok(estimators.collect::<std::result::Result<Vec<_>, Input>>()?)
+            let Some(array) = scenes.arrays.get(setting) else {
+                return Ok(vec![of_column(setting, 0, setup)?]);
+            };
+            let columns = array.columns().into_iter().enumerate();
+            columns.map(|(column, setup)| of_column(setting, column, &setup)).collect()
         };
         scenes.setups.iter().enumerate().map(of_setting).collect()
     }

@@ -56,10 +56,20 @@ impl PixelPlace {
 /// # Errors
 /// When the scenario cannot be elaborated.
 pub fn common_of_counts(loaded: Loaded) -> Result<Setup> {
+    Ok(columns_of_counts(loaded)?.0)
+}
+
+/// Elaborates the same, and besides what the pixels of each column have in common, as [`ArraySetup::columns`] does.
+///
+/// # Errors
+/// As [`common_of_counts`].
+pub fn columns_of_counts(loaded: Loaded) -> Result<(Setup, Vec<Setup>)> {
     if loaded.scenario.array.count() > 1 {
-        return Ok(ArraySetup::of_counts(loaded)?.common().clone());
+        let array = ArraySetup::of_counts(loaded)?;
+        return Ok((array.common().clone(), array.columns()));
     }
-    Setup::of_counts(loaded)
+    let setup = Setup::of_counts(loaded)?;
+    Ok((setup.clone(), vec![setup]))
 }
 
 #[cfg(test)]

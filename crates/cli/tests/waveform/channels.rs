@@ -15,9 +15,18 @@ fn traced(folder: &Path, options: &[&str]) {
 
 #[test]
 fn a_channel_of_the_first_row_is_the_pixel_alone() {
+    assert_channels_are_pixels(&[]);
+}
+
+#[test]
+fn a_channel_of_a_row_that_crosstalk_joins_is_the_pixel_alone() {
+    assert_channels_are_pixels(&["-s", "spad.crosstalk_probability=0.3"]);
+}
+
+fn assert_channels_are_pixels(set: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     // Shorter than the row's acquisition.
-    let window = ["--window", "0us..11us"];
+    let window = [&["--window", "0us..11us"], set].concat();
     traced(folder.path(), &[&window[..], &["--waves", "vcd", "-o", "all"]].concat());
     let all = Wave::open(&folder.path().join("all/array.vcd"));
     for column in 0..4 {
@@ -26,7 +35,19 @@ fn a_channel_of_the_first_row_is_the_pixel_alone() {
         common::stdout(folder.path(), &[&["run"], &ARRAY[..], &window, &pixel].concat());
         let alone = Wave::open(&folder.path().join(out).join("array.vcd"));
         let mut compared = 0;
-        for name in alone.vars.keys().map(|name| name.strip_prefix("tof_top.").unwrap()) {
+        let outputs: Vec<_> =
+            alone.vars.keys().filter(|name| name.starts_with("spad_row.")).collect();
+        assert_eq!(outputs.len(), if set.is_empty() { 0 } else { 4 });
+        for name in outputs {
+            let output: usize = name.strip_prefix("spad_row.spad_out_").unwrap().parse().unwrap();
+            let stop = if output == 0 {
+                "tdc_stop".to_owned()
+            } else {
+                format!("channel_{output}.tdc_stop")
+            };
+            assert_eq!(alone.changes(name), all.changes(&stop), "{name} of column {column}");
+        }
+        for name in alone.vars.keys().filter_map(|name| name.strip_prefix("tof_top.")) {
             let module = name.split('.').next().unwrap();
             let own = match module {
                 _ if column == 0 && all.vars.contains_key(&format!("tof_top.{name}")) => {

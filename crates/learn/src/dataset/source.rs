@@ -29,19 +29,26 @@ pub struct HistogramSource {
     settings: Vec<Setting>,
 }
 
-/// A scenario, whose scene does not matter, and its chain.
+/// A scenario, whose scene does not matter, and its chains.
 #[derive(Clone, Debug)]
 struct Setting {
     scenario: Scenario,
-    bins: Bins,
-    /// Bins that estimators assume.
-    known_bins: Bins,
+    /// The chain of each column of an array whose columns have chains of their own, or else the only one.
+    chains: Vec<Chain>,
     pulse: Pulse,
     dark: DarkRates,
     glass: Option<Arc<GlassTemplate>>,
     mesh: Option<Arc<Mesh>>,
     /// The array whose pixels the scenes are, if there are several.
     array: Option<Arc<ArraySetup>>,
+}
+
+/// A carry chain.
+#[derive(Clone, Debug)]
+struct Chain {
+    bins: Bins,
+    /// Bins that estimators assume.
+    known_bins: Bins,
 }
 
 impl HistogramSource {
@@ -64,16 +71,11 @@ impl HistogramSource {
     /// The same of the pixels of an array, in each setting.
     ///
     /// # Errors
-    /// As [`HistogramSource::of_settings`], and when its columns have chains of their own.
+    /// As [`HistogramSource::of_settings`].
     pub fn of_arrays(arrays: &[Arc<ArraySetup>]) -> Result<Self> {
         let setting = |array: &Arc<ArraySetup>| {
-            let Setup { name, scenario, .. } = array.common();
-            if let Some(file) = &scenario.array.chains_file {
-                let expected = "expected none: the histograms of a dataset are those of one chain";
-                let fault = Input::new(format!("scenario {name}"), expected);
-                return Err(fault.field("array.chains_file").value(file).into());
-            }
-            Ok(Setting { array: Some(array.clone()), ..Setting::new(array.common())? })
+            let chains = array.columns().iter().map(Chain::new).collect::<Result<_>>()?;
+            Ok(Setting { chains, array: Some(array.clone()), ..Setting::new(array.common())? })
         };
         HistogramSource::of(arrays.iter().map(setting).collect::<Result<_>>()?)
     }
@@ -82,11 +84,11 @@ impl HistogramSource {
         let Some(first) = settings.first() else {
             return Err(Input::new("grid", "expected one setting at least").into());
         };
-        let bins = first.bins.count();
-        if let Some(other) = settings.iter().find(|setting| setting.bins.count() != bins) {
+        let bins = first.scenario.tdc.bins;
+        if let Some(other) = settings.iter().find(|setting| setting.scenario.tdc.bins != bins) {
             let expected = format!("expected {bins} for all: histograms of a grid are of one size");
             let fault = Input::new("--grid", expected).field("tdc.bins");
-            return Err(fault.value(other.bins.count()).into());
+            return Err(fault.value(other.scenario.tdc.bins).into());
         }
         Ok(HistogramSource { settings })
     }
@@ -136,9 +138,9 @@ impl HistogramSource {
         self.setting(scene).scenario.firmware.laser_en
     }
 
-    /// The bins of the scenario's chain; of the first setting.
+    /// The bins of the scenario's chain, or of the first column's; of the first setting.
     pub fn bins(&self) -> &Bins {
-        &self.settings[0].bins
+        &self.settings[0].chains[0].bins
     }
 
     /// Returns the size of the histograms.
@@ -146,9 +148,16 @@ impl HistogramSource {
         self.scenario().histogram()
     }
 
-    /// Returns the acquisition of the histograms of a setting.
+    /// Returns the acquisition of the histograms of a setting, with the chain of an array's first column.
     pub fn acquisition(&self, setting: usize) -> Acquisition<'_> {
-        let Setting { scenario, known_bins, pulse, glass, .. } = &self.settings[setting];
+        self.acquisition_of(&Scene { setting, ..Scene::default() })
+    }
+
+    /// Returns the acquisition of a scene's histograms.
+    pub fn acquisition_of(&self, scene: &Scene) -> Acquisition<'_> {
+        let setting = self.setting(scene);
+        let Setting { scenario, pulse, glass, .. } = setting;
+        let known_bins = &setting.chain(scene).known_bins;
         let shots = scenario.firmware.shots_per_frame;
         let delay_ps = scenario.laser.delay_ps;
         let glass = glass.as_deref();
@@ -180,7 +189,7 @@ impl HistogramSource {
     pub fn probabilities_with(&self, white: &Budget, scene: &Scene, lit: bool) -> BinProbabilities {
         let budget = scaled(white, scene);
         let hazard = if lit { Hazard::new(&budget) } else { Hazard::dark(&budget) };
-        BinProbabilities::new(&hazard, &self.setting(scene).bins)
+        BinProbabilities::new(&hazard, &self.setting(scene).chain(scene).bins)
     }
 
     /// The histogram of a scene's row, where the probabilities are known.
@@ -200,20 +209,31 @@ impl HistogramSource {
 
 impl Setting {
     fn new(setup: &Setup) -> Result<Self> {
-        independent_shots(setup, "a dataset")?;
+        let chains = vec![Chain::new(setup)?];
         if setup.has_pairs() {
             let expected = "expected false: a dataset's histograms are drawn one by one";
             let fault = Input::new(format!("scenario {}", setup.name), expected);
             return Err(fault.field("firmware.dark_frames").value(true).into());
         }
         let (scenario, pulse) = (setup.scenario.clone(), setup.budget.pulse.clone());
-        let (bins, known_bins, dark) = (setup.bins(), setup.known_bins(), setup.dark.clone());
-        let (glass, mesh) = (setup.glass.clone(), setup.mesh.clone());
-        Ok(Setting { scenario, bins, known_bins, pulse, dark, glass, mesh, array: None })
+        let (dark, glass, mesh) = (setup.dark.clone(), setup.glass.clone(), setup.mesh.clone());
+        Ok(Setting { scenario, chains, pulse, dark, glass, mesh, array: None })
+    }
+
+    /// Returns the chain of a scene's pixel.
+    fn chain(&self, scene: &Scene) -> &Chain {
+        &self.chains[scene.pixel % self.chains.len()]
     }
 
     fn shots(&self) -> u32 {
         self.scenario.firmware.shots_per_frame as u32
+    }
+}
+
+impl Chain {
+    fn new(setup: &Setup) -> Result<Self> {
+        independent_shots(setup, "a dataset")?;
+        Ok(Chain { bins: setup.bins(), known_bins: setup.known_bins() })
     }
 }
 

@@ -115,18 +115,23 @@ impl Evaluation {
     }
 
     /// Lets every estimator see histograms whose scenes are known, on all threads of the current pool;
-    /// none of them can need dark ones.
-    pub fn of_histograms(data: &Labelled, estimators: &[Box<dyn Estimator + '_>]) -> Self {
+    /// none of them can need dark ones. Scenes have estimators as in [`Evaluation::with`].
+    pub fn of_histograms<'a>(
+        data: &Labelled,
+        estimators: impl Fn(&Scene) -> &'a [Box<dyn Estimator + 'a>] + Sync,
+    ) -> Self {
         let scenes = data.scenes.clone();
-        let column = |estimator: &dyn Estimator| {
-            let depth = |histogram: &Histogram| estimator.estimate(histogram).ok();
-            let depths_m = data.histograms.par_iter().map(depth).collect();
-            let mut column =
-                EstimatorErrors { name: estimator.name(), ..EstimatorErrors::default() };
+        let column = |(place, first): (usize, &Box<dyn Estimator + 'a>)| {
+            let depth = |(histogram, scene): (&Histogram, &Scene)| {
+                estimators(scene)[place].estimate(histogram).ok()
+            };
+            let depths_m = data.histograms.par_iter().zip(&scenes).map(depth).collect();
+            let mut column = EstimatorErrors { name: first.name(), ..EstimatorErrors::default() };
             column.extend(scenes.iter(), depths_m, data.array.is_some());
             column
         };
-        let columns = estimators.iter().map(|one| column(&**one)).collect();
+        let first = estimators(&Scene::default());
+        let columns = first.iter().enumerate().map(column).collect();
         Evaluation { scenes, columns }
     }
 

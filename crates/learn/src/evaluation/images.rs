@@ -1,5 +1,7 @@
 //! Statistics of an array's depth images: how many pixels have a depth, and how good these are.
 
+use tofsim::sim::image::{Expected, PixelFrame, ends_and_median};
+
 use super::spread::mean_and_error;
 
 /// Valid depth of a pixel in an image.
@@ -34,6 +36,17 @@ struct PixelErrors {
     mean: f64,
     variance: f64,
     count: f64,
+}
+
+impl PixelDepths {
+    /// Returns the true depth of a pixel and its valid depths in some images.
+    pub fn of(expected: &Expected, frames: &[PixelFrame]) -> Self {
+        let depth = |frame: &PixelFrame| {
+            let PixelFrame { radial_m, sigma_m, .. } = *frame;
+            frame.valid.then_some(RadialDepth { radial_m, sigma_m })
+        };
+        PixelDepths { true_m: expected.radial_m, depths: frames.iter().map(depth).collect() }
+    }
 }
 
 impl ImageDepths {
@@ -93,6 +106,11 @@ impl ImageDepths {
     /// Returns the standard deviations that the estimator states of the valid depths of an image [m].
     pub fn sigmas_m(&self, image: usize) -> impl Iterator<Item = f64> {
         self.valid(image).filter_map(|(_, depth)| depth.sigma_m)
+    }
+
+    /// Returns the median of these standard deviations [m].
+    pub fn median_sigma_m(&self, image: usize) -> Option<f64> {
+        ends_and_median(self.sigmas_m(image)).map(|[_, median, _]| median)
     }
 
     /// Returns the mean square of the errors of an image over the standard deviations that are stated of them [1].

@@ -56,14 +56,19 @@ fn rms(values: &[f64]) -> f64 {
 fn rows(frames: usize, mut take: impl FnMut(f64, f64, usize, [f64; 3])) {
     let bins = bins("kintex7");
     for glass in GLASS {
-        let (template, exact) = (template(&bins, glass * SIGNAL, 500), exact(&bins, glass * SIGNAL));
+        let (template, exact) =
+            (template(&bins, glass * SIGNAL, 500), exact(&bins, glass * SIGNAL));
         let params = params(&bins, Some(&template));
         let model = Model::new(&acquisition(&bins, Some(&exact))).unwrap();
         for distance_m in DISTANCES_M {
             let light = Light { glass: glass * SIGNAL, signal: SIGNAL, distance_m, ..Light::DARK };
             let bound = model.cramer_rao_of(&[echo(SIGNAL, distance_m)], 1.0).unwrap()[0];
             let depths = depths(&params, &bins, &light, frames);
-            let found = [mean(&depths.off_mm), rms(&depths.off_mm) / (1e3 * bound), rms(&depths.over_sigma)];
+            let found = [
+                mean(&depths.off_mm),
+                rms(&depths.off_mm) / (1e3 * bound),
+                rms(&depths.over_sigma),
+            ];
             take(glass, distance_m, depths.off_mm.len(), found);
         }
     }
@@ -73,7 +78,9 @@ fn rows(frames: usize, mut take: impl FnMut(f64, f64, usize, [f64; 3])) {
 #[test]
 fn the_firmware_reaches_the_bound_behind_glass() {
     rows(300, |glass, distance_m, kept, [mean_mm, over_bound, over_sigma]| {
-        println!("{glass} {distance_m}: {kept}, {mean_mm:+.3} mm, {over_bound:.3}, {over_sigma:.3}");
+        println!(
+            "{glass} {distance_m}: {kept}, {mean_mm:+.3} mm, {over_bound:.3}, {over_sigma:.3}"
+        );
         assert!(kept > 290, "{glass} {distance_m}: {kept}");
         assert!(mean_mm.abs() < 0.5, "{glass} {distance_m}: {mean_mm} mm");
         // Four standard deviations of a standard deviation from 300 frames.
@@ -87,7 +94,9 @@ fn the_firmware_reaches_the_bound_behind_glass() {
 #[ignore = "prints a table of docs/cover-glass.md"]
 fn prints_depths_of_the_firmware_behind_glass() {
     rows(2000, |glass, distance_m, kept, [mean_mm, over_bound, over_sigma]| {
-        println!("| {glass} | {distance_m} | {kept} | {mean_mm:+.3} | {over_bound:.3} | {over_sigma:.3} |");
+        println!(
+            "| {glass} | {distance_m} | {kept} | {mean_mm:+.3} | {over_bound:.3} | {over_sigma:.3} |"
+        );
     });
 }
 

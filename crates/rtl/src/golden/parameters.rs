@@ -205,8 +205,7 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Pa
         list.push(("GlassBins", number(params.glass.bins() as u64)));
         list.push(("GlassLight", number(params.glass.light as u64)));
     }
-    let names =
-        ["EdgesFile", "PulseFile", "HazardFile", "LogFile", "ProgramFile", "GlassFile"];
+    let names = ["EdgesFile", "PulseFile", "HazardFile", "LogFile", "ProgramFile", "GlassFile"];
     list.extend(files(names, mem::likelihood_estimator(params)));
     list
 }

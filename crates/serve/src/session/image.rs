@@ -106,7 +106,7 @@ impl ImageSession {
             Ok(image) => {
                 let command =
                     command::of_images(&self.options, &self.scene, self.fidelity, image.number + 1);
-                let summary = SummaryView::of(&image, self.restarts, command);
+                let summary = SummaryView::of(&image, self.size, self.restarts, command);
                 let json = ImageView::of(&image, &summary, self.size).json();
                 self.image = Some(Shown { summary, notes: image.notes, json });
                 self.clock.frame();

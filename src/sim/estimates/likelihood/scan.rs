@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use crate::firmware::likelihood_estimator::words::{
-    ADDED, EXCESS_FRACTION, NO_SCORE,
-};
+use crate::firmware::likelihood_estimator::words::{ADDED, EXCESS_FRACTION, NO_SCORE};
 
 use super::histogram::Shots;
 use super::instrument::Instrument;

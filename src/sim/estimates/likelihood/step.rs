@@ -76,7 +76,8 @@ pub fn step<I: Instrument>(
     let fall = d3.within([lowest, 3 * ONE].map(whole));
     let [g1, g2, g3, g4] = along_glass;
     let more = ((g4 - times(g1, d1)).kept(word) - times(g2, d2)).kept(word);
-    let of_glass = ((more - times(g3, fall)).kept(word) + fall).within([-ONE / 2, 3 * ONE].map(whole));
+    let of_glass =
+        ((more - times(g3, fall)).kept(word) + fall).within([-ONE / 2, 3 * ONE].map(whole));
     let to = Point {
         arrival: (from.arrival + move_by).within([whole(0), scales.end]),
         signal: if from.signal > whole(0) {

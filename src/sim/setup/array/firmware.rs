@@ -56,7 +56,8 @@ impl ArraySetup {
                 return Err(fault("tdc.decoder", &Decoder::Reordered.name(), expected));
             }
             if let Some(name) = &setup.scenario.estimator.glass_file {
-                let expected = "expected none with array.chains_file: a template is for the bins of one chain";
+                let expected =
+                    "expected none with array.chains_file: a template is for the bins of one chain";
                 return Err(fault("estimator.glass_file", name, expected));
             }
             params.tdc = first.converter.tdc.clone();

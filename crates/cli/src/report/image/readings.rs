@@ -2,9 +2,8 @@
 
 use tofsim::sim::image::{Pixel, PixelFrame};
 use tofsim::sim::setup::array::ArraySetup;
-use tofsim_learn::evaluation::images::ImageDepths;
+use tofsim_learn::evaluation::images::{ImageDepths, PixelDepths};
 use tofsim_learn::evaluation::spread::OUTLIER_M;
-use tofsim_studies::images::depths;
 
 /// Simulated images of an array, or the part of them that one pixel sees.
 pub struct DepthImages<'a> {
@@ -92,8 +91,9 @@ impl DepthImages<'_> {
     /// Returns the valid depths of all images; those of a single pixel as an array of one.
     pub fn depths(&self) -> ImageDepths {
         let size = if self.is_whole() { self.array.size() } else { [1, self.pixels.len()] };
-        let pixels = self.pixels.iter().map(|pixel| depths(&pixel.measured)).collect();
-        ImageDepths::new(size, pixels, OUTLIER_M)
+        let measured = self.pixels.iter().map(|pixel| &pixel.measured);
+        let pixels = measured.map(|pixel| PixelDepths::of(&pixel.expected, &pixel.frames));
+        ImageDepths::new(size, pixels.collect(), OUTLIER_M)
     }
 
     /// Returns the readings of an image, by row, then column.

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use tofsim::sim::image::ends_and_median;
 use tofsim_learn::evaluation::Spread;
 use tofsim_learn::evaluation::images::ImageDepths;
 
@@ -34,7 +33,7 @@ impl ImageStatistics {
         ImageStatistics {
             valid: depths.valid(image).count() as u64,
             fill_rate: depths.fill_rate(image),
-            median_sigma_m: ends_and_median(depths.sigmas_m(image)).map(|[_, median, _]| median),
+            median_sigma_m: depths.median_sigma_m(image),
             rms_error_mm: depths.mean_square_mm2(image).map(f64::sqrt),
             errors: Spread::of(depths.errors_m(image).map(Some)),
         }

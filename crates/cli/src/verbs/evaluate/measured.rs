@@ -9,14 +9,14 @@ use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::Labelled;
 use tofsim_learn::dataset::axis::thinned;
+use tofsim_learn::dataset::{Labelled, Scene};
 use tofsim_learn::estimation::{Needs, Panel};
 use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures};
 
 use crate::report::evaluation::{self as report, EvaluationFindings};
 use crate::report::writer::Report;
-use crate::verbs::pixel::common_of_counts;
+use crate::verbs::pixel::columns_of_counts;
 use crate::verbs::terminal::Console;
 
 use super::args::{Args, SHOWN};
@@ -27,7 +27,8 @@ pub fn run(args: &Args, data: &Path, console: &Console) -> Result<()> {
     let size = loaded.scenario.histogram();
     let labelled = Labelled::read(data, args.truth.as_deref(), &size)?;
     labelled.check(data, &loaded.scenario)?;
-    let setup = common_of_counts(loaded)?;
+    let (setup, columns) = columns_of_counts(loaded)?;
+    check_columns(data, &labelled, &setup)?;
     let notes = args.notes_on(&setup, &labelled)?;
     console.print_notes(&notes)?;
     if args.estimator.iter().any(|kind| kind.needs() == Needs::Dark) {
@@ -35,10 +36,12 @@ pub fn run(args: &Args, data: &Path, console: &Console) -> Result<()> {
         return Err(Input::new("--estimator", expected).value("subtraction").into());
     }
     let held = args.output.as_deref().map(FolderLock::take).transpose()?;
-    let estimators = Panel::new(&args.estimator, &setup)?.into_estimators();
+    let panel = |setup: &Setup| Ok(Panel::new(&args.estimator, setup)?.into_estimators());
+    let estimators = columns.iter().map(panel).collect::<Result<Vec<_>>>()?;
     let count = labelled.histograms.len() as u64;
     let evaluation = args.draws.on_threads(count, console, |done| {
-        let evaluation = Evaluation::of_histograms(&labelled, &estimators);
+        let of = |scene: &Scene| &estimators[scene.pixel % estimators.len()][..];
+        let evaluation = Evaluation::of_histograms(&labelled, of);
         done(count);
         Ok(evaluation)
     })?;
@@ -72,6 +75,23 @@ pub fn run(args: &Args, data: &Path, console: &Console) -> Result<()> {
         args.json,
         console,
     )
+}
+
+/// Checks that the column of each histogram is known, where each has a chain of its own.
+///
+/// # Errors
+/// When the histograms are not those of as many columns as the scenario has.
+fn check_columns(data: &Path, labelled: &Labelled, setup: &Setup) -> Result<()> {
+    let array = &setup.scenario.array;
+    let found = labelled.array.map_or(1, |[_, columns]| columns);
+    if array.chains_file.is_none() || found == array.columns as usize {
+        return Ok(());
+    }
+    let expected = format!(
+        "expected {}, as array.columns has it: each has a chain of its own (array.chains_file)",
+        array.columns
+    );
+    Err(Input::new(data.display(), expected).field("columns").value(found).into())
 }
 
 /// The figures of an estimator; the thesis's line is for its own scenes.

@@ -168,24 +168,28 @@ fn what_air_and_patch_send_back_does_not_go_with_the_reflectance() {
 
 #[test]
 fn pixels_have_the_probabilities_of_their_setups() {
-    let keys = ["array.rows=2", "array.columns=3", "target.length_m=0.5", "target.tilt_deg=35"];
-    let keys = keys.map(str::to_owned);
-    let array = Arc::new(ArraySetup::new(scenario::load("kc705", &keys).unwrap()).unwrap());
-    let source = HistogramSource::of_arrays(std::slice::from_ref(&array)).unwrap();
-    let keys = &array.common().scenario;
-    for pixel in 0..6 {
-        let setup = array.pixel(pixel / 3, pixel % 3);
-        let scene = Scene {
-            distance_m: setup.mean_radial_m().unwrap(),
-            reflectance: keys.target.reflectance,
-            irradiance_w_m2_nm: keys.ambient.irradiance_w_m2_nm,
-            setting: 0,
-            pixel,
-        };
-        let expected = BinProbabilities::new(&Hazard::new(&setup.budget), &setup.bins());
-        let found = source.probabilities(&scene);
-        for (found, expected) in found.of_code().iter().zip(expected.of_code()) {
-            assert!((found - expected).abs() < 1e-12, "{pixel}: {found} for {expected}");
+    let own = ["tdc.profile=kintex7", "array.chains_file=../chains/columns.csv"];
+    for more in [&[][..], &own] {
+        let keys = ["array.rows=2", "array.columns=3", "target.length_m=0.5", "target.tilt_deg=35"];
+        let keys: Vec<_> = keys.iter().chain(more).map(|&key| key.to_owned()).collect();
+        let array = Arc::new(ArraySetup::new(scenario::load("kc705", &keys).unwrap()).unwrap());
+        let source = HistogramSource::of_arrays(std::slice::from_ref(&array)).unwrap();
+        let keys = &array.common().scenario;
+        for pixel in 0..6 {
+            let setup = array.pixel(pixel / 3, pixel % 3);
+            let scene = Scene {
+                distance_m: setup.mean_radial_m().unwrap(),
+                reflectance: keys.target.reflectance,
+                irradiance_w_m2_nm: keys.ambient.irradiance_w_m2_nm,
+                setting: 0,
+                pixel,
+            };
+            let expected = BinProbabilities::new(&Hazard::new(&setup.budget), &setup.bins());
+            let found = source.probabilities(&scene);
+            for (found, expected) in found.of_code().iter().zip(expected.of_code()) {
+                assert!((found - expected).abs() < 1e-12, "{pixel}: {found} for {expected}");
+            }
+            assert_eq!(*source.acquisition_of(&scene).bins, setup.known_bins(), "{pixel}");
         }
     }
 }

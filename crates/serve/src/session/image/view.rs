@@ -1,11 +1,13 @@
 //! JSON objects of images, for browsers.
 
+use std::slice;
 use std::sync::Arc;
 
 use serde::Serialize;
 
 use tofsim::firmware::tof_top::status::StatusSet;
-use tofsim::sim::image::ends_and_median;
+use tofsim_learn::evaluation::images::{ImageDepths, PixelDepths};
+use tofsim_learn::evaluation::spread::OUTLIER_M;
 
 use super::super::scene::Slider;
 use super::simulation::Image;
@@ -125,17 +127,18 @@ pub struct ImageView<'a> {
 
 impl SummaryView {
     /// Summarises an image.
-    pub fn of(image: &Image, restart: u64, command: String) -> Self {
-        let valid = image.frames.iter().filter(|frame| frame.valid);
-        let sigmas_m = valid.clone().filter_map(|frame| frame.sigma_m);
-        let valid_pixels = valid.clone().count();
+    pub fn of(image: &Image, size: [usize; 2], restart: u64, command: String) -> Self {
+        let pixels = image.expected.iter().zip(&image.frames);
+        let pixels =
+            pixels.map(|(expected, frame)| PixelDepths::of(expected, slice::from_ref(frame)));
+        let depths = ImageDepths::new(size, pixels.collect(), OUTLIER_M);
         SummaryView {
             restart,
             number: image.number,
             hash: image.hash.to_string(),
-            valid_pixels,
-            fill_rate: valid_pixels as f64 / image.frames.len() as f64,
-            median_sigma_m: ends_and_median(sigmas_m).map(|[_, median, _]| median),
+            valid_pixels: depths.valid(0).count(),
+            fill_rate: depths.fill_rate(0),
+            median_sigma_m: depths.median_sigma_m(0),
             command,
         }
     }

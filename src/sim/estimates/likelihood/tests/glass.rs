@@ -64,9 +64,8 @@ fn errors_behind_glass_are_as_large_as_sigma_states() {
         let at_ps = random.random_range(333.0..3000.0);
         let ambient = random.random_range(0.0..5e-3);
         let echo = parts(at_ps);
-        let hazards: Vec<_> = (0..256)
-            .map(|bin| ambient + now * template[bin] + signal * echo[bin])
-            .collect();
+        let hazards: Vec<_> =
+            (0..256).map(|bin| ambient + now * template[bin] + signal * echo[bin]).collect();
         let found = estimate(&instrument(&template), &draw(&hazards, &mut random));
         all += 1;
         if !found.status.is_empty() {
