@@ -104,11 +104,19 @@ fn a_template_of_the_window_leaves_the_methods_valid_that_take_it() {
         with(|s| (s.cover.fraction, s.estimator.glass_file) = (1e-4, file.map(Into::into)))
     };
     let (without, with_template) = (behind(None), behind(Some("glass.csv")));
-    for method in [Method::CramerRaoBound, Method::Likelihood, Method::TwoEchoes, Method::Matched] {
+    let taking = [
+        Method::CramerRaoBound,
+        Method::SecondOpinion,
+        Method::Likelihood,
+        Method::TwoEchoes,
+        Method::LikelihoodEstimator,
+        Method::Matched,
+    ];
+    for method in taking {
         assert_eq!(found(&without, method)[0].0, "cover.fraction", "{method:?}");
         assert_eq!(found(&with_template, method), [], "{method:?}");
     }
-    for method in [Method::LikelihoodEstimator, Method::Centroid, Method::Peak] {
+    for method in [Method::Centroid, Method::Peak] {
         assert_eq!(found(&with_template, method), found(&without, method), "{method:?}");
     }
     let two = with(|s| s.target.second_share = 0.5);

@@ -27,7 +27,7 @@ use rayon::prelude::*;
 use tofsim::error::Input;
 
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo};
-use super::estimator::{EchoDepth, Estimator, Failure, Found, hits};
+use super::estimator::{EchoDepth, Estimator, Failure, Found, Pedestal, hits};
 use super::matched_filter::MatchedFilter;
 
 use climb::{Top, climb};
@@ -103,6 +103,43 @@ impl Likelihood {
     pub fn fit_from(&self, histogram: &[u32], near: Echo) -> Result<Fit, Failure> {
         let top = climb(&self.model, histogram, self.model.coordinates(&near))?;
         Ok(Fit::of(&self.model, &top, 0))
+    }
+
+    /// The most likely scene with a cover window's light, from the best of the places where the matched filter sees an echo
+    /// beside it: noise of a strong pedestal may stand out as much as a faint echo.
+    ///
+    /// # Errors
+    /// When there is no echo, or no climb ends.
+    fn fit_with_pedestal(&self, histogram: &[u32]) -> Result<Fit, Failure> {
+        let (mut best, mut failure) = (None, Failure::NoPeak);
+        for found in self.start.places(histogram) {
+            let at = self.model.coordinates_with(&found.echo, found.amplitude);
+            match climb(&self.model, histogram, at) {
+                Ok(top) if best.as_ref().is_none_or(|(value, _)| top.value > *value) => {
+                    best = Some((top.value, Fit::of(&self.model, &top, 0)));
+                }
+                Ok(_) => {}
+                Err(found) => failure = found,
+            }
+        }
+        best.map(|(_, fit)| fit).ok_or(failure)
+    }
+
+    /// Returns the amplitude of the window's light beside one echo or two, and how well its bins fit, if there is a
+    /// template.
+    pub(super) fn pedestal(&self, histogram: &[u32], fits: &[Fit]) -> Option<Pedestal> {
+        let (misfit, [relative, relative_se]) = (self.misfit.as_ref()?, fits.first()?.amplitude?);
+        let probabilities = match fits {
+            [one, other] => {
+                let [place, signal, second, second_signal, background] =
+                    self.model.coordinates_of_two(&one.echo, &other.echo);
+                let at = [place, signal, second, second_signal, relative, background];
+                self.model.probabilities_at(&at)
+            }
+            _ => self.model.probabilities_at(&self.model.coordinates_with(&fits[0].echo, relative)),
+        };
+        let misfit = misfit.of(histogram, &probabilities, self.model.shots as f64, relative);
+        Some(Pedestal { relative, relative_se, misfit })
     }
 
     /// Distance of what the echo of a fit comes from.

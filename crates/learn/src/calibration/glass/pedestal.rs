@@ -6,7 +6,7 @@ use tofsim::error::{Input, Result};
 
 use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition};
 
-use super::{Cells, SOURCE};
+use super::cells::{Cells, SOURCE};
 
 /// Excess of hits in a box beyond ambient light that begins a pedestal or an echo [sigma].
 pub const SURE: f64 = 5.0;

@@ -10,8 +10,8 @@ use tofsim::network::Histogram;
 
 use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition};
 
+use super::cells::{Cells, waiting};
 use super::pedestal::{Ambient, SURE, metres};
-use super::{Cells, waiting};
 
 /// Part of the rate by which boxes of even light differ, because widths of bins are not known better [1].
 const UNEVEN: f64 = 0.03;
