@@ -1,6 +1,6 @@
 use tofsim::firmware::tof_top::status::StatusSet;
 use tofsim::scenario;
-use tofsim::sim::image::Expected;
+use tofsim::sim::image::{Expected, PixelFrame};
 
 use super::*;
 
