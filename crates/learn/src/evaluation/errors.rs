@@ -121,17 +121,17 @@ impl Evaluation {
         estimators: impl Fn(&Scene) -> &'a [Box<dyn Estimator + 'a>] + Sync,
     ) -> Self {
         let scenes = data.scenes.clone();
-        let column = |(place, first): (usize, &Box<dyn Estimator + 'a>)| {
+        let column = |(place, name): (usize, &'static str)| {
             let depth = |(histogram, scene): (&Histogram, &Scene)| {
                 estimators(scene)[place].estimate(histogram).ok()
             };
             let depths_m = data.histograms.par_iter().zip(&scenes).map(depth).collect();
-            let mut column = EstimatorErrors { name: first.name(), ..EstimatorErrors::default() };
+            let mut column = EstimatorErrors { name, ..EstimatorErrors::default() };
             column.extend(scenes.iter(), depths_m, data.array.is_some());
             column
         };
-        let first = estimators(&Scene::default());
-        let columns = first.iter().enumerate().map(column).collect();
+        let names = estimators(&Scene::default()).iter().map(|one| one.name());
+        let columns = names.enumerate().map(column).collect();
         Evaluation { scenes, columns }
     }
 
