@@ -87,14 +87,9 @@ fn refused_m(error: &str) -> f64 {
 #[test]
 fn a_target_is_detected_and_refused() {
     let bins = bins("kintex7");
-    for (distance_m, signal) in [
-        (0.15, 0.01),
-        (0.15, 1.0),
-        (0.3, 0.005),
-        (0.6, 0.01),
-        (0.85, 0.02),
-        (0.9, 2.0),
-    ] {
+    for (distance_m, signal) in
+        [(0.15, 0.01), (0.15, 1.0), (0.3, 0.005), (0.6, 0.01), (0.85, 0.02), (0.9, 2.0)]
+    {
         for glass in [0.1, 1.0] {
             let light = Light { glass, signal, distance_m, ..Light::DARK };
             let found = calibrated(&bins, &light.drawn(&bins, 100, 7));
