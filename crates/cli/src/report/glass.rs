@@ -64,7 +64,7 @@ impl Findings for GlassFindings {
     fn text(&self) -> String {
         let found = &self.calibration;
         let [photons, se] = found.photons;
-        let [rate, rate_se] = found.ambient_per_ps.map(|per_ps| 1e6 * per_ps);
+        let [rate, rate_se] = found.ambient_per_ps.map(|per_ps| 1e12 * per_ps);
         let change = found.change.map_or("-".to_owned(), |[change, se]| {
             format!("{:+.2} +- {:.2} %", 100.0 * change, 100.0 * se)
         });
@@ -76,7 +76,7 @@ impl Findings for GlassFindings {
             row("mean delay from the laser edge", format!("{:.1} ps", found.delay_ps[0])),
             row("width (standard deviation)", format!("{:.1} ps", found.delay_ps[1])),
             row("pedestal", format!("{:.0} to {:.0} ps", found.support_ps[0], found.support_ps[1])),
-            row("ambient light and dark counts", format!("{rate:.3} +- {rate_se:.3} MHz")),
+            row("ambient light and dark counts", format!("{rate:.4e} +- {rate_se:.1e} /s")),
             row("change over the histograms", change),
         ];
         format!(

@@ -80,7 +80,7 @@ fn a_window_that_has_moved_is_noted_with_its_size() {
     let dirty = run("cover.fraction=1.69e-4");
     assert!((number(&dirty[0]["value"]) - 1.3).abs() < 0.03, "{dirty:?}");
     assert!(dirty[0]["text"].as_str().unwrap().contains("times that of the calibration"));
-    let late = run("cover.delay_ps=200");
+    let late = run("cover.delay_ps=150");
     assert!(late[0]["text"].as_str().unwrap().contains("another shape"), "{late:?}");
     assert_eq!(run("cover.fraction=1.32e-4"), Vec::<Value>::new());
 }
@@ -91,8 +91,7 @@ fn histograms_of_files_are_calibrated_and_a_target_among_them_is_refused() {
     let here = folder.path();
     for (name, reflectance) in [("dark", "target.reflectance=0"), ("lit", "target.reflectance=0.3")]
     {
-        let args =
-            ["dataset", "--scenario", "glass", "--rows", "40", "--format", "npy", "-o", name];
+        let args = ["dataset", "glass", "--rows", "40", "--format", "npy", "-o", name];
         let grid = ["--grid", "target.distance_m=0.4", "--grid", reflectance];
         stdout(here, &[&args[..], &grid, &["-s", "cover.fraction=3e-5"]].concat());
     }
@@ -140,10 +139,11 @@ fn bad_templates_and_histograms_are_refused() {
     written("");
     assert!(run(&[]).contains("out/glass.csv: empty; expected the header"), "{}", run(&[]));
     written(&text);
-    let mode_1 = ["run", "glass", "-s", TEMPLATE, "-s", "firmware.mode=1", "-s", "spad.on_tdc=1"];
+    let mode_1 =
+        ["run", "glass", "-s", TEMPLATE, "-s", "firmware.mode=1", "-s", "estimator.kind=centroid"];
     let error = refused(here, &[&mode_1[..], &["--estimator", "likelihood"]].concat());
     assert!(error.contains("estimator.glass_file: expected none in MODE 1"), "{error}");
-    let calibrate = ["calibrate", "glass", "--scenario", "glass"];
+    let calibrate = ["calibrate", "glass", "--scenario", "glass", "-s", "estimator.kind=centroid"];
     let with = |more: &[&'static str]| [&calibrate[..], more].concat();
     let mode_1 = refused(here, &with(&["-s", "firmware.mode=1", "--frames", "1"]));
     assert!(mode_1.contains("firmware.mode = 1: expected 0"), "{mode_1}");

@@ -44,7 +44,8 @@ impl Bound {
             let glass = setup.glass.as_ref().map(|glass| glass.over(&bins.limits_ps()));
             let acquisition = Acquisition::of(setup, bins, setup.shots(1));
             let model = Model::new(&Acquisition { glass: glass.as_ref(), ..acquisition })?;
-            Ok(model.bound_of_scene_m(&setup.budget).map(|sd_m| 2e3 * sd_m))
+            let second_m = setup.scenario.target.second_distance_m;
+            Ok(model.bound_of_scene_m(&setup.budget, second_m).map(|sd_m| 2e3 * sd_m))
         };
         let (own, scale) = (&setup.params.tdc, setup.params.tdc.decoder.scale);
         let bin = Time::from_fs(scale.bin().fs() / FINER);

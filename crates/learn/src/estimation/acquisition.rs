@@ -164,9 +164,9 @@ impl From<&Budget> for Echo {
     }
 }
 
-/// Returns the echoes of a plain scene, that of the target first and that of a second surface after it: neither a patch nor
-/// the air is one.
-pub fn echoes(budget: &Budget) -> Vec<Echo> {
+/// Returns the echoes of a plain scene, that of the target first and that of a second surface, at `second_m`, after it:
+/// neither a patch nor the air is one [m].
+pub fn echoes(budget: &Budget, second_m: f64) -> Vec<Echo> {
     let target = Echo::from(budget);
     let second = budget.second_per_shot;
     if second == 0.0 {
@@ -175,9 +175,8 @@ pub fn echoes(budget: &Budget) -> Vec<Echo> {
     if budget.signal_per_shot == 0.0 {
         return vec![Echo { signal: second, ..target }];
     }
-    let [near, far] = budget.target_ends();
-    let at = if near == budget.mean_arrival { far } else { near };
-    vec![target, Echo { arrival_ps: ps(at), signal: second, ..target }]
+    let arrival_ps = ps(budget.delay) + second_m * ARRIVAL_PS_PER_M;
+    vec![target, Echo { arrival_ps, signal: second, ..target }]
 }
 
 /// Code, begin and end of each stretch of time that has a code, in order of time [code, ps, ps].

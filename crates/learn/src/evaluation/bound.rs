@@ -33,6 +33,8 @@ pub fn two_sd_mm(
         .scenarios()
         .map(|scenario| scenario.obstacles(Method::CramerRaoBound).next().is_none())
         .collect();
+    let second_m: Vec<_> =
+        source.scenarios().map(|scenario| scenario.target.second_distance_m).collect();
     let apart = grid.lights().div_ceil(MOST_LIGHTS).max(1);
     let bound = |&distance_m: &f64| {
         let mut white = Last(None);
@@ -44,7 +46,8 @@ pub fn two_sd_mm(
             if !budget.variation.is_none() || !is_valid {
                 return None;
             }
-            let standard_deviation = models[scene.setting].bound_of_scene_m(&budget)?;
+            let standard_deviation =
+                models[scene.setting].bound_of_scene_m(&budget, second_m[scene.setting])?;
             Some(standard_deviation * standard_deviation)
         };
         let lights = (0..grid.lights()).step_by(apart as usize);

@@ -206,11 +206,11 @@ impl Model {
         }
     }
 
-    /// Returns the bound of the target's distance in a plain scene: with a second surface and the cover window's light, if
-    /// there are such [m].
-    pub fn bound_of_scene_m(&self, budget: &Budget) -> Option<f64> {
+    /// Returns the bound of the target's distance in a plain scene: with a second surface, at `second_m`, and the cover
+    /// window's light, if there are such [m].
+    pub fn bound_of_scene_m(&self, budget: &Budget, second_m: f64) -> Option<f64> {
         let amplitude = self.photons.map_or(0.0, |photons| budget.cover_per_shot / photons);
-        self.cramer_rao_of(&echoes_of(budget), amplitude)?.first().copied()
+        self.cramer_rao_of(&echoes_of(budget, second_m), amplitude)?.first().copied()
     }
 
     /// Coordinates of two echoes, with the background of the first.

@@ -47,20 +47,22 @@ impl PedestalWatch {
         let error = se.hypot(of_template / glass.photons());
         let change = (relative - 1.0).abs();
         let key = "estimator.glass_file";
-        if change > SMALL && change > SIGNIFICANT * error {
+        let misfit = self.misfit / self.frames.sqrt();
+        // An amplitude is fitted, a shape is not.
+        if misfit > SIGNIFICANT {
+            let text = format!(
+                "the cover window's light has another shape than in the calibration: its bins are {misfit:.1} standard \
+                 deviations off over all frames, at {relative:.3} times its amplitude; calibrate anew (tofsim calibrate \
+                 glass)"
+            );
+            return Some(Note::new(NoteCode::PedestalMoved, key, misfit, "below 5", text));
+        }
+        (change > SMALL && change > SIGNIFICANT * error).then(|| {
             let text = format!(
                 "the cover window's light is {relative:.3} +- {error:.3} times that of the calibration: clean the \
                  window or calibrate anew (tofsim calibrate glass)"
             );
-            return Some(Note::new(NoteCode::PedestalMoved, key, relative, "about 1", text));
-        }
-        let misfit = self.misfit / self.frames.sqrt();
-        (misfit > SIGNIFICANT).then(|| {
-            let text = format!(
-                "the cover window's light has another shape than in the calibration: its bins are {misfit:.1} standard \
-                 deviations off over all frames; calibrate anew (tofsim calibrate glass)"
-            );
-            Note::new(NoteCode::PedestalMoved, key, misfit, "below 5", text)
+            Note::new(NoteCode::PedestalMoved, key, relative, "about 1", text)
         })
     }
 }
