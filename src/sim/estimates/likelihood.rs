@@ -77,7 +77,7 @@ pub fn trace<I: Instrument>(p: &I, histogram: &[u32]) -> Trace<I::Number> {
         }
     }
     let start = scan(p, &shots, &dark, 0..0);
-    let begin = dark.start(p, &start);
+    let begin = start.start(p, &dark);
     let (mut point, mut information) = (begin, Information::default());
     let steps = std::array::from_fn(|_| {
         (point, information) = step(p, &shots, &point);

@@ -22,6 +22,10 @@ use super::estimator::{Estimator, Failure, hits};
 
 use pedestal::{Glass, Projected};
 
+/// Distance of two places that are tried one after the other [sigma].
+const APART: f64 = 3.0;
+/// Most places.
+const MOST_PLACES: usize = 3;
 /// Range of a Gaussian on either side of its mean [sigma].
 const REACH: f64 = 5.0;
 /// Steps of the grid of arrivals in the pulse's standard deviation, where bins are wider [1].
@@ -173,6 +177,23 @@ impl MatchedFilter {
         })
     }
 
+    /// Returns the most likely places of an echo, the best first, at least three standard deviations of the pulse apart.
+    pub fn places(&self, histogram: &[u32]) -> Vec<Match> {
+        let (bins, beside) = self.corrected(histogram);
+        let fits = self.fits(&bins, &beside);
+        let mut order: Vec<_> = (0..fits.len()).collect();
+        order.sort_by(|&a, &b| fits[b].score.total_cmp(&fits[a].score));
+        let steps = (APART * self.sigma_ps / self.step_ps).ceil() as usize;
+        let mut found: Vec<usize> = Vec::new();
+        for place in order {
+            let is_apart = found.iter().all(|other| other.abs_diff(place) >= steps);
+            if found.len() < MOST_PLACES && is_apart {
+                found.push(place);
+            }
+        }
+        found.iter().filter_map(|&place| self.refined(&fits, place, &bins, &beside)).collect()
+    }
+
     /// The most likely echo, however faint; `None` where no signal above zero fits.
     pub fn best(&self, histogram: &[u32]) -> Option<Match> {
         let (bins, beside) = self.corrected(histogram);
@@ -317,7 +338,7 @@ impl Fit {
         let mut alone = product - flat_part * flat_product;
         let mut glass_part = 0.0;
         if let Some(glass) = &beside.glass {
-            let with_glass = glass.within(pulse, bins);
+            let with_glass = glass.within(pulse.first, &pulse.parts, bins);
             glass_part = with_glass / glass.squares;
             weight -= glass_part * with_glass;
             alone -= glass_part * glass.product;

@@ -3,17 +3,13 @@
 use std::ops::Range;
 
 use crate::firmware::likelihood_estimator::words::{
-    AMBIENT_FRACTION, HAZARD_FRACTION, LEAST_SIGNAL, MOST_LEVEL, SIGNAL_FRACTION, UNITS,
+    AMBIENT_FRACTION, HAZARD_FRACTION, SIGNAL_FRACTION, UNITS,
 };
 
 use super::histogram::Shots;
 use super::instrument::Instrument;
-use super::number::{Number, product};
-use super::scan::Best;
+use super::number::Number;
 use super::terms::{Bin, Terms};
-
-/// The part of a pulse in the box.
-const IN_BOX: f64 = 0.84;
 
 /// Parameters of the scene in a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,22 +28,6 @@ impl<N: Number> Point<N> {
     /// Returns a point without an echo.
     pub fn dark(ambient: N, glass: N) -> Self {
         Point { arrival: N::default(), signal: N::default(), ambient, glass }
-    }
-
-    /// Returns the first point of a fit, where a box stands highest above the light of this one.
-    pub fn start(&self, p: &impl Instrument<Number = N>, best: &Best<N>) -> Self {
-        let (from, until) = best.bins;
-        let word = p.words().word_bits();
-        let (mantissa, bits) = best.waiting.at_least(N::whole(1)).reciprocal();
-        let excess = best.excess.floored(-4).wrapped(word);
-        let rate = product(excess, mantissa, bits, word);
-        let bins = N::whole((until - from) as i64);
-        let signal = ((rate * bins).shifted(13) * N::constant(19, 16.0 / IN_BOX)).shifted(4);
-        Point {
-            arrival: N::whole((from + until) as i64 * (UNITS / 2) * 16),
-            signal: signal.within([LEAST_SIGNAL, MOST_LEVEL].map(N::whole)),
-            ..*self
-        }
     }
 
     /// Computes the terms of each bin of a fit, with its z, followed by all other bins as one.

@@ -2,13 +2,17 @@
 
 use std::ops::Range;
 
-use crate::firmware::likelihood_estimator::words::{ADDED, EXCESS_FRACTION, NO_SCORE};
+use crate::firmware::likelihood_estimator::words::{
+    ADDED, EXCESS_FRACTION, LEAST_SIGNAL, MOST_LEVEL, NO_SCORE, UNITS,
+};
 
 use super::histogram::Shots;
 use super::instrument::Instrument;
-use super::number::Number;
+use super::number::{Number, product};
 use super::point::{Light, Point};
 
+/// The part of a pulse in the box.
+const IN_BOX: f64 = 0.84;
 /// What [`ADDED`] stands for: a tenth of a count, 8 fraction bits.
 const A_TENTH: f64 = 25.6;
 
@@ -23,6 +27,24 @@ pub struct Best<N> {
     pub excess: N,
     /// Twice the shots that wait in the middle of a bin, over its bins.
     pub waiting: N,
+}
+
+impl<N: Number> Best<N> {
+    /// Returns the first point of a fit: an echo here, above the light of a point.
+    pub fn start(&self, p: &impl Instrument<Number = N>, light: &Point<N>) -> Point<N> {
+        let (from, until) = self.bins;
+        let word = p.words().word_bits();
+        let (mantissa, bits) = self.waiting.at_least(N::whole(1)).reciprocal();
+        let excess = self.excess.floored(-4).wrapped(word);
+        let rate = product(excess, mantissa, bits, word);
+        let bins = N::whole((until - from) as i64);
+        let signal = ((rate * bins).shifted(13) * N::constant(19, 16.0 / IN_BOX)).shifted(4);
+        Point {
+            arrival: N::whole((from + until) as i64 * (UNITS / 2) * 16),
+            signal: signal.within([LEAST_SIGNAL, MOST_LEVEL].map(N::whole)),
+            ..*light
+        }
+    }
 }
 
 /// Slides the box over all bins but those that are blanked, above the light of a point; the first of the highest places

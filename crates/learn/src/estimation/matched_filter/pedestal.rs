@@ -8,13 +8,6 @@ use tofsim::scenario::glass::GlassTemplate;
 
 use crate::estimation::coates::Corrected;
 
-use super::{Match, MatchedFilter, Pulse};
-
-/// Distance of two places that are tried one after the other [sigma].
-const APART: f64 = 3.0;
-/// Most places.
-const MOST_PLACES: usize = 3;
-
 /// A template by bins in order of time.
 #[derive(Clone, Debug)]
 pub struct Glass(Vec<f64>);
@@ -69,28 +62,9 @@ impl Glass {
 }
 
 impl Projected {
-    /// Returns the weighted product of the shape with a pulse.
-    pub fn within(&self, pulse: &Pulse, bins: &[Corrected]) -> f64 {
-        let there = bins[pulse.first..].iter().zip(&self.shape[pulse.first..]);
-        pulse.parts.iter().zip(there).map(|(part, (bin, own))| bin.waiting * part * own).sum()
-    }
-}
-
-impl MatchedFilter {
-    /// Returns the most likely places of an echo, the best first, at least three standard deviations of the pulse apart.
-    pub fn places(&self, histogram: &[u32]) -> Vec<Match> {
-        let (bins, beside) = self.corrected(histogram);
-        let fits = self.fits(&bins, &beside);
-        let mut order: Vec<_> = (0..fits.len()).collect();
-        order.sort_by(|&a, &b| fits[b].score.total_cmp(&fits[a].score));
-        let steps = (APART * self.sigma_ps / self.step_ps).ceil() as usize;
-        let mut found: Vec<usize> = Vec::new();
-        for place in order {
-            let is_apart = found.iter().all(|other| other.abs_diff(place) >= steps);
-            if found.len() < MOST_PLACES && is_apart {
-                found.push(place);
-            }
-        }
-        found.iter().filter_map(|&place| self.refined(&fits, place, &bins, &beside)).collect()
+    /// Returns the weighted product of the shape with the parts of a pulse from a bin on.
+    pub fn within(&self, first: usize, parts: &[f64], bins: &[Corrected]) -> f64 {
+        let there = bins[first..].iter().zip(&self.shape[first..]);
+        parts.iter().zip(there).map(|(part, (bin, own))| bin.waiting * part * own).sum()
     }
 }
