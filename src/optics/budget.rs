@@ -7,13 +7,14 @@ use crate::kernel::pulse::Pulse;
 use crate::scenario::Scenario;
 use crate::scenario::wiring::Wiring;
 
+use super::cover;
 use super::dark::DarkRates;
+use super::photometry::AmbientRates;
+use super::scene::PixelLight;
 use super::spread::{ORIGINS, Spread};
 use super::variation::Variation;
 
 mod light;
-
-pub(super) use light::AmbientRates;
 
 pub use super::photometry::LIGHT_M_S;
 
@@ -83,6 +84,24 @@ impl Budget {
     /// ([`Budget::with_dark_rates`]).
     pub fn new(scenario: &Scenario, pulse: Pulse) -> Self {
         Budget::of_scene(scenario, pulse, None)
+    }
+
+    /// Computes the budget of a pixel that sees such light and has such a path, for the given laser pulse and without
+    /// measured dark rates.
+    pub(super) fn of_light(
+        scenario: &Scenario,
+        pulse: Pulse,
+        ambient: &AmbientRates,
+        light: &PixelLight,
+        path: &PixelPath,
+    ) -> Self {
+        let delay_ps = scenario.laser.delay_ps + path.offset_ps;
+        let cover_per_shot = cover::per_shot(scenario, light.share, path.cover_fraction);
+        Budget::of_background(scenario, pulse, ambient, &light.ambient, delay_ps).with_light(
+            &light.returned,
+            cover_per_shot,
+            scenario,
+        )
     }
 
     /// Replaces the dark count rate.

@@ -22,6 +22,7 @@ use super::budget::Budget;
 use super::variation::Variation;
 use line::Line;
 
+mod by_cause;
 mod cause;
 mod line;
 pub mod varied;

@@ -69,6 +69,26 @@ impl AmbientRate {
     }
 }
 
+/// Rates of ambient light from the target and from a second surface.
+#[derive(Clone, Copy, Debug)]
+pub struct AmbientRates {
+    /// That of the target.
+    pub target: AmbientRate,
+    /// That of the second surface, if there is one.
+    pub second: Option<AmbientRate>,
+}
+
+impl AmbientRates {
+    /// Returns the rates for the optics and the distances of a scenario.
+    pub fn of(scenario: &Scenario) -> Self {
+        let of = |target: &Target| AmbientRate::of(scenario, target);
+        AmbientRates {
+            target: of(&scenario.target),
+            second: scenario.target.second().as_ref().map(of),
+        }
+    }
+}
+
 /// Computes N_r with the constant fitted to Table 4.3, proportional to irradiance and reflectance, for the optics for
 /// which the constant is stated.
 fn fitted_rate_hz(scenario: &Scenario, reflectance: f64) -> f64 {

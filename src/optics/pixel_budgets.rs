@@ -4,7 +4,8 @@ use crate::kernel::pulse::Pulse;
 use crate::scenario::Scenario;
 use crate::scenario::mesh::Mesh;
 
-use super::budget::{AmbientRates, Budget, PixelPath};
+use super::budget::{Budget, PixelPath};
+use super::photometry::AmbientRates;
 use super::pixels::Pixels;
 use super::scene::{PixelLight, Scene};
 

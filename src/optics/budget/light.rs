@@ -7,10 +7,12 @@ use crate::kernel::Time;
 use crate::kernel::pulse::Pulse;
 use crate::optics::cover::{self, Delays};
 use crate::optics::dark::DarkRates;
-use crate::optics::photometry::{AmbientRate, LIGHT_M_S, seen_sr, signal_per_shot, white_per_shot};
+use crate::optics::photometry::{
+    AmbientRate, AmbientRates, LIGHT_M_S, seen_sr, signal_per_shot, white_per_shot,
+};
 use crate::optics::pixels::Pixels;
 use crate::optics::returned::{Light, Returned};
-use crate::optics::scene::{Ambient, PixelLight, Scene};
+use crate::optics::scene::{Ambient, Scene};
 use crate::optics::spread::{self, Spread};
 use crate::optics::variation::Variation;
 use crate::scenario::mesh::Mesh;
@@ -72,26 +74,8 @@ impl Budget {
         budget.over_time(&returned, scenario).0
     }
 
-    /// Computes the budget of a pixel that sees such light and has such a path, for the given laser pulse and without
-    /// measured dark rates.
-    pub(in crate::optics) fn of_light(
-        scenario: &Scenario,
-        pulse: Pulse,
-        ambient: &AmbientRates,
-        light: &PixelLight,
-        path: &PixelPath,
-    ) -> Self {
-        let delay_ps = scenario.laser.delay_ps + path.offset_ps;
-        let cover_per_shot = cover::per_shot(scenario, light.share, path.cover_fraction);
-        Budget::of_background(scenario, pulse, ambient, &light.ambient, delay_ps).with_light(
-            &light.returned,
-            cover_per_shot,
-            scenario,
-        )
-    }
-
     /// Computes the part of a budget that does not depend on the laser's light.
-    fn of_background(
+    pub(super) fn of_background(
         scenario: &Scenario,
         pulse: Pulse,
         ambient: &AmbientRates,
@@ -119,7 +103,12 @@ impl Budget {
     }
 
     /// Replaces the laser light by that returned from a scene and a cover window, distributed in time.
-    fn with_light(self, returned: &Returned, cover_per_shot: f64, scenario: &Scenario) -> Self {
+    pub(super) fn with_light(
+        self,
+        returned: &Returned,
+        cover_per_shot: f64,
+        scenario: &Scenario,
+    ) -> Self {
         let white = f64::from(scenario.spad.on_tdc) * white_per_shot(scenario);
         let target = &scenario.target;
         let budget = Budget {
@@ -148,24 +137,6 @@ impl Budget {
         let mean_m = lights.into_iter().find_map(Light::mean_m);
         let mean_arrival = self.delay + flight(mean_m.unwrap_or(scenario.target.distance_m));
         (Budget { mean_arrival, spread: Some(Arc::new(spread)), ..self }, air)
-    }
-}
-
-/// Rates of ambient light from the target and from a second surface.
-#[derive(Clone, Copy, Debug)]
-pub struct AmbientRates {
-    target: AmbientRate,
-    second: Option<AmbientRate>,
-}
-
-impl AmbientRates {
-    /// Returns the rates for the optics and the distances of a scenario.
-    pub fn of(scenario: &Scenario) -> Self {
-        let of = |target: &Target| AmbientRate::of(scenario, target);
-        AmbientRates {
-            target: of(&scenario.target),
-            second: scenario.target.second().as_ref().map(of),
-        }
     }
 }
 
