@@ -81,14 +81,14 @@ fn second_rise(cells: &Cells, ambient: &Ambient, length: usize) -> Option<Range<
     }
     let mut least = *rates.get(place)?;
     let mut best: Option<(f64, usize)> = None;
-    for later in place..boxes.len() {
+    for (later, rate) in rates.iter().enumerate().skip(place) {
         let floor = if least.rate > ambient.rate { &least } else { ambient };
-        let found = rise(floor, &rates[later]);
+        let found = rise(floor, rate);
         if found > SURE && best.is_none_or(|(most, _)| found > most) {
             best = Some((found, later));
         }
-        if rates[later].rate < least.rate {
-            least = rates[later];
+        if rate.rate < least.rate {
+            least = *rate;
         }
     }
     best.map(|(_, place)| boxes[place].clone())
