@@ -134,7 +134,6 @@ signals! {
         #[size(FourthProductBits)]
         fourth_product: S<42>,
         /// w, one cycle ahead.
-        #[only_if(Glass)]
         #[size(WeightBits)]
         pub weight_first: Weight,
         /// v s, one cycle ahead.

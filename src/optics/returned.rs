@@ -2,8 +2,9 @@
 
 use super::air::Air;
 
-/// Part of a beam that sums of solid angles leave over where surfaces end all of it [1].
-const ROUNDING: f64 = 1e-9;
+/// Part of a beam that sums of solid angles may leave over where surfaces end all of it: the raster of a mesh differs from
+/// the outline of a pixel by up to some 1e-6 [1].
+const ROUNDING: f64 = 1e-5;
 
 /// Light returned by surfaces.
 #[derive(Clone, Debug, Default)]

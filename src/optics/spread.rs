@@ -5,7 +5,7 @@
 //! step is 1/1024 of the pulse's length, 1/64 sigma of a Gaussian, unless that would be more than 65,000 steps; then
 //! it is 1/65,000 of the whole. A piecewise linear function with steps of s sigma deviates by at most 0.03 s^2 of an
 //! echo, and placing an echo on the grid increases its variance of 1 sigma^2 by at most s^2 / 4. The pixels of an array
-//! in air, each with light from the whole range, have a quarter of the steps: 1.2e-4 of an echo, 0.1 % of the variance.
+//! in air have a quarter of the steps: 1.2e-4 of an echo, 0.1 % of the variance.
 
 use std::sync::Arc;
 

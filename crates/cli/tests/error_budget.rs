@@ -134,7 +134,7 @@ fn files_over_a_grid_can_be_made_again() {
     let header = lines.next().unwrap();
     assert!(header.starts_with("target.distance_m,effect,state,alone_mean_mm,"), "{header}");
     let rows: Vec<_> = lines.collect();
-    assert_eq!(rows.len(), 2 * (19 + 2));
+    assert_eq!(rows.len(), 2 * (21 + 2));
     let fields = header.split(',').count();
     assert!(rows.iter().all(|row| row.split(',').count() == fields), "{csv}");
     let noise = rows.iter().find(|row| row.starts_with("0.2,shot_noise,on,")).unwrap();

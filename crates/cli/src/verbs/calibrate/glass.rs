@@ -35,8 +35,7 @@ const CHANGED: f64 = 0.01;
 #[command(after_help = "Examples:\n  \
     tofsim calibrate glass mine.npy --scenario mine.toml -o glass\n  \
     tofsim calibrate glass --frames 500 -s cover.fraction=1e-4 -o glass\n  \
-    tofsim estimate frame.csv --estimator likelihood \\\n    \
-    -s estimator.glass_file=glass/glass.csv")]
+    tofsim run --estimator likelihood -s estimator.glass_file=glass/glass.csv")]
 pub(super) struct GlassArgs {
     /// Histograms: CSV with a row for each bin (bin,count, time_ns,count, time_ps,count or count), .npy of 256 or
     /// n x 256 whole numbers, or Parquet with columns b0 to b255 [default: simulate]
