@@ -22,7 +22,9 @@ mod arithmetic;
 mod division;
 pub mod instruction;
 mod operands;
+mod places;
 pub mod program;
+mod schedule;
 mod sequence;
 
 /// A word of the memory, and the most bits of one.

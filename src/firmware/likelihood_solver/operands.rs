@@ -5,7 +5,7 @@ use crate::firmware::likelihood_estimator::words::SCARCE;
 use crate::kernel::{S, U, wrapped};
 
 use super::instruction::{FLAGS, MAGNITUDE, Op};
-use super::program::{self, ONE, is_own};
+use super::places::{self, ONE, is_own};
 use super::{In, LEAST_MAGNITUDE, LOW_BITS, LikelihoodSolver, Registers};
 
 impl LikelihoodSolver {
@@ -14,7 +14,7 @@ impl LikelihoodSolver {
         let q = &self.registers;
         let word = |place: u8| match place {
             ONE..32 => p.constants()[(place - ONE) as usize],
-            program::CALIBRATED => p.glass.light,
+            places::CALIBRATED => p.glass.light,
             _ => self.words[place as usize].get(),
         };
         let fit = |value: i64| S::new(wrapped(value, p.word_bits()));
@@ -39,16 +39,16 @@ impl LikelihoodSolver {
         }
         let (to, result) = (q.to.get() as u8, q.result.get());
         match to {
-            program::DEPTH => d.depth = S::new(result),
-            program::SIGMA => d.sigma = U::new(result as u64),
+            places::DEPTH => d.depth = S::new(result),
+            places::SIGMA => d.sigma = U::new(result as u64),
             to => self.words[to as usize] = S::new(result),
         }
         match to {
-            program::ARRIVAL => d.arrival = U::new(result as u64),
-            program::SIGNAL => d.strength = U::new(result as u64),
-            program::AMBIENT => d.ambient = U::new(result as u64),
-            program::GLASS => d.glass = U::new(result as u64),
-            program::A33 => d.scarce = result < SCARCE,
+            places::ARRIVAL => d.arrival = U::new(result as u64),
+            places::SIGNAL => d.strength = U::new(result as u64),
+            places::AMBIENT => d.ambient = U::new(result as u64),
+            places::GLASS => d.glass = U::new(result as u64),
+            places::A33 => d.scarce = result < SCARCE,
             _ => {}
         }
         if q.mark == MAGNITUDE && !i.run && !q.measures(p) {

@@ -5,106 +5,11 @@ use std::sync::LazyLock;
 use crate::firmware::likelihood_estimator::params::Params;
 
 use super::instruction::{By, Clamp, Instruction, Mark, Op};
-
-/// Words of the solver's memory; from [`ONE`] on they are constants.
-pub const ARRIVAL: u8 = 0;
-/// S.
-pub const SIGNAL: u8 = 1;
-/// b.
-pub const AMBIENT: u8 = 2;
-const F1: u8 = 3;
-const F2: u8 = 4;
-const F3: u8 = 5;
-const A11: u8 = 6;
-const A12: u8 = 7;
-const A22: u8 = 8;
-const X1: u8 = 9;
-const X2: u8 = 10;
-const DET: u8 = 11;
-const N1: u8 = 12;
-const N2: u8 = 13;
-const D1: u8 = 14;
-const D2: u8 = 15;
-const T: u8 = 16;
-const R: u8 = 17;
-/// The first constant.
-pub const ONE: u8 = 18;
-const KAPPA: u8 = 19;
-const STRIDE: u8 = 20;
-const METRES: u8 = 21;
-const THIRD: u8 = 22;
-const NINETEEN: u8 = 23;
-const POWER: u8 = 24;
-const ZERO: u8 = 25;
-const WIDE: u8 = 26;
-const MARGIN: u8 = 27;
-const END: u8 = 28;
-const VARIANCE: u8 = 29;
-const UNSURE: u8 = 30;
-const TWO: u8 = 31;
-
-/// Operands from other blocks: of `a` ..
-const SUM_13: u8 = 32;
-const SUM_23: u8 = 33;
-const SUM_33: u8 = 34;
-const SCORE_3: u8 = 35;
-const ENDED: u8 = 36;
-const EXPOSURE: u8 = 37;
-const EXCESS: u8 = 38;
-const MIDDLE: u8 = 39;
-const LENGTH: u8 = 40;
-const BOX: u8 = 41;
-const SCORE_4: u8 = 43;
-const SUM_14: u8 = 44;
-const SUM_24: u8 = 45;
-const SUM_34: u8 = 46;
-const SUM_44: u8 = 47;
-/// .. and of `c`.
-const SUM_11: u8 = 32;
-const SUM_12: u8 = 33;
-const SUM_22: u8 = 34;
-const SCORE_1: u8 = 35;
-const SCORE_2: u8 = 36;
-const OTHER_13: u8 = 40;
-const OTHER_23: u8 = 41;
-const OTHER_33: u8 = 42;
-const OTHER_SCORE_3: u8 = 43;
-
-/// Location of the depth.
-pub const DEPTH: u8 = 32;
-/// Location of sigma.
-pub const SIGMA: u8 = 33;
-
-/// The cover glass's light C, behind the operands from other blocks, as what follows.
-pub const GLASS: u8 = 48;
-/// C when it was calibrated.
-pub const CALIBRATED: u8 = 49;
-const G1: u8 = 50;
-const G2: u8 = 51;
-const G3: u8 = 52;
-const G4: u8 = 53;
-const A13: u8 = 54;
-const A23: u8 = 55;
-/// Information on log b that is left without log C.
-pub const A33: u8 = 56;
-const Y3: u8 = 57;
+use super::places::*;
+use super::schedule::schedule;
 
 /// Cycles that the multiplier takes for a product.
 const MULTIPLIED: u8 = 2;
-/// Cycles from an instruction to one that has its result as `a` or `b`, or as `c`.
-const LATENCY: u64 = 9;
-const LATE: u64 = 4;
-/// The same where the result is a reciprocal or a root.
-const RECIPROCAL_LATENCY: u64 = 26;
-const ROOT_LATENCY: u64 = 34;
-/// Cycles from an instruction whose magnitude is marked to its measure.
-const MARKED: u64 = 10;
-
-/// Returns whether a place is a word of the solver, which all but operands from other blocks are.
-pub fn is_own(place: u8) -> bool {
-    place < 32 || place >= 48
-}
-
 /// to = a b >> shift.
 const fn times(to: u8, a: u8, b: u8, shift: u8) -> Instruction {
     let (op, by, clamp, mark) = (Op::Alu, By::Nothing, Clamp::Word, Mark::Nothing);
@@ -329,69 +234,6 @@ impl Program {
         let instructions = self.instructions[entry as usize..].iter();
         let instructions = instructions.take_while(|instruction| instruction.op != Op::End);
         instructions.map(|instruction| u64::from(instruction.wait)).sum::<u64>() + 3
-    }
-}
-
-/// Lets each instruction begin as soon as it has its operands.
-fn schedule(program: &mut [Instruction]) {
-    let mut schedule = Schedule::default();
-    for place in 0..program.len() {
-        let begin = schedule.earliest(&program[place]);
-        if let Some(last) = place.checked_sub(1) {
-            program[last].wait += (begin - schedule.now) as u8;
-        }
-        schedule.begin(&program[place], begin);
-    }
-}
-
-/// When results are there, in cycles from the begin of a program.
-struct Schedule {
-    /// The earliest cycle for the next instruction.
-    now: u64,
-    /// When a word can be the operand `a` or `b`.
-    ready: [u64; 64],
-    /// When all marked magnitudes are there.
-    marked: u64,
-    /// When the last reciprocal or root has ended.
-    divided: u64,
-}
-
-impl Default for Schedule {
-    fn default() -> Self {
-        Schedule { now: 0, ready: [0; 64], marked: 0, divided: 0 }
-    }
-}
-
-impl Schedule {
-    /// The first cycle in which an instruction has its operands.
-    fn earliest(&self, instruction: &Instruction) -> u64 {
-        let own = |place: u8| if is_own(place) { self.ready[place as usize] } else { 0 };
-        let Instruction { a, b, c, .. } = *instruction;
-        let operands = match instruction.op {
-            Op::End => self.ready.into_iter().max().unwrap_or(0),
-            Op::Exponent | Op::Cut => self.marked,
-            _ => own(a).max(own(b)).max(self.divided).max(own(c).saturating_sub(LATENCY - LATE)),
-        };
-        operands.max(self.now)
-    }
-
-    /// Begins an instruction.
-    fn begin(&mut self, instruction: &Instruction, begin: u64) {
-        let latency = match instruction.op {
-            Op::Reciprocal => RECIPROCAL_LATENCY,
-            Op::Root => ROOT_LATENCY,
-            _ => LATENCY,
-        };
-        if !matches!(instruction.op, Op::Exponent | Op::Cut | Op::End) {
-            self.ready[instruction.to as usize] = begin + latency;
-        }
-        if instruction.mark == Mark::Magnitude {
-            self.marked = begin + MARKED;
-        }
-        if latency > LATENCY {
-            self.divided = begin + latency;
-        }
-        self.now = begin + u64::from(instruction.wait);
     }
 }
 

@@ -8,26 +8,24 @@
 //! grid's. A template of a cover window's light is fitted along with both ([`pedestal`]).
 
 mod pedestal;
+mod pulse;
 
 use std::f64::consts::PI;
 use std::ops::Range;
 
 use tofsim::error::Input;
-use tofsim::kernel::pulse;
-use tofsim::optics::Bins;
 
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, spans_ps};
 use super::coates::{Corrected, correct};
 use super::estimator::{Estimator, Failure, hits};
 
 use pedestal::{Glass, Projected};
+use pulse::{Pieces, Pulse, pieces, seen};
 
 /// Distance of two places that are tried one after the other [sigma].
 const APART: f64 = 3.0;
 /// Most places.
 const MOST_PLACES: usize = 3;
-/// Range of a Gaussian on either side of its mean [sigma].
-const REACH: f64 = 5.0;
 /// Steps of the grid of arrivals in the pulse's standard deviation, where bins are wider [1].
 const STEPS_IN_SIGMA: f64 = 4.0;
 /// Finest step of the grid if bins are wider [ps].
@@ -60,75 +58,6 @@ pub struct MatchedFilter {
     sigma_ps: f64,
     /// Template of a cover window's light.
     glass: Option<Glass>,
-}
-
-/// A bin, which a chain may give in several pieces.
-struct Pieces {
-    code: u16,
-    /// From and until [ps].
-    spans: Vec<[f64; 2]>,
-}
-
-/// Bins by their first time.
-fn pieces(bins: &Bins) -> Vec<Pieces> {
-    let mut pieces: Vec<Pieces> = Vec::new();
-    for (code, from, until) in spans_ps(bins) {
-        match pieces.iter_mut().find(|bin| bin.code == code) {
-            Some(bin) => bin.spans.push([from, until]),
-            None => pieces.push(Pieces { code, spans: vec![[from, until]] }),
-        }
-    }
-    pieces
-}
-
-impl Pieces {
-    fn width_ps(&self) -> f64 {
-        self.spans.iter().map(|[from, until]| until - from).sum()
-    }
-}
-
-/// The pulse at one arrival.
-#[derive(Clone, Debug)]
-struct Pulse {
-    /// The first bin that sees it.
-    first: usize,
-    /// The parts of it there and in the following bins [1].
-    parts: Vec<f64>,
-}
-
-impl Pulse {
-    fn new(bins: &[Pieces], arrival_ps: f64, shape: &pulse::Pulse) -> Self {
-        // What would come before the laser edge comes with it.
-        let before = |t_ps: f64| if t_ps > 0.0 { shape.part(t_ps - arrival_ps) } else { 0.0 };
-        let [from_ps, until_ps] = reach_ps(shape).map(|ps| arrival_ps + ps);
-        let sees = |bin: &Pieces| bin.spans.iter().any(|[a, b]| *b > from_ps && *a < until_ps);
-        let part = |bin: &Pieces| bin.spans.iter().map(|[a, b]| before(*b) - before(*a)).sum();
-        let first = bins.iter().position(sees).unwrap_or(0);
-        let past = bins.iter().rposition(sees).map_or(first, |last| last + 1);
-        Pulse { first, parts: bins[first..past].iter().map(part).collect() }
-    }
-}
-
-/// The pulse as jitter leaves it. Exact for a faint one only, because pile-up comes before jitter, and of a
-/// measured one its width alone is left, where there is jitter.
-fn seen(acquisition: &Acquisition) -> pulse::Pulse {
-    use pulse::Pulse::{Gaussian, Tailed};
-    let jitter_ps = acquisition.jitter_ps;
-    match acquisition.pulse {
-        pulse if jitter_ps == 0.0 => pulse.clone(),
-        Tailed { sigma_ps, tail_ps } => {
-            Tailed { sigma_ps: sigma_ps.hypot(jitter_ps), tail_ps: *tail_ps }
-        }
-        pulse => Gaussian { sigma_ps: pulse.sigma_ps().hypot(jitter_ps) },
-    }
-}
-
-/// Returns the range in which the pulse is considered, from its mean [ps].
-fn reach_ps(shape: &pulse::Pulse) -> [f64; 2] {
-    match shape {
-        pulse::Pulse::Gaussian { sigma_ps } => [-REACH * sigma_ps, REACH * sigma_ps],
-        other => other.ends_ps(),
-    }
 }
 
 /// Result of the filter.

@@ -2,7 +2,7 @@ use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::kernel::pulse::Pulse;
-use tofsim::optics::{BinProbabilities, Budget, Hazard};
+use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 
 use super::*;
 
