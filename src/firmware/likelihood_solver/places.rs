@@ -85,5 +85,5 @@ pub const Y3: u8 = 57;
 
 /// Returns whether a place is a word of the solver, which all but operands from other blocks are.
 pub fn is_own(place: u8) -> bool {
-    place < 32 || place >= 48
+    !(32..48).contains(&place)
 }

@@ -102,7 +102,7 @@ fn a_target_is_detected_and_refused() {
     }
     // Next to the window, an echo shows if there is a dip before it.
     let light = Light { glass: 0.5, signal: 0.25, distance_m: 0.1, ..Light::DARK };
-    let error = calibrated(&bins, &light.drawn(&bins, 100, 7)).err().expect("refused");
+    let error = calibrated(&bins, &light.drawn(&bins, 100, 7)).expect_err("refused");
     assert!((refused_m(&error) - 0.1).abs() < 0.03, "{error}");
     // Without a window, a target is no pedestal.
     let light = Light { signal: 0.5, distance_m: 0.4, ..Light::DARK };
