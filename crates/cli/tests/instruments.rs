@@ -91,9 +91,13 @@ fn twice_as_many_instruments_pass_in_verilator() {
     for seed in 12..12 + instruments().div_ceil(3) {
         for (block, passed) in BLOCKS.iter().zip(verified_of(seed, "verilator", &BLOCKS, &[])) {
             let (met, of) = passed.goals;
-            // A draw may leave out rare cases: entries of a large table, and limits. Counts of many bits are drawn in steps,
-            // whose spread fits no pulse, so that every depth has a status.
-            let least = if ["likelihood_estimator", "tansig"].contains(block) { 7 } else { 9 };
+            // A draw may leave out rare cases: entries of a large table, and limits. Counts of many bits, which instruments
+            // after the first have, are drawn in steps whose spread fits no pulse, so that every depth has a status.
+            let least = match (["likelihood_estimator", "tansig"].contains(block), seed) {
+                (false, _) => 9,
+                (true, 12) => 8,
+                (true, _) => 7,
+            };
             assert!(met * 10 >= of * least, "{block} of instrument {seed}: {passed:?}");
         }
     }
