@@ -3,8 +3,8 @@
 use clap::Subcommand;
 use serde_json::json;
 
-use tofsim::error::Result;
-use tofsim::scenario::{self, builtin, keys, show};
+use tofsim::error::{Input, Result};
+use tofsim::scenario::{builtin, keys, show};
 use tofsim::sim::setup::array::ArraySetup;
 
 use crate::report::writer::print_list;
@@ -75,9 +75,17 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     }
 }
 
+/// What a list says of a scenario; all else in it is passed over.
+#[derive(serde::Deserialize)]
+struct Described {
+    description: String,
+}
+
 fn list(as_json: bool) -> Result<()> {
-    let row = |(name, _): (&'static str, _)| {
-        Ok([name.to_owned(), scenario::load(name, &[])?.scenario.description])
+    let row = |(name, text): (&'static str, &str)| {
+        let Described { description } = toml::from_str(text)
+            .map_err(|error| Input::new(name, "expected a description").value(error.message()))?;
+        Ok([name.to_owned(), description])
     };
     let rows = builtin::scenarios().map(row).collect::<Result<Vec<_>>>()?;
     print_list(["name", "description"], &rows, as_json)

@@ -34,8 +34,9 @@ impl<N: Number> Point<N> {
     pub fn terms(&self, p: &impl Instrument<Number = N>, shots: &Shots<N>) -> Vec<(Terms<N>, N)> {
         let none = N::default();
         let (mut ended, mut exposure) = (shots.all_ended, shots.exposure);
-        let mut all = Vec::new();
-        for range in p.fitted(self.window(p)) {
+        let [early, window] = p.fitted(self.window(p));
+        let mut all = Vec::with_capacity(early.len() + window.len() + 1);
+        for range in [early, window] {
             for (bin, light) in range.clone().zip(self.light(p, range)) {
                 let (count, waiting, width) = (shots.ended(bin), shots.waiting(bin), p.width(bin));
                 ended = ended - count;
@@ -70,18 +71,20 @@ impl<N: Number> Point<N> {
     ) -> impl Iterator<Item = Light<N>> {
         let none = [N::default(); 3];
         let is_lit = self.signal > N::default();
-        let pulse = move |edge| if is_lit { p.pulse(edge, self.arrival) } else { none };
-        let [mut part, mut slope, _] = if bins.start == 0 { none } else { pulse(bins.start) };
+        let has_glass = p.has_glass();
+        let [mut part, mut slope, _] =
+            if is_lit && bins.start > 0 { p.pulse(bins.start, self.arrival) } else { none };
         bins.map(move |bin| {
-            let [next, next_slope, first] = pulse(bin + 1);
-            let z = if bin == 0 { first } else { (slope + next_slope).floored(1) };
-            let light = Light {
-                signal: photons(self.signal, next - part),
-                ambient: self.ambient_in(p.width(bin)),
-                glass: photons(self.glass, p.glass(bin)),
-                z,
-            };
-            (part, slope) = (next, next_slope);
+            let mut light = Light { ambient: self.ambient_in(p.width(bin)), ..Light::default() };
+            if has_glass {
+                light.glass = photons(self.glass, p.glass(bin));
+            }
+            if is_lit {
+                let [next, next_slope, first] = p.pulse(bin + 1, self.arrival);
+                light.signal = photons(self.signal, next - part);
+                light.z = if bin == 0 { first } else { (slope + next_slope).floored(1) };
+                (part, slope) = (next, next_slope);
+            }
             light
         })
     }
@@ -98,7 +101,7 @@ fn photons<N: Number>(level: N, part: N) -> N {
 }
 
 /// Hazards of a bin, and its z.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Light<N> {
     signal: N,
     ambient: N,

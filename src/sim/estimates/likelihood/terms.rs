@@ -42,9 +42,10 @@ impl<N: Number> Bin<N> {
     pub fn terms(&self, count_bits: u32) -> Terms<N> {
         let hazard = self.signal + self.ambient + self.glass;
         let hazard = hazard.within([LEAST_HAZARD, MOST_HAZARD].map(N::whole));
-        let share = |part: N| N::share(part.at_most(hazard), hazard);
-        let glass = if self.glass > N::default() { share(self.glass) } else { N::default() };
-        let share = share(self.signal);
+        let none = N::default();
+        let share =
+            |part: N| if part > none { N::share(part.at_most(hazard), hazard) } else { none };
+        let (share, glass) = (share(self.signal), share(self.glass));
         let expected = N::expected(self.waiting, hazard).filled(count_bits + 18);
         let k = N::k(hazard);
         let surplus = self.ended * k - expected;
