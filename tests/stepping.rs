@@ -263,19 +263,33 @@ fn set_up(case: &Case, folder: &Path) -> Option<Setup> {
     Setup::new(loaded).ok()
 }
 
+fn every_way_gives_the_same(case: &Case) -> std::result::Result<(), TestCaseError> {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(setup) = set_up(case, folder.path()) else {
+        let may_be_refused =
+            case.chain.is_some() || case.heats.is_some() || case.clock != common::CLOCKS[0];
+        prop_assert!(may_be_refused, "only a chain may be refused");
+        return Err(TestCaseError::reject("the chain does not fit the clock"));
+    };
+    assert_all_alike(&setup, case.frames)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_way_gives_the_same_in_random_scenarios(case in case()) {
+        every_way_gives_the_same(&case)?;
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_way_gives_the_same_in_random_scenarios(case in case()) {
-        let folder = tempfile::tempdir().unwrap();
-        let Some(setup) = set_up(&case, folder.path()) else {
-            let may_be_refused =
-                case.chain.is_some() || case.heats.is_some() || case.clock != common::CLOCKS[0];
-            prop_assert!(may_be_refused, "only a chain may be refused");
-            return Err(TestCaseError::reject("the chain does not fit the clock"));
-        };
-        assert_all_alike(&setup, case.frames)?;
+    #[ignore = "long: ./check --full"]
+    fn every_way_gives_the_same_in_many_random_scenarios(case in case()) {
+        every_way_gives_the_same(&case)?;
     }
 }
 

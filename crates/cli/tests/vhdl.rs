@@ -115,6 +115,7 @@ fn a_block_in_vhdl_works_in_a_design_in_verilog() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn the_bench_of_every_block_runs_and_finds_an_entity_that_does_nothing() {
     let folder = common::empty();
     for spec in BLOCKS {

@@ -104,6 +104,7 @@ mod tests {
 
     /// With another seed than the two of the lockstep tests, which see the same of theirs.
     #[test]
+    #[ignore = "long: ./check --full"]
     fn every_stimulus_covers_its_goals() {
         let (seed, mut gaps) = (20_221_121, Vec::new());
         for spec in BLOCKS {

@@ -96,6 +96,7 @@ fn prints_what_a_fit_of_both_comes_to() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn both_echoes_are_at_their_bound_from_two_sigma_on() {
     let apart = [2.0, 3.0, 5.0, 8.0];
     let cells = apart.into_iter().flat_map(|apart| [(apart, 0.3), (apart, 1.0), (apart, 3.0)]);
