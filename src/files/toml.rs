@@ -9,6 +9,7 @@ use toml_edit::{Document, DocumentMut, Item, Table, TableLike, Value};
 
 use crate::error::{Error, Input, Result, line_and_column};
 
+mod node;
 mod number;
 mod renamed;
 mod schema;
@@ -17,6 +18,7 @@ mod walk;
 pub use renamed::{RenamedKey, rename};
 pub use schema::schema_of;
 
+use node::Node;
 use number::number;
 use walk::{Walk, located, shown};
 
@@ -100,32 +102,8 @@ impl Checked {
 /// # Errors
 /// If its values do not make a `T`.
 pub fn read<T: DeserializeOwned>(source: &str, table: &Table) -> Result<T> {
-    let values = toml::Value::Table(values(table));
-    values.try_into().map_err(|error| Input::new(source, error.message()).into())
-}
-
-/// Converts a table to values without positions.
-fn values(table: &dyn TableLike) -> toml::Table {
-    let of_item = |item: &Item| match (item.as_table_like(), item.as_array_of_tables()) {
-        (Some(table), _) => Some(values(table).into()),
-        (_, Some(tables)) => {
-            Some(tables.iter().map(|table| values(table)).collect::<Vec<_>>().into())
-        }
-        _ => item.as_value().map(value),
-    };
-    table.iter().filter_map(|(key, item)| Some((key.to_owned(), of_item(item)?))).collect()
-}
-
-fn value(with_place: &Value) -> toml::Value {
-    match with_place {
-        Value::String(text) => text.value().as_str().into(),
-        Value::Integer(number) => (*number.value()).into(),
-        Value::Float(number) => (*number.value()).into(),
-        Value::Boolean(truth) => (*truth.value()).into(),
-        Value::Datetime(moment) => (*moment.value()).into(),
-        Value::Array(list) => toml::Value::Array(list.iter().map(value).collect()),
-        Value::InlineTable(table) => values(table).into(),
-    }
+    let read = T::deserialize(Node::Table(table));
+    read.map_err(|error| Input::new(source, error).into())
 }
 
 /// Sets one dotted key of a table of type `T` from the `key=value` argument of `option`. A value that is not valid

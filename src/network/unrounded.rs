@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::files::toml::Checked;
+
 use super::float::Float;
 
 /// Weights of a network before rounding, if they are known.
@@ -26,7 +28,10 @@ impl Unrounded {
         match self {
             Unrounded::Unknown => None,
             Unrounded::Known(float) => Some(Cow::Borrowed(float)),
-            Unrounded::BuiltIn(section) => toml::from_str(section).ok().map(Cow::Owned),
+            Unrounded::BuiltIn(section) => {
+                let checked = Checked::syntax("network", section).ok()?;
+                checked.read().ok().map(Cow::Owned)
+            }
         }
     }
 }

@@ -7,6 +7,7 @@ use tempfile::TempDir;
 use toml_edit::DocumentMut;
 
 use crate::error::{Error, Result, read_bytes};
+use crate::files::toml::read;
 
 use super::builtin::Source;
 use super::chain::Chain;
@@ -82,8 +83,8 @@ impl Bundle {
     fn add_as(&mut self, path: &Path, name: &str) -> Result<()> {
         let mut bytes = read_bytes(path)?;
         let text = String::from_utf8_lossy(&bytes);
-        if let (Ok(chain), Ok(mut document)) = (toml::from_str(&text), text.parse::<DocumentMut>())
-        {
+        let chain = |document: DocumentMut| Some((read("", &document).ok()?, document));
+        if let Some((chain, mut document)) = text.parse().ok().and_then(chain) {
             let Chain { delays_file, counts_file, .. } = chain;
             let folder = path.parent().unwrap_or(Path::new(""));
             let beside = Path::new(name).parent().unwrap_or(Path::new(""));
