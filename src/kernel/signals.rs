@@ -4,7 +4,7 @@ mod field;
 mod signal;
 
 pub use field::{Field, Sink, Source, Word};
-pub use signal::{Signal, SignalFormat, View};
+pub use signal::{Declaration, Signal, SignalFormat, View};
 
 /// A struct of signals: the ports or the registers of one module.
 pub trait Signals: Copy + PartialEq {
@@ -58,21 +58,20 @@ macro_rules! signals {
                 #[allow(unused_mut, reason = "a module may have no signals of one kind")]
                 let mut list = Vec::new();
                 $(<$ty as $crate::kernel::signals::Field>::declare(
-                    $crate::kernel::signals::Signal {
-                        name: stringify!($field).to_owned(),
-                        width: 0,
-                        size: $crate::signals!(@size $($size)?),
-                        element: 0,
-                        count: $crate::signals!(@size $($count)?),
-                        only_if: $crate::signals!(@size $($only_if)?),
-                        format: $crate::kernel::signals::SignalFormat::Bits,
-                        output: matches!(stringify!($field_vis), "pub"),
-                        view: $crate::kernel::signals::View {
-                            $($($view: $shown,)+)?
-                            ..$crate::kernel::signals::View::NONE
-                        },
-                        doc: concat!($($doc),+).trim_ascii(),
-                    },
+                    $crate::kernel::signals::Signal::declared(&const {
+                        $crate::kernel::signals::Declaration {
+                            name: stringify!($field),
+                            size: $crate::signals!(@size $($size)?),
+                            count: $crate::signals!(@size $($count)?),
+                            only_if: $crate::signals!(@size $($only_if)?),
+                            output: matches!(stringify!($field_vis).as_bytes(), b"pub"),
+                            view: $crate::kernel::signals::View {
+                                $($($view: $shown,)+)?
+                                ..$crate::kernel::signals::View::NONE
+                            },
+                            doc: concat!($($doc),+).trim_ascii(),
+                        }
+                    }),
                     &mut list,
                 );)*
                 list

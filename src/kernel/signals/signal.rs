@@ -37,6 +37,18 @@ impl View {
     pub const NONE: View = View { heading: "", curve: false, probe: false };
 }
 
+/// Declaration of one or more signals by a field of [`signals!`](crate::signals); see [`Signal`].
+#[allow(missing_docs, reason = "the fields are those of a signal")]
+pub struct Declaration {
+    pub name: &'static str,
+    pub size: Option<Size>,
+    pub count: Option<Size>,
+    pub only_if: Option<Size>,
+    pub output: bool,
+    pub view: View,
+    pub doc: &'static str,
+}
+
 /// One signal of a module.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signal {
@@ -62,6 +74,15 @@ pub struct Signal {
 }
 
 impl Signal {
+    /// Creates the signal of a declaration, to be shaped by the type of its field.
+    // A module has up to a hundred signals, and builds its list once.
+    #[inline(never)]
+    pub fn declared(declaration: &Declaration) -> Self {
+        let Declaration { name, size, count, only_if, output, view, doc } = *declaration;
+        let plain = Signal::plain(name.to_owned(), 0, SignalFormat::Bits, doc);
+        Signal { size, count, only_if, output, view, ..plain }
+    }
+
     /// An output or wire of fixed width that nobody looks at first.
     pub fn plain(name: String, width: u32, format: SignalFormat, doc: &'static str) -> Self {
         let (size, count, only_if) = (None, None, None);
