@@ -1,9 +1,8 @@
 //! Search of one sequence in another by Fourier transforms.
 
-use std::sync::Arc;
-
+use rustfft::algorithm::Radix4;
 use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
+use rustfft::{Fft, FftDirection};
 
 /// Number of candidates that are kept.
 pub(crate) const KEPT: usize = 8;
@@ -41,15 +40,15 @@ pub(super) struct Matcher {
     width: usize,
     /// Length of a chunk [samples].
     pub(super) size: usize,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
+    forward: Radix4<f64>,
+    inverse: Radix4<f64>,
 }
 
 impl Matcher {
     pub(super) fn new(template: Rows, width: usize) -> Self {
         let size = (4 * template.len()).next_power_of_two();
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
+        let [forward, inverse] =
+            [FftDirection::Forward, FftDirection::Inverse].map(|way| Radix4::new(size, way));
         Matcher { template, width, size, forward, inverse }
     }
 
