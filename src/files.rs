@@ -1,6 +1,7 @@
 //! File formats and output files: errors name a position in the input, and outputs are complete or absent.
 
 pub mod csv;
+pub mod csv_output;
 pub mod date;
 pub mod digest;
 pub mod folder;

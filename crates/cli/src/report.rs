@@ -12,7 +12,6 @@ pub mod error_budget;
 pub mod estimates;
 pub mod evaluation;
 pub mod evaluation_files;
-pub mod events;
 pub mod explanation;
 pub mod exploration;
 pub mod frame_log;

@@ -28,6 +28,7 @@ mod pixel_places;
 pub mod rows;
 pub mod scene_columns;
 pub mod sensor;
+pub mod shot_file;
 pub mod source;
 
 pub use axis::Axis;

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use tofsim::error::{Error, Input, Result};
+use tofsim::files::csv_output::CsvOutput;
 
 use crate::shard::Shard;
 use crate::sweep::{ABOUT, SHARD, identity};
-use crate::table::csv_file::CsvFile;
 use crate::table::parquet_file;
 use crate::table::reader::TableReader;
 
@@ -117,7 +117,7 @@ impl Shards {
         let count: u64 = self.tables.iter().map(|(_, table)| table.count).sum();
         let mut table = parquet_file::create(&path, &fields, vec![(ABOUT, self.about.clone())])?;
         let names = fields.iter().map(|field| field.name.as_str());
-        let mut text = CsvFile::create(&csv, comment, names)?;
+        let mut text = CsvOutput::create(&csv, comment, names)?;
         let shards = self.tables.len() as u64;
         for point in 0..count {
             let (from, shard) = &mut self.tables[(point % shards) as usize];
@@ -126,7 +126,7 @@ impl Shards {
                 let expected = format!("expected the row of point {point}: it is not whole");
                 Input::new(from.display(), expected)
             })?;
-            text.write(&row)?;
+            text.record(row.texts())?;
             table.write(std::slice::from_ref(&row))?;
         }
         table.finish()?.commit()?;

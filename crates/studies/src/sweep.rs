@@ -9,6 +9,7 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use tofsim::error::{Error, Result, poll_stop};
+use tofsim::files::csv_output::CsvOutput;
 use tofsim::note::Note;
 
 use crate::header::header;
@@ -16,7 +17,6 @@ use crate::journal::{Entry, Journal};
 use crate::plan::Plan;
 use crate::point::work;
 use crate::shard::Shard;
-use crate::table::csv_file::CsvFile;
 use crate::table::reader::TableReader;
 use crate::table::{Row, parquet_file};
 
@@ -210,12 +210,13 @@ impl Sweep<'_> {
         let path = self.table(folder);
         let mut table = parquet_file::create(&path, &fields, metadata)?;
         let csv = path.with_extension("csv");
-        let mut text = is_whole.then(|| CsvFile::create(&csv, &self.comment, names)).transpose()?;
+        let mut text =
+            is_whole.then(|| CsvOutput::create(&csv, &self.comment, names)).transpose()?;
         let mut finished = Finished::default();
         journal.in_order(|entry| {
             finished.add_notes(&entry);
             let Some(row) = entry.into_row() else { return Ok(()) };
-            text.as_mut().map_or(Ok(()), |text| text.write(&row))?;
+            text.as_mut().map_or(Ok(()), |text| text.record(row.texts()))?;
             table.write(std::slice::from_ref(&row))?;
             if finished.rows.len() < SHOWN {
                 finished.rows.push(row);

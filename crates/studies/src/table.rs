@@ -1,6 +1,5 @@
 //! Tables that are written row by row: Parquet and CSV.
 
-pub mod csv_file;
 pub mod parquet_file;
 pub mod reader;
 
@@ -49,6 +48,13 @@ pub struct Row {
     pub point: u64,
     /// A cell for each column.
     pub cells: Vec<Cell>,
+}
+
+impl Row {
+    /// Returns the cells as a CSV file has them.
+    pub fn texts(&self) -> impl Iterator<Item = String> {
+        self.cells.iter().map(Cell::text)
+    }
 }
 
 impl Field {

@@ -17,6 +17,19 @@ pub enum Cause {
     Cover,
 }
 
+impl Cause {
+    /// Returns its name in results and pictures.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Cause::Signal => "signal",
+            Cause::Ambient => "ambient",
+            Cause::Dark => "dark",
+            Cause::Afterpulse => "afterpulse",
+            Cause::Cover => "cover",
+        }
+    }
+}
+
 /// Causes that the light and the dark of a shot have by themselves, in the order of sums by cause.
 pub const BY_CAUSE: [Cause; 4] = [Cause::Signal, Cause::Ambient, Cause::Dark, Cause::Cover];
 

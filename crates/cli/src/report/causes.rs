@@ -14,11 +14,11 @@ use crate::text::svg::{Drawn, chart, legend, picture};
 
 /// Causes in the order in which they are stacked, with words and colours; `None` is unknown.
 pub const CAUSES: [(Option<Cause>, &str, RGBColor); 6] = [
-    (Some(Cause::Dark), "dark", RGBColor(80, 80, 80)),
-    (Some(Cause::Ambient), "ambient", RGBColor(236, 180, 84)),
-    (Some(Cause::Cover), "cover", RGBColor(126, 87, 164)),
-    (Some(Cause::Signal), "signal", RGBColor(43, 108, 176)),
-    (Some(Cause::Afterpulse), "afterpulse", RGBColor(176, 58, 46)),
+    (Some(Cause::Dark), Cause::Dark.word(), RGBColor(80, 80, 80)),
+    (Some(Cause::Ambient), Cause::Ambient.word(), RGBColor(236, 180, 84)),
+    (Some(Cause::Cover), Cause::Cover.word(), RGBColor(126, 87, 164)),
+    (Some(Cause::Signal), Cause::Signal.word(), RGBColor(43, 108, 176)),
+    (Some(Cause::Afterpulse), Cause::Afterpulse.word(), RGBColor(176, 58, 46)),
     (None, "hits", RGBColor(120, 150, 120)),
 ];
 
@@ -32,11 +32,6 @@ pub fn count(causes: &mut Causes, shot: &Shot) {
             counts[code as usize] += 1;
         }
     }
-}
-
-/// The word for a cause.
-pub fn name(cause: Option<Cause>) -> &'static str {
-    CAUSES.iter().find(|(known, ..)| *known == cause).map_or("", |(_, name, _)| name)
 }
 
 /// Depth for a time of flight, half the speed of light [m/ns].

@@ -9,12 +9,12 @@ use tofsim::error::{Input, Result};
 use tofsim::files::output::{write_bytes, write_file};
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
+use tofsim_learn::dataset::shot_file::ShotFile;
 
 use crate::record::LazyRecord;
 use crate::verbs::terminal::Console;
 
 use super::causes::{self, CAUSES, Causes};
-use super::events::Events;
 use super::frame_log::FrameLog;
 use super::pair_table;
 use super::sheet::Digits::Shortest;
@@ -36,7 +36,7 @@ pub fn is_same(a: &Path, b: &Path) -> bool {
 /// Files under construction, and what they are made from.
 pub struct RunFiles<'a> {
     folder: Option<&'a Path>,
-    events: Option<Events>,
+    events: Option<ShotFile>,
     causes: Causes,
     /// The frame that is shown: the first, or the first lit one of pairs.
     shown: u64,
@@ -59,7 +59,7 @@ impl<'a> RunFiles<'a> {
             let expected = "expected another name: the run writes a file of its own there";
             return Err(Input::new("--events", expected).value(events.display()).into());
         }
-        let create = |path| Events::of_run(path, setup.has_pairs(), &record.line());
+        let create = |path| ShotFile::of_run(path, setup.has_pairs(), &record.line());
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
         let causes = std::array::from_fn(|_| vec![0; setup.params.histogram.bins]);

@@ -9,11 +9,11 @@ use tofsim::note::merged;
 use tofsim::sim::image::{Pixel, simulate};
 use tofsim::sim::setup::array::ArraySetup;
 use tofsim::sim::shot_recorder::Shot;
+use tofsim_learn::dataset::shot_file::ShotFile;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
 use crate::choice::{self, Fidelity, WaveformChoice, seed, threads, words};
 use crate::record::Record;
-use crate::report::events::Events;
 use crate::report::image::{DepthImages, ImagePixel};
 use crate::report::link_budget::LinkBudget;
 use crate::report::run_files::is_same;
@@ -88,7 +88,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let done = |frames| progress.inc(frames);
     let simulated = args.simulate((&array, place), events.as_mut(), stop.as_deref(), &done)?;
     progress.finish_and_clear();
-    let written = events.map(Events::finish).transpose()?;
+    let written = events.map(ShotFile::finish).transpose()?;
 
     let mut notes = merged(simulated.iter().map(|pixel| &pixel.notes[..]));
     notes.extend(notes_of_firmware(setup));
@@ -109,7 +109,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
 
 impl Args {
     /// Begins the file of events, if it is wanted.
-    fn events(&self, array: &ArraySetup, console: &Console) -> Result<Option<Events>> {
+    fn events(&self, array: &ArraySetup, console: &Console) -> Result<Option<ShotFile>> {
         let Some(path) = &self.events else { return Ok(None) };
         let fault = |expected| Err(Input::new("--events", expected).value(path.display()).into());
         if self.fidelity == Fidelity::Histogram {
@@ -122,14 +122,14 @@ impl Args {
             return fault("expected another name: the images have a file of their own there");
         }
         let record = Record::new(array.common(), &console.command);
-        Ok(Some(Events::of_images(path, &record.line())?))
+        Ok(Some(ShotFile::of_images(path, &record.line())?))
     }
 
     /// Simulates the pixels on all threads, or one after the other where their shots are written.
     fn simulate(
         &self,
         (array, place): (&ArraySetup, Option<[usize; 2]>),
-        mut events: Option<&mut Events>,
+        mut events: Option<&mut ShotFile>,
         stop: Option<&AtomicBool>,
         done: &(dyn Fn(u64) + Sync),
     ) -> Result<Vec<Pixel>> {

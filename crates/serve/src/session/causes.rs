@@ -11,11 +11,11 @@ use super::instrument::Instrument;
 
 /// Causes in stacking order; `None` is unknown.
 const CAUSES: [(Option<Cause>, &str); 6] = [
-    (Some(Cause::Dark), "dark"),
-    (Some(Cause::Ambient), "ambient"),
-    (Some(Cause::Cover), "cover"),
-    (Some(Cause::Signal), "signal"),
-    (Some(Cause::Afterpulse), "afterpulse"),
+    (Some(Cause::Dark), Cause::Dark.word()),
+    (Some(Cause::Ambient), Cause::Ambient.word()),
+    (Some(Cause::Cover), Cause::Cover.word()),
+    (Some(Cause::Signal), Cause::Signal.word()),
+    (Some(Cause::Afterpulse), Cause::Afterpulse.word()),
     (None, "unknown"),
 ];
 

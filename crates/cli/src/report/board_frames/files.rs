@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int32Type, Int64Type};
 
 use tofsim::error::{Error, Result};
+use tofsim::files::csv_output::CsvOutput;
 use tofsim::files::output::{OutputFile, create_directory, write_file};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::npy::array_header;
 use tofsim_learn::dataset::parquet_table::ParquetTable;
-use tofsim_studies::table::csv_file::CsvFile;
 
 use crate::record::LazyRecord;
 use crate::report::frame_log::FrameLog;
@@ -42,7 +42,7 @@ pub struct Formats {
 /// The files under construction.
 pub struct FrameFiles<'a> {
     folder: Option<&'a Path>,
-    csv: Option<CsvFile>,
+    csv: Option<CsvOutput>,
     parquet: Option<ParquetTable<Frame>>,
     /// Histograms, and depths with their sigma.
     npy: Option<[OutputFile; 2]>,
@@ -71,7 +71,7 @@ impl<'a> FrameFiles<'a> {
             let bins: Vec<_> = (0..bins).map(|bin| format!("b{bin}")).collect();
             let head = ["frame", "depth_m", "depth_raw", "sigma_m", "valid", "status", "hits"];
             let names = head.into_iter().chain(bins.iter().map(String::as_str));
-            files.csv = Some(CsvFile::create(&place(CSV), &record.comment_line(), names)?);
+            files.csv = Some(CsvOutput::create(&place(CSV), &record.comment_line(), names)?);
         }
         if formats.parquet {
             files.parquet = Some(parquet(&place(PARQUET), bins, record)?);
@@ -115,7 +115,7 @@ impl<'a> FrameFiles<'a> {
         console: &Console,
     ) -> Result<()> {
         let Some(folder) = self.folder else { return Ok(()) };
-        self.csv.map_or(Ok(()), CsvFile::finish)?;
+        self.csv.map_or(Ok(()), CsvOutput::finish)?;
         if let Some(parquet) = self.parquet {
             parquet.finish()?.commit()?;
         }

@@ -1,19 +1,17 @@
-//! CSV tables: the provenance in the first line, followed by the header and the rows.
+//! CSV tables as output: the provenance in the first line, followed by the header and the rows.
 
 use std::path::Path;
 
-use tofsim::error::{Error, Result};
-use tofsim::files::output::OutputFile;
-
-use super::Row;
+use crate::error::{Error, Result};
+use crate::files::output::OutputFile;
 
 /// A CSV file under construction, which is removed unless it is finished.
-pub struct CsvFile {
+pub struct CsvOutput {
     writer: csv::Writer<OutputFile>,
     path: std::path::PathBuf,
 }
 
-impl CsvFile {
+impl CsvOutput {
     /// Begins a file with columns of these names; `comment` is its first line, including the line feed.
     ///
     /// # Errors
@@ -26,17 +24,9 @@ impl CsvFile {
         use std::io::Write;
         let mut file = OutputFile::create(path)?;
         file.write_all(comment.as_bytes()).map_err(Error::io(path, "write"))?;
-        let mut csv = CsvFile { writer: csv::Writer::from_writer(file), path: path.to_owned() };
+        let mut csv = CsvOutput { writer: csv::Writer::from_writer(file), path: path.to_owned() };
         csv.record(names)?;
         Ok(csv)
-    }
-
-    /// Writes a row.
-    ///
-    /// # Errors
-    /// If it cannot be written.
-    pub fn write(&mut self, row: &Row) -> Result<()> {
-        self.record(row.cells.iter().map(super::Cell::text))
     }
 
     /// Writes the cells of a row.

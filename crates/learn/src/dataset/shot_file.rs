@@ -11,12 +11,12 @@ use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int32Ty
 use parquet::errors::Result as Written;
 
 use tofsim::error::{Input, Result};
+use tofsim::files::csv_output::CsvOutput;
 use tofsim::files::output::OutputFile;
+use tofsim::optics::hazard::Cause;
 use tofsim::sim::shot_recorder::Shot;
-use tofsim_learn::dataset::parquet_table::{ParquetTable, RowGroup};
-use tofsim_studies::table::csv_file::CsvFile;
 
-use super::causes;
+use super::parquet_table::{ParquetTable, RowGroup};
 
 /// A shot of a pixel.
 #[derive(Clone, Copy)]
@@ -43,7 +43,7 @@ const OF_IMAGES: [Column; 3] = [
 const OF_SHOT: [Column; 8] = [
     ("shot", Values::Number(|event| event.shot.shot)),
     ("arrival_ps", Values::Time(|event| event.shot.arrival_fs)),
-    ("cause", Values::Word(|event| event.shot.cause.map(|cause| causes::name(Some(cause))))),
+    ("cause", Values::Word(|event| event.shot.cause.map(Cause::word))),
     ("n", Values::Count(|event| event.shot.n)),
     ("coarse", Values::Count(|event| event.shot.coarse)),
     ("code", Values::Count(|event| event.shot.code)),
@@ -106,28 +106,28 @@ impl Values {
     }
 }
 
-/// The file under construction; nothing is left of it unless [`Events::finish`] is called.
-pub struct Events {
+/// The file under construction; nothing is left of it unless [`ShotFile::finish`] is called.
+pub struct ShotFile {
     path: PathBuf,
-    file: EventFile,
+    file: Format,
     columns: Vec<Column>,
 }
 
-enum EventFile {
-    Csv(Box<CsvFile>),
+enum Format {
+    Csv(Box<CsvOutput>),
     Parquet(Box<ParquetTable<Event>>),
 }
 
-impl Events {
+impl ShotFile {
     /// Begins the file of a run; its ending decides the format. With `pairs` it says of each shot whether the
     /// laser was on. `record` goes into the first line of a CSV and into Parquet's metadata.
     pub fn of_run(path: &Path, pairs: bool, record: &str) -> Result<Self> {
-        Events::create(path, &OF_RUN, pairs, record)
+        ShotFile::create(path, &OF_RUN, pairs, record)
     }
 
-    /// Begins the file of images, as [`Events::of_run`] does.
+    /// Begins the file of images, as [`ShotFile::of_run`] does.
     pub fn of_images(path: &Path, record: &str) -> Result<Self> {
-        Events::create(path, &OF_IMAGES, false, record)
+        ShotFile::create(path, &OF_IMAGES, false, record)
     }
 
     fn create(path: &Path, first: &[Column], pairs: bool, record: &str) -> Result<Self> {
@@ -147,30 +147,30 @@ impl Events {
                 filled.iter().try_for_each(|(_, values)| values.fill(group, events))
             };
             let file = OutputFile::create(path)?;
-            EventFile::Parquet(Box::new(ParquetTable::create(file, &schema, [provenance], fill)?))
+            Format::Parquet(Box::new(ParquetTable::create(file, &schema, [provenance], fill)?))
         } else {
             let names = columns.iter().map(|(name, _)| *name);
-            EventFile::Csv(Box::new(CsvFile::create(path, &format!("# {record}\n"), names)?))
+            Format::Csv(Box::new(CsvOutput::create(path, &format!("# {record}\n"), names)?))
         };
-        Ok(Events { path: path.to_owned(), file, columns })
+        Ok(ShotFile { path: path.to_owned(), file, columns })
     }
 
     /// Adds a shot of a pixel, which is that at row and column 0 in a run.
     pub fn write(&mut self, place: [usize; 2], shot: &Shot) -> Result<()> {
         let event = Event { place, shot: *shot };
         match &mut self.file {
-            EventFile::Csv(file) => {
+            Format::Csv(file) => {
                 file.record(self.columns.iter().map(|(_, values)| values.text(&event)))
             }
-            EventFile::Parquet(table) => table.write(&[event]),
+            Format::Parquet(table) => table.write(&[event]),
         }
     }
 
     /// Puts the file in place, and returns its path.
     pub fn finish(self) -> Result<PathBuf> {
         match self.file {
-            EventFile::Csv(file) => file.finish()?,
-            EventFile::Parquet(table) => table.finish()?.commit()?,
+            Format::Csv(file) => file.finish()?,
+            Format::Parquet(table) => table.finish()?.commit()?,
         }
         Ok(self.path)
     }
