@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 
@@ -103,10 +104,18 @@ impl Optics {
         &self.hazards[lit as usize]
     }
 
-    /// Skips `shots` shots that have at most one avalanche each, and passes their random words to `take`.
+    /// Skips `shots` shots that have at most one avalanche each, and passes their random words to `take`, many at once:
+    /// a word by itself asks whether the block of random numbers is used up.
     #[inline]
-    pub fn pass(&mut self, shots: u64, mut take: impl FnMut(u64)) {
-        (0..shots).for_each(|_| take(self.first.next_u64()));
+    pub fn pass(&mut self, shots: u64, mut take: impl FnMut(&[u64])) {
+        let (mut words, mut left) = ([0; 64], shots);
+        while left > 0 {
+            let count = left.min(words.len() as u64);
+            let some = &mut words[..count as usize];
+            self.first.fill(some);
+            take(some);
+            left -= count;
+        }
         self.shot += shots;
     }
 

@@ -4,28 +4,32 @@
 //! one over words too: a step that begins at T is reached by words below exp(-H(T)) 2^64. A table
 //! over a word's upper bits knows the outcome, or the one place where it changes. Words within
 //! [`guard`] of such a place are computed as the cycle-accurate model does it, and so are those in cells
-//! with several steps: the outcome is the same to the last bit.
+//! with several steps: the outcome is the same to the last bit. A place is stored to 2^-44 of all words, much
+//! finer than the guard, so that the table fits into a first-level cache.
 
 use crate::kernel::Time;
 use crate::optics::Hazard;
 use crate::sensor::streams::exponential;
 
-use super::outcomes::{ShotOutcome, ShotOutcomes};
+use super::outcomes::{OUTCOMES, ShotOutcome, ShotOutcomes};
 
 /// Bits of a word that choose a cell.
 const CELL_BITS: u32 = 12;
 
+/// Number of outcomes, rounded up to a power of two.
+pub const COUNTS: usize = OUTCOMES.next_power_of_two();
+
 /// Stands for an outcome that has to be computed.
 const EXACTLY: ShotOutcome = ShotOutcome::MAX;
 
-/// Distance of the split of a cell with one outcome from the first of its words.
-const FAR: u64 = 1 << (u64::BITS - 1);
+/// Bits of a word below those of a place within a cell.
+const REST_BITS: u32 = u64::BITS - CELL_BITS - u32::BITS;
 
 /// A part of all words.
 #[derive(Clone, Copy, Debug)]
 struct Cell {
-    /// First word of `above`, or far from all words of a cell with one outcome.
-    split: u64,
+    /// Place within the cell of the first word of `above`; 0 in a cell with one outcome.
+    split: u32,
     /// Outcome of the cell's words before that.
     below: ShotOutcome,
     /// Outcome of the others.
@@ -35,8 +39,9 @@ struct Cell {
 /// The outcomes of all words under one illumination.
 #[derive(Clone, Debug)]
 pub struct Draws {
-    cells: Vec<Cell>,
-    guard: u64,
+    cells: Box<[Cell; 1 << CELL_BITS]>,
+    /// Distance from a split within which words are computed [places].
+    guard: u32,
     outcomes: ShotOutcomes,
     hazard: Hazard,
 }
@@ -45,14 +50,15 @@ impl Draws {
     /// A table for shots with that hazard.
     pub fn new(outcomes: ShotOutcomes, hazard: Hazard) -> Self {
         let guard = guard(&hazard);
-        let (mut cells, mut places) = (Vec::with_capacity(1 << CELL_BITS), Vec::new());
+        let one = |outcome| Cell { split: 0, below: outcome, above: outcome };
+        let (mut cells, mut places) = (Box::new([one(EXACTLY); 1 << CELL_BITS]), Vec::new());
         for step in outcomes.steps().windows(2).rev() {
             // The later step has the smaller words.
             places.push((word(-hazard.at(step[1].0)), step[1].1, step[0].1));
         }
         let mut next = 0;
-        for cell in 0..1u64 << CELL_BITS {
-            let first = cell << (u64::BITS - CELL_BITS);
+        for (number, cell) in cells.iter_mut().enumerate() {
+            let first = (number as u64) << (u64::BITS - CELL_BITS);
             let last = first | u64::MAX >> CELL_BITS;
             while next < places.len() && places[next].0.saturating_add(guard) < first {
                 next += 1;
@@ -60,29 +66,35 @@ impl Draws {
             let near = places[next..].iter();
             let near: Vec<_> =
                 near.take_while(|place| place.0.saturating_sub(guard) <= last).collect();
-            cells.push(match near[..] {
+            *cell = match near[..] {
                 [] => {
                     let before = next.checked_sub(1).map(|place| places[place].2);
                     let outcome = before.or(places.first().map(|place| place.1));
-                    let outcome = outcome.unwrap_or(outcomes.of(Time::ZERO));
-                    Cell { split: first ^ FAR, below: outcome, above: outcome }
+                    one(outcome.unwrap_or(outcomes.of(Time::ZERO)))
                 }
                 [&(split, below, above)] if (first..=last).contains(&split) => {
-                    Cell { split, below, above }
+                    Cell { split: place(split), below, above }
                 }
-                _ => Cell { split: first, below: EXACTLY, above: EXACTLY },
-            });
+                _ => one(EXACTLY),
+            };
         }
+        // Both ends of the distance are rounded.
+        let guard = u32::try_from((guard >> REST_BITS) + 2).unwrap_or(u32::MAX);
         Draws { cells, guard, outcomes, hazard }
     }
 
-    /// Returns the outcome of a shot whose first avalanche is drawn by `word`.
-    #[inline(always)]
-    pub fn outcome(&self, word: u64) -> ShotOutcome {
-        let cell = &self.cells[(word >> (u64::BITS - CELL_BITS)) as usize];
-        let outcome = if word < cell.split { cell.below } else { cell.above };
-        let near = word.abs_diff(cell.split) <= self.guard;
-        if near | (outcome == EXACTLY) { self.exactly(word) } else { outcome }
+    /// Counts the outcomes of shots whose first avalanches are drawn by `words`.
+    pub fn count(&self, words: &[u64], counts: &mut [u32; COUNTS]) {
+        let (cells, guard) = (&*self.cells, self.guard);
+        for &word in words {
+            let cell = cells[(word >> (u64::BITS - CELL_BITS)) as usize];
+            let place = place(word);
+            let outcome = if place < cell.split { cell.below } else { cell.above };
+            let near = place.abs_diff(cell.split) <= guard;
+            let outcome = if near | (outcome == EXACTLY) { self.exactly(word) } else { outcome };
+            // The remainder is the outcome; it shows the compiler that it is within bounds.
+            counts[outcome as usize % COUNTS] += 1;
+        }
     }
 
     /// Returns the outcome of an avalanche `arrival` after the laser edge.
@@ -95,6 +107,12 @@ impl Draws {
     fn exactly(&self, word: u64) -> ShotOutcome {
         self.outcomes.of(self.hazard.inverse(exponential(word)))
     }
+}
+
+/// Returns the place of a word within its cell.
+#[inline(always)]
+fn place(word: u64) -> u32 {
+    (word >> REST_BITS) as u32
 }
 
 /// Returns exp(`exponent`) of the range of words.
@@ -141,9 +159,10 @@ mod tests {
                 let cells = draws.cells.iter().enumerate();
                 let near = cells.flat_map(|(cell, of)| {
                     let first = (cell as u64) << (u64::BITS - CELL_BITS);
-                    let around = [0, 1, 4097, draws.guard, draws.guard + 1, draws.guard + 4097];
+                    let guard = u64::from(draws.guard) << REST_BITS;
+                    let around = [0, 1, 4097, guard, guard + 1, guard + 4097, guard + (1 << 21)];
                     around.into_iter().flat_map(move |by| {
-                        let [first, split] = [first, of.split];
+                        let split = first + (u64::from(of.split) << REST_BITS);
                         [first.wrapping_sub(by), first.wrapping_add(by)]
                             .into_iter()
                             .chain([split.wrapping_sub(by), split.wrapping_add(by)])
@@ -151,7 +170,9 @@ mod tests {
                 });
                 let anywhere: Vec<_> = (0..20_000).map(|_| random.next_u64()).collect();
                 for word in near.chain(anywhere) {
-                    assert_eq!(draws.outcome(word), draws.exactly(word), "{keys:?} {word:x}");
+                    let mut counts = [0; COUNTS];
+                    draws.count(&[word], &mut counts);
+                    assert_eq!(counts[draws.exactly(word) as usize], 1, "{keys:?} {word:x}");
                 }
             }
         }
@@ -162,6 +183,6 @@ mod tests {
         let draws = draws(&[], 3, true);
         let crowded = draws.cells.iter().filter(|cell| cell.below == EXACTLY).count();
         assert!(crowded < draws.cells.len() / 50, "{crowded} cells");
-        assert!(draws.guard < 1 << 40, "{:x}", draws.guard);
+        assert!(draws.guard < 1 << 20, "{:x}", draws.guard);
     }
 }

@@ -14,9 +14,9 @@ use crate::sensor::light::Light;
 use crate::sim::device::Device;
 use crate::sim::frames::Frames;
 
-use super::draws::Draws;
+use super::draws::{COUNTS, Draws};
 use super::hits::Hits;
-use super::outcomes::{NO_HIT, OUTCOMES, ShotOutcomes};
+use super::outcomes::{NO_HIT, ShotOutcomes};
 use super::steady::even_period;
 
 /// Tables of outcomes, made when first needed: for each laser rate, in the dark and with the laser.
@@ -65,12 +65,9 @@ pub fn leap_shots(
         return;
     }
     let begun = device.pll.clk_sys.rise(device.cycle - 1);
-    let mut counts = [0u32; OUTCOMES.next_power_of_two()];
+    let mut counts = [0; COUNTS];
     counts[draws.outcome_at(device.spads.next_event() - begun) as usize] += 1;
-    optics.pass(shots - 1, |word| {
-        // The remainder is the outcome; it shows the compiler that it is within bounds.
-        counts[draws.outcome(word) as usize % counts.len()] += 1;
-    });
+    optics.pass(shots - 1, |words| draws.count(words, &mut counts));
     hits.finish(&mut device.top, p);
     land(&mut device.top, shots, &counts);
     device.cycle += shots * period;
