@@ -154,6 +154,7 @@ fn histograms_drawn_at_once_are_distributed_as_those_of_the_instruments_shots() 
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn a_network_for_other_bins_is_trained_estimates_and_is_measured() {
     let folder = empty();
     let keys = ["-s", "tdc.bins=64", "-s", "tdc.bin_ps=100", "-s", "firmware.count_bits=18"];

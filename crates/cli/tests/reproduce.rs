@@ -40,6 +40,7 @@ fn ours(item: &Value, what: &str) -> f64 {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn every_item_has_a_verdict_and_what_is_not_the_same_has_a_reason() {
     let all = &QUICK.object;
     assert_eq!(all["schema"], "tofsim.reproduce/1");
@@ -91,6 +92,7 @@ fn side(side: &Value) -> String {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn every_row_is_what_it_was() {
     let mut lines = Vec::new();
     for item in QUICK.object["items"].as_array().unwrap() {
@@ -110,6 +112,7 @@ fn every_row_is_what_it_was() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn numbers_that_are_known_come_out() {
     let all = &QUICK.object;
     let is = |id: &str, what: &str, value: f64, within: f64| {
@@ -133,6 +136,7 @@ fn numbers_that_are_known_come_out() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads_and_another_does_not() {
     let items = ["reproduce", "--quick", "table-4.3", "table-5.5", "fig-5.5", "--json"];
     let of = |more: &[&str]| stdout(empty().path(), &[&items[..], more].concat());
@@ -141,6 +145,7 @@ fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads_and_another_does_
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn named_items_are_made_alone_with_their_rows_within_80_columns() {
     let text =
         stdout(empty().path(), &["reproduce", "table-6.3", "fig-6.21", "table-5.5", "--quick"]);

@@ -272,6 +272,7 @@ fn weights_that_fit_no_words_are_saturated_and_told() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn a_quick_training_finds_distances() {
     let folder = tempfile::tempdir().unwrap();
     let report = json(folder.path(), &["train", "--quick", "--json", "-o", "quick"]);

@@ -33,6 +33,7 @@ fn a_frame_of_each_is_within_what_its_network_was_trained_for() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn each_network_is_within_eight_times_the_bound_over_its_own_grid() {
     for (name, _, _, bin_ps) in INSTRUMENTS {
         let limit = ["--outlier-limit-mm", if name == "long" { "1000" } else { "100" }];

@@ -43,6 +43,7 @@ pub fn is_whole(page: &str) -> usize {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn the_page_is_whole_and_has_every_item_with_its_verdict() {
     let page = &QUICK.page;
     assert!(is_whole(page) >= 30);
