@@ -23,7 +23,8 @@ impl LikelihoodTerms {
         d.lit_first = self.light;
         if i.phase {
             d.lit = self.lit_first;
-            d.sum = U::new(self.lit_first.get() + self.light.get() + i.glass_light.get());
+            let others = i.glass_light.get() + i.other_light.get();
+            d.sum = U::new(self.lit_first.get() + self.light.get() + others);
             shift(
                 &mut d.hazard,
                 U::new(self.sum.get().clamp(LEAST_HAZARD as u64, MOST_HAZARD as u64)),

@@ -109,7 +109,7 @@ mod tests {
     fn an_estimate_has_what_its_words_state() {
         let status = U::new((Status::CutOff.bit() | Status::NoFit.bit()).into());
         let (depth, sigma) = (Depth::new(0x1013_c199), U::new(1 << 19));
-        let words = EstimateWords { depth, sigma, status, valid: false };
+        let words = EstimateWords { depth, sigma, status, ..EstimateWords::default() };
         let json = |words| {
             serde_json::to_value(Estimate::of_words(FirmwareEstimator::LikelihoodEstimator, words))
         };

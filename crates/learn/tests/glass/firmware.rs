@@ -2,6 +2,7 @@
 
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_estimator::params::{Params, Wanted};
+use tofsim::firmware::likelihood_estimator::targets::Targets;
 use tofsim::firmware::tof_top::status::Status;
 use tofsim::sim::estimates::likelihood::{Found, estimate};
 use tofsim_learn::estimation::likelihood::Model;
@@ -21,6 +22,7 @@ fn params(bins: &Bins, template: Option<&GlassTemplate>) -> Params {
         metres_per_ps: 1.0 / ARRIVAL_PS_PER_M,
         delay_ps: 0.0,
         glass: &glass,
+        targets: Targets::One,
     })
     .unwrap()
 }
