@@ -65,6 +65,8 @@ module tof_top #(
     parameter integer GlassBins = 0,
     parameter [23:0] GlassLight = 24'd0,
     parameter GlassFile = "",
+    parameter integer Targets = 1,
+    parameter [0:0] Strongest = 1'b0,
     parameter integer InputHz = 200000000,       // see pll
     parameter integer Multiply = 5,
     parameter integer Divide = 1,
@@ -574,6 +576,8 @@ module tof_top #(
         .GlassBins(GlassBins),
         .GlassLight(GlassLight),
         .GlassFile(GlassFile),
+        .Targets(Targets),
+        .Strongest(Strongest),
         .EdgesFile(EdgesFile),
         .PulseFile(PulseFile),
         .HazardFile(HazardFile),

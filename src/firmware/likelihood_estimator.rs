@@ -92,22 +92,22 @@ signals! {
         /// The depth is ready; one cycle.
         pub algo_done: bool,
         /// Depth of the second target, 0 without one.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub second_depth: Depth,
         /// Its standard deviation, with as many fraction bits.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[view(heading = "Estimator", probe = true)]
         pub second_sigma: U<36>,
         /// Its signal, 14 fraction bits [photons a shot].
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[view(heading = "Estimator", probe = true)]
         pub second_strength: U<24>,
         /// Reasons to reject its depth, as of [`Status`].
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[view(heading = "Estimator", probe = true)]
         pub second_status: U<7>,
         /// There is a second target, and its status says nothing against its depth.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub second_valid: bool,
         /// State of the computation.
         #[view(heading = "Likelihood", probe = true)]
@@ -157,74 +157,74 @@ signals! {
         /// The same of the shots of this estimation.
         pub(crate) unarmed: bool,
         /// A pass goes over the bins around both echoes.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) wide: bool,
         /// Both echoes have light.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) paired: bool,
         /// Steps taken of both.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[view(heading = "Likelihood", probe = true)]
         pub(crate) turns: U<4>,
         /// The other echo's bins are the earlier ones.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) behind: bool,
         /// Begin of the later bins of a fit [bins].
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(PlaceBits)]
         pub(crate) later_begin: Place,
         /// Their end.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(PlaceBits)]
         pub(crate) later_end: Place,
         /// The check has come to the later bins.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) later_reached: bool,
         /// One of them has come.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) later_seen: bool,
         /// Few shots waited at the first.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) later_used_up: bool,
         /// Score of the box over one echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) alone_score: likelihood_scan::Log,
         /// Depth of one echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) alone_depth: S<36, 29>,
         /// Its deviation.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) alone_sigma: U<36>,
         /// Flags of one echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) alone_flags: U<7>,
         /// Its last step was shortened.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) alone_cut: bool,
         /// The cover glass's light has changed, as one echo has it.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) alone_changed: bool,
         /// Chi-square of one echo over the bins of both.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(ChiBits)]
         pub(crate) alone_chi: U<35>,
         /// A bin is far from it.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) alone_far: bool,
         /// Few shots waited at its first bin.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) alone_used_up: bool,
         /// Depth of the other of two echoes.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) other_depth: S<36, 29>,
         /// Its deviation.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) other_sigma: U<36>,
         /// Flags of the other echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) other_flags: U<7>,
         /// Its last step was shortened.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub(crate) other_cut: bool,
     }
 }
@@ -293,7 +293,7 @@ connect! {
         [other_arrival, other_strength] <- this.likelihood_solver.registers;
         [word_bin, word_edge, word_first, word_end] <- this.likelihood_memory.registers;
         glass_light <- this.likelihood_glass.glass_light;
-        [light, hazard_bits, hazard_reciprocal, residual, share, slope] <- this.likelihood_terms;
+        [ambient_light, hazard_bits, hazard_reciprocal, residual, share, slope] <- this.likelihood_terms;
         weight_first <- this.likelihood_sums.weight_first;
     }
     likelihood_scan(clk_sys): likelihood_scan::In {

@@ -53,10 +53,10 @@ signals! {
         /// z.
         pub slope: Slope,
         /// Another echo has light: what counts as ambient light has a share of its own.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub paired: bool,
         /// That share.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub still_share: Share,
     }
 }
@@ -146,7 +146,7 @@ signals! {
         #[size(WeightSlopeBits)]
         both_z: S<41>,
         /// w g r, with r the share of what counts as ambient light beside another echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(WeightBits)]
         still: Weight,
     }
@@ -220,7 +220,7 @@ impl LikelihoodGlass {
             shift(&mut d.once, weight(first));
             d.square = weight(second);
             (d.third_a, d.third_b) = (self.both, S::new(self.z[3].get()));
-            d.both_z = S::new(self.third_product.get());
+            d.both_z = S::new(wrapped(self.third_product.get(), weight_bits + 9));
             if p.has_second() {
                 d.third_product = S::new(self.third_a.get() as i64 * self.third_b.get());
             }

@@ -56,8 +56,8 @@ signals! {
         /// Hazard of the cover glass's light, 22 fraction bits.
         #[only_if(Glass)]
         pub glass_light: Hazard,
-        /// Hazard of ambient light in the second cycle of a beat.
-        pub light: Hazard,
+        /// Hazard of ambient light, in the beat after that of `glass_light`.
+        pub ambient_light: Hazard,
         /// Bits of the bin's hazard.
         pub hazard_bits: U<5>,
         /// Reciprocal of the hazard's mantissa, 10 fraction bits.
@@ -131,8 +131,11 @@ signals! {
         level_times: U<42>,
         /// Hazard of the other echo, one cycle ahead.
         lit: Hazard,
+        /// Hazard of the cover glass's light in the beat before.
+        #[only_if(Glass)]
+        last_glass: Hazard,
         /// Hazards of ambient light and of the cover glass's together, on the way.
-        still_light: [Hazard; 4],
+        still_light: [Hazard; 3],
         /// The hazard, shifted as the bin's mantissa is.
         aligned: U<14>,
         /// r, one cycle ahead.
@@ -197,7 +200,8 @@ impl Clocked for LikelihoodPair {
         self.multiply(i, p, &mut d);
         if i.phase {
             self.cut_out(i, &mut d);
-            let still = (i.light.get() + i.glass_light.get()).min(MOST_HAZARD as u64);
+            d.last_glass = i.glass_light;
+            let still = (i.ambient_light.get() + self.last_glass.get()).min(MOST_HAZARD as u64);
             shift(&mut d.still_light, U::new(still));
             shift(&mut d.shares, self.share_first);
             d.still_share = self.shares[4];
@@ -229,7 +233,7 @@ impl LikelihoodPair {
     /// The share of the hazard, begun in the second cycle of a beat.
     fn divide(&self, i: &In, d: &mut Self) {
         if i.phase {
-            let (bits, hazard) = (i.hazard_bits.get(), self.still_light[3].get());
+            let (bits, hazard) = (i.hazard_bits.get(), self.still_light[2].get());
             d.aligned = U::new(match bits.checked_sub(MANTISSA_BITS) {
                 Some(excess) => hazard >> excess,
                 None => hazard << (MANTISSA_BITS - bits),

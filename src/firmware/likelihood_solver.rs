@@ -114,22 +114,22 @@ signals! {
         #[size(SumWordBits)]
         pub score_4: S<43>,
         /// Both echoes have light.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub paired: bool,
         /// Sum of the information on mu and log b beside another echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(SlopeSumBits)]
         pub still_13: S<48>,
         /// Sum of the information on log S and log b beside another echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(SumWordBits)]
         pub still_23: S<43>,
         /// Sum of the information on log b beside another echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(SumWordBits)]
         pub still_33: S<43>,
         /// Score of log b beside another echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(SumWordBits)]
         pub still_score: S<43>,
     }
@@ -154,12 +154,12 @@ signals! {
         #[only_if(Glass)]
         pub glass: U<24>,
         /// Arrival of the other echo [units / 16].
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[size(ArrivalBits)]
         #[view(heading = "Likelihood", probe = true)]
         pub other_arrival: U<21>,
         /// S of the other echo.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         #[view(heading = "Likelihood", probe = true)]
         pub other_strength: U<24>,
         /// Depth of the last end program [2^-29 m].

@@ -54,7 +54,7 @@ signals! {
         #[only_if(Glass)]
         pub glass_light: Hazard,
         /// Hazard of the other echo's light, 22 fraction bits.
-        #[only_if(Two)]
+        #[only_if(HasSecond)]
         pub other_light: Hazard,
         /// The word is a bin.
         pub word_bin: bool,
@@ -114,6 +114,9 @@ signals! {
         /// Reciprocal of its mantissa, 10 fraction bits.
         #[only_if(MoreLight)]
         pub hazard_reciprocal: U<10>,
+        /// Hazard of ambient light.
+        #[only_if(HasSecond)]
+        pub ambient_light: Hazard,
         /// Words on the way: of a bin, from the one at the pulse on.
         bin: [bool; 15],
         /// Of all others.
@@ -184,7 +187,7 @@ signals! {
         /// And half of what is cut off it.
         level_times: U<42>,
         /// Hazard of the signal in the first cycle of a beat, and in the second one of ambient light.
-        pub light: Hazard,
+        light: Hazard,
         /// Hazard of the signal, in the second cycle.
         lit_first: Hazard,
         /// Hazard of the signal.
@@ -275,7 +278,7 @@ impl Clocked for LikelihoodTerms {
             self.give(p, &mut d);
         }
         self.fetch(i, p, &mut d);
-        self.light_up(i, &mut d);
+        self.light_up(i, p, &mut d);
         self.normalise(i, &mut d);
         self.divide(i, &mut d);
         self.multiply(i, &mut d);

@@ -168,7 +168,7 @@ sizes! { s:
     /// 1 if the likelihood estimator knows of a cover glass.
     Glass = s.has_glass.into();
     /// 1 if the likelihood estimator looks for a second target.
-    Two = s.has_second.into();
+    HasSecond = s.has_second.into();
     /// 1 if the likelihood estimator knows of a cover glass, or looks for a second target.
     MoreLight = (s.has_glass || s.has_second).into();
     /// Bits of a place in the likelihood estimator's program.

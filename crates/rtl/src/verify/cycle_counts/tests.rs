@@ -142,6 +142,11 @@ fn an_estimation_behind_glass_takes_5639_clocks() {
 }
 
 #[test]
+fn an_estimation_of_two_targets_takes_9602_clocks() {
+    assert_eq!(likelihood(&["estimator.targets=2"]), 9602);
+}
+
+#[test]
 fn a_likelihood_estimation_takes_3779_clocks() {
     assert_eq!(likelihood(&[]), 3779);
 }
