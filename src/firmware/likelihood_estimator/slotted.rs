@@ -49,11 +49,11 @@ impl SlotEstimator for LikelihoodEstimator {
         let Registers { second_depth, second_sigma, second_strength, .. } = self.registers;
         let Registers { second_status, second_valid, .. } = self.registers;
         let second = SecondWords {
-            depth: second_depth,
-            sigma: second_sigma,
-            strength: second_strength,
-            status: second_status,
-            valid: second_valid,
+            second_depth,
+            second_sigma,
+            second_strength,
+            second_status,
+            second_valid,
         };
         let words = EstimateWords { depth, sigma, status, valid, second };
         SlotOut { read_en, read_addr, words, algo_done }

@@ -82,15 +82,15 @@ pub struct EstimateWords {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SecondWords {
     /// Its distance [m].
-    pub depth: Depth,
+    pub second_depth: Depth,
     /// Standard deviation of its distance; 0 without a second target.
-    pub sigma: Sigma,
+    pub second_sigma: Sigma,
     /// Its signal, 14 fraction bits [photons a shot].
-    pub strength: U<24>,
+    pub second_strength: U<24>,
     /// Reasons to reject its distance.
-    pub status: StatusBits,
+    pub second_status: StatusBits,
     /// There is a second target, and its status has no reason to reject the distance.
-    pub valid: bool,
+    pub second_valid: bool,
 }
 
 /// Distance with the fraction bits of a depth word [m].

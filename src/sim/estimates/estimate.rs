@@ -64,13 +64,15 @@ impl EchoDepth {
 
     /// Returns the second target in words of the firmware, if there is one.
     pub fn of_words(second: &SecondWords) -> Option<Self> {
-        let is_there = second.sigma != 0;
+        let is_there = second.second_sigma != 0;
         is_there.then(|| EchoDepth {
-            depth_m: DepthM::from_bits(second.depth.get()).to_num(),
-            sigma_m: SigmaM::from_bits(second.sigma.get()).to_num(),
-            signal_per_shot: Some(second.strength.get() as f64 / f64::from(1 << SIGNAL_FRACTION)),
-            valid: Some(second.valid),
-            status: Some(second.status.into()),
+            depth_m: DepthM::from_bits(second.second_depth.get()).to_num(),
+            sigma_m: SigmaM::from_bits(second.second_sigma.get()).to_num(),
+            signal_per_shot: Some(
+                second.second_strength.get() as f64 / f64::from(1 << SIGNAL_FRACTION),
+            ),
+            valid: Some(second.second_valid),
+            status: Some(second.second_status.into()),
         })
     }
 }

@@ -66,11 +66,11 @@ impl Second {
     /// The words as the ports have them.
     fn words(&self) -> SecondWords {
         SecondWords {
-            depth: Depth::new(self.depth),
-            sigma: U::new(self.sigma as u64),
-            strength: U::new(self.signal as u64),
-            status: U::new(self.status.bits().into()),
-            valid: self.status.is_empty(),
+            second_depth: Depth::new(self.depth),
+            second_sigma: U::new(self.sigma as u64),
+            second_strength: U::new(self.signal as u64),
+            second_status: U::new(self.status.bits().into()),
+            second_valid: self.status.is_empty(),
         }
     }
 }
