@@ -165,6 +165,9 @@ fn one_target_stays_valid() {
         let pair = Pair::random(&two, 8.0, 0.0, &mut random);
         let histogram = pair.alone(&two, SHOTS).draw(&mut random);
         let [today, found] = [&one, &two].map(|own| pair.alone(own, SHOTS).look(&histogram));
+        if found.second.is_none() {
+            assert_eq!((found.depth, found.sigma), (today.depth, today.sigma));
+        }
         let error_m = today.depth_m() - pair.distances_m(&two)[0];
         if today.status.is_empty() && error_m.abs() < OFF * today.sigma_m() {
             valid += 1.0;
