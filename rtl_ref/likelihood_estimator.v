@@ -25,6 +25,8 @@ module likelihood_estimator #(
     parameter integer GlassBins = 0,             // see likelihood_memory
     parameter [23:0] GlassLight = 24'd0,         // light of the glass when it was calibrated [2^-14 photons a shot]
     parameter GlassFile = "",
+    parameter integer Targets = 1,               // targets that are looked for, 1 or 2
+    parameter [0:0] Strongest = 1'b0,            // the one with more signal comes first, and not the nearer one
     parameter EdgesFile = "rtl_ref/edges.mem",
     parameter PulseFile = "rtl_ref/pulse.mem",
     parameter HazardFile = "rtl_ref/hazard.mem",
@@ -46,18 +48,26 @@ module likelihood_estimator #(
     output reg [6:0] status,                     // why not to believe it
     output reg [BinBits+24:0] chi_square,        // of the fit [2^-8]
     output reg valid,                            // the status says nothing against the depth
-    output reg algo_done                         // the depth is ready; one cycle
+    output reg algo_done,                        // the depth is ready; one cycle
+    // Second target, all 0 without one
+    output reg signed [35:0] second_depth,       // its depth [2^-29 m]
+    output reg [35:0] second_sigma,              // its standard deviation [2^-29 m]
+    output reg [23:0] second_strength,           // its signal, photons a shot [2^-14]
+    output reg [6:0] second_status,              // why not to believe it
+    output reg second_valid                      // there is one, and its status says nothing against it
 );
     localparam [3:0] Idle = 4'd0, Load = 4'd1, Ambient = 4'd2, Scan = 4'd3, Start = 4'd4, Fit = 4'd5, Step = 4'd6,
-        Check = 4'd7, Rescan = 4'd8, End = 4'd9;
-    localparam [0:0] Glass = GlassBins != 0;
+        Check = 4'd7, Rescan = 4'd8, End = 4'd9, Second = 4'd10, Swap = 4'd11;
+    localparam [0:0] Glass = GlassBins != 0, HasSecond = Targets != 1;
     localparam [6:0] AmbientProgram = 7'd0, StartProgram = Glass ? 7'd8 : 7'd7, StepProgram = Glass ? 7'd14 : 7'd13,
-        EndProgram = Glass ? 7'd69 : 7'd49;
+        EndProgram = Glass ? 7'd69 : 7'd49, SecondProgram = Glass ? 7'd84 : 7'd64, SwapProgram = SecondProgram + 7'd6;
+    localparam [3:0] Turns = 4'd10;
     localparam integer Bins = 1 << BinBits, Beats = 29;
     localparam integer ScanCycles = 2 * (Bins + BoxBins - BoxBins / 2 - 1 + Beats);
     localparam integer GlassBeats = Glass ? GlassBins + 1 : 0;
     localparam integer FitCycles = 2 * (GlassBeats + BinsBefore + 1 + BinsAfter + Beats), LoadCycles = Bins + 12;
-    localparam integer WaitBits = BinBits + 3;
+    localparam integer PairCycles = FitCycles + 2 * (BinsBefore + 1 + BinsAfter + 1);
+    localparam integer WaitBits = BinBits + (HasSecond ? 4 : 3), ChiBits = BinBits + 25, ApartBits = 38;
     // Numbers of bins are integers elsewhere.
     // verilator lint_off WIDTH
     localparam [BinBits:0] All = Bins, Before = BinsBefore, After = BinsAfter + 1;
@@ -79,11 +89,37 @@ module likelihood_estimator #(
     reg reached;                      // the check has come to the window around the echo
     reg free;                         // mode was high since the last estimation began
     reg unarmed;                      // the same of the shots of this estimation
+    // Where a second target is looked for
+    reg wide;                         // a pass goes over the bins around both echoes
+    reg paired;                       // both echoes have light
+    reg [3:0] turns;                  // steps taken of both
+    reg behind;                       // the other echo's bins are the earlier ones
+    reg [BinBits:0] later_begin, later_end;  // begin and end of the later bins of a fit [bins]
+    reg later_reached, later_seen;    // the check has come to them, one of them has come
+    reg later_used_up;                // few shots waited at the first
+    reg signed [13:0] alone_score;    // of one echo: score of the box over it,
+    reg signed [35:0] alone_depth;    // depth, deviation and flags,
+    reg [35:0] alone_sigma;
+    reg [6:0] alone_flags;
+    reg alone_cut, alone_changed;     // its last step was shortened, the glass's light has changed,
+    reg [ChiBits-1:0] alone_chi;      // chi-square over the bins of both,
+    reg alone_far, alone_used_up;     // a bin is far from it, few shots waited at its first bin
+    reg signed [35:0] other_depth;    // of the other of two echoes: depth, deviation, flags
+    reg [35:0] other_sigma;
+    // Whether the signal is known to a quarter counts for one echo.
+    // verilator lint_off UNUSEDSIGNAL
+    reg [6:0] other_flags;
+    // verilator lint_on UNUSEDSIGNAL
+    reg other_cut;                    // its last step was shortened
 
     initial begin
         {depth, sigma, status, chi_square, valid, algo_done} = 0;
         {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} = 0;
         {start_score, seen, used_up, dark, reached, free, unarmed} = 0;
+        {second_depth, second_sigma, second_strength, second_status, second_valid} = 0;
+        {wide, paired, turns, behind, later_begin, later_end, later_reached, later_seen, later_used_up} = 0;
+        {alone_score, alone_depth, alone_sigma, alone_flags, alone_cut, alone_changed, alone_chi} = 0;
+        {alone_far, alone_used_up, other_depth, other_sigma, other_flags, other_cut} = 0;
     end
 
     wire block_done, word_bin, word_rest, word_edge, word_slide, word_first;
@@ -113,7 +149,13 @@ module likelihood_estimator #(
     wire [4:0] hazard_bits;
     wire [9:0] hazard_reciprocal;
     wire [(CountBits > 16 ? CountBits + 8 : 24)-1:0] weight_first;
-    wire word_window;
+    wire word_window, word_later;
+    wire [BinBits+10:0] other_arrival;
+    wire [23:0] other_strength;
+    wire [25:0] other_light, ambient_light;
+    wire [12:0] still_share;
+    wire signed [CountBits+23:0] still_13;
+    wire signed [CountBits+18:0] still_23, still_33, still_score;
     wire [25:0] glass_light;
     wire signed [CountBits+23:0] sum_14;
     wire signed [CountBits+18:0] sum_24, sum_34, sum_44, score_4;
@@ -129,6 +171,14 @@ module likelihood_estimator #(
     wire [BinBits+1:0] window_end = {1'b0, centre} + {1'b0, After};
     wire [BinBits:0] next_end = window_end > {1'b0, All} ? All : window_end[BinBits:0];
 
+    // Bins around the other echo, and which come first
+    wire [BinBits:0] other_bin = other_arrival[BinBits+10:10];
+    wire [BinBits:0] other_centre = other_bin < All ? other_bin : All - 1'b1;
+    wire [BinBits:0] other_begin = other_centre > Before ? other_centre - Before : {BinBits + 1{1'b0}};
+    wire [BinBits+1:0] other_window_end = {1'b0, other_centre} + {1'b0, After};
+    wire [BinBits:0] other_end = other_window_end > {1'b0, All} ? All : other_window_end[BinBits:0];
+    wire behind_next = HasSecond && wide_next && other_begin < next_begin;
+
     wire unsure = flags[1] && start_score < 14'sd425;
     wire faint = flags[0] && start_score < 14'sd850;
     // Half of what was calibrated is too little of a pedestal, and twice as much too much.
@@ -142,9 +192,39 @@ module likelihood_estimator #(
     // A fit without an echo is the first, and those that follow it
     wire unlit = Glass && (state == Ambient || state == Step && dark);
 
+    // Two targets or one
+    wire signed [ChiBits:0] drop = {1'b0, alone_chi} - {1'b0, sum_chi};
+    wire [BinBits+10:0] apart = arrival > other_arrival ? arrival - other_arrival : other_arrival - arrival;
+    // Distances are extended to the longest.
+    // verilator lint_off WIDTH
+    wire [ApartBits-1:0] apart_by = apart, least_apart = 44 * {6'd0, PulseSigma}, near = {6'd0, PulseSigma} << 6;
+    // verilator lint_on WIDTH
+    wire fewer = drop > 9216;
+    wire are_two = fewer && apart_by > least_apart && flags[2:1] == 2'd0 && other_flags[2:1] == 2'd0;
+    wire split = fewer || drop > 3584 && apart_by < near;
+    wire own_first = Strongest ? strength >= other_strength : solved_depth <= other_depth;
+    wire own_used_up = behind ? later_used_up : used_up, other_used_up = behind ? used_up : later_used_up;
+    wire [6:0] of_both = {unarmed, no_fit, 1'b0, best_score > 14'sd331, 3'd0};
+    wire [6:0] own_status = of_both | {2'd0, cut != 6'd0 || flags[5] || flags[6], 1'b0, own_used_up,
+                                       flags[3] || flags[4], 1'b0};
+    wire [6:0] other_status = of_both | {2'd0, other_cut || other_flags[5] || other_flags[6], 1'b0, other_used_up,
+                                         other_flags[3] || other_flags[4], 1'b0};
+    wire alone_unsure = alone_flags[1] && start_score < 14'sd425;
+    wire alone_faint = alone_flags[0] && start_score < 14'sd850;
+    wire [6:0] alone_status = {unarmed, alone_far || alone_changed, alone_cut || alone_flags[5] || alone_flags[6],
+                               split || alone_score > 14'sd331, alone_used_up, alone_flags[3] || alone_flags[4],
+                               alone_unsure || alone_faint || alone_flags[2] || start_score < 14'sd297};
+    wire [6:0] first_status = !are_two ? alone_status : own_first ? own_status : other_status;
+    wire [6:0] later_status = own_first ? other_status : own_status;
+    // The results of all are there, and not those of one echo or of the other
+    wire last_end = !HasSecond || paired && turns == Turns;
+
     // begin_pass: 1 a fit, 2 a scan; begin_program: its entry
     reg [3:0] state_next;
     reg begin_fit, begin_scan, begin_program;
+    wire ends_alone = HasSecond && state == Check && begin_program;  // a check of one echo
+    wire wide_next = HasSecond && (wide || state == Second);
+    wire [WaitBits-1:0] fit_for = HasSecond && wide ? PairCycles[WaitBits-1:0] : FitCycles[WaitBits-1:0];
     always @* begin
         state_next = state;
         {begin_fit, begin_scan, begin_program} = 3'b000;
@@ -155,12 +235,21 @@ module likelihood_estimator #(
                 else if (ran) {state_next, begin_scan} = {Scan, 1'b1};
             Scan: if (waited == ScanCycles[WaitBits-1:0]) {state_next, begin_program} = {Start, 1'b1};
             Start: if (ran) {state_next, begin_fit} = {Fit, 1'b1};
-            Fit: if (waited == FitCycles[WaitBits-1:0]) {state_next, begin_program} = {Step, 1'b1};
-            Step: if (ran && Glass && dark && steps == 3'd1) {state_next, begin_scan} = {Scan, 1'b1};
+            Fit: if (waited == fit_for) {state_next, begin_program} = {Step, 1'b1};
+            Step: if (ran && HasSecond && paired && turns == Turns - 4'd1) {state_next, begin_fit} = {Check, 1'b1};
+                else if (ran && HasSecond && paired) {state_next, begin_program} = {turns == Turns - 4'd2 ? End : Swap, 1'b1};
+                else if (ran && Glass && dark && steps == 3'd1) {state_next, begin_scan} = {Scan, 1'b1};
+                else if (ran && HasSecond && steps == 3'd5) {state_next, begin_program} = {End, 1'b1};
                 else if (ran) {state_next, begin_fit} = {steps == 3'd5 ? Check : Fit, 1'b1};
-            Check: if (waited == FitCycles[WaitBits-1:0]) {state_next, begin_scan} = {Rescan, 1'b1};
-            Rescan: if (waited == ScanCycles[WaitBits-1:0]) {state_next, begin_program} = {End, 1'b1};
-            End: if (ran) state_next = Idle;
+            Check: if (waited == fit_for && HasSecond && !paired) {state_next, begin_program} = {Swap, 1'b1};
+                else if (waited == fit_for) {state_next, begin_scan} = {Rescan, 1'b1};
+            Rescan: if (waited == ScanCycles[WaitBits-1:0])
+                {state_next, begin_program} = {HasSecond && !paired ? Second : End, 1'b1};
+            End: if (ran && last_end) state_next = Idle;
+                else if (ran && paired) {state_next, begin_program} = {Swap, 1'b1};
+                else if (ran) {state_next, begin_scan} = {Rescan, 1'b1};
+            Second: if (ran) {state_next, begin_fit} = {Check, 1'b1};
+            Swap: if (ran) {state_next, begin_fit} = {Fit, 1'b1};
             default: ;
         endcase
     end
@@ -170,6 +259,10 @@ module likelihood_estimator #(
             {depth, sigma, status, chi_square, valid, algo_done} <= 0;
             {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} <= 0;
             {start_score, seen, used_up, dark, reached, free, unarmed} <= 0;
+            {second_depth, second_sigma, second_strength, second_status, second_valid} <= 0;
+            {wide, paired, turns, behind, later_begin, later_end, later_reached, later_seen, later_used_up} <= 0;
+            {alone_score, alone_depth, alone_sigma, alone_flags, alone_cut, alone_changed, alone_chi} <= 0;
+            {alone_far, alone_used_up, other_depth, other_sigma, other_flags, other_cut} <= 0;
         end else begin
             state <= state_next;
             waited <= state_next == Idle || state_next != state || begin_fit ? {WaitBits{1'b0}} : waited + 1'b1;
@@ -178,33 +271,76 @@ module likelihood_estimator #(
             pass <= begin_fit || begin_scan;
             sums <= begin_fit;
             run <= begin_program;
-            algo_done <= state == End && ran;
+            algo_done <= state == End && ran && last_end;
             free <= mode || free && !(state == Idle && algo_start);
             if (state == Idle && algo_start) begin
                 {fit_begin, fit_end, steps} <= {2 * BinBits + 5{1'b0}};
+                {wide, paired, turns} <= 6'd0;
                 unarmed <= free || mode;
             end
             if (begin_fit) begin
-                fit_begin <= unlit ? {BinBits + 1{1'b0}} : next_begin;
-                fit_end <= unlit ? {BinBits + 1{1'b0}} : next_end;
+                fit_begin <= behind_next ? other_begin : unlit ? {BinBits + 1{1'b0}} : next_begin;
+                fit_end <= behind_next ? other_end : unlit ? {BinBits + 1{1'b0}} : next_end;
+                if (HasSecond) begin
+                    behind <= behind_next;
+                    wide <= wide_next;
+                    {later_begin, later_end} <= behind_next ? {next_begin, next_end} : {other_begin, other_end};
+                    {later_reached, later_seen} <= 2'b00;
+                end
                 dark <= unlit;
                 check <= state_next == Check;
                 {seen, reached} <= 2'b00;
             end
+            if (HasSecond && state == Ambient && ran && !Glass) dark <= 1'b1;
             if (begin_scan) {scan, check} <= 2'b10;
             if (begin_program) begin
                 scan <= 1'b0;
                 entry <= state == Load ? AmbientProgram : state == Scan ? StartProgram
-                    : state == Fit ? StepProgram : EndProgram;
+                    : state == Fit ? StepProgram : HasSecond && state_next == Second ? SecondProgram
+                    : HasSecond && state_next == Swap ? SwapProgram : EndProgram;
             end
             if (state == Scan && begin_program) start_score <= best_score;
-            if (state == Step && ran) steps <= begin_scan ? 3'd0 : steps + 3'd1;
-            if (Glass && state == Check && !begin_scan && word_window) reached <= 1'b1;
-            if (state == Check && !begin_scan && word_bin && !seen && (!Glass || reached || word_window)) begin
+            if (state == Step && ran && !paired) steps <= begin_scan ? 3'd0 : steps + 3'd1;
+            if (HasSecond && state == Step && ran && paired) turns <= turns + 4'd1;
+            if (Glass && state == Check && !begin_scan && !ends_alone && word_window) reached <= 1'b1;
+            if (state == Check && !begin_scan && !ends_alone && word_bin && !seen && (!Glass || reached || word_window)) begin
                 seen <= 1'b1;
                 used_up <= word_waiting < 32;
             end
-            if (state == End && ran) begin
+            if (HasSecond && state == Check && !begin_scan && !ends_alone) begin
+                if (word_later) later_reached <= 1'b1;
+                if (word_bin && !later_seen && (later_reached || word_later)) begin
+                    later_seen <= 1'b1;
+                    later_used_up <= word_waiting < 32;
+                end
+            end
+            if (ends_alone) begin
+                {alone_chi, alone_far, alone_used_up} <= {sum_chi, far, own_used_up};
+                paired <= 1'b1;
+            end
+            if (HasSecond && state == Rescan && begin_program && !paired) alone_score <= best_score;
+            if (HasSecond && state == End && ran && !paired) begin
+                {alone_depth, alone_sigma, alone_flags} <= {solved_depth, solved_sigma, flags};
+                {alone_cut, alone_changed} <= {cut != 6'd0, changed};
+            end
+            if (HasSecond && state == End && ran && paired && !last_end)
+                {other_depth, other_sigma, other_flags, other_cut} <= {solved_depth, solved_sigma, flags, cut != 6'd0};
+            if (HasSecond && state == End && ran && last_end) begin
+                depth <= (!are_two ? alone_depth : own_first ? solved_depth : other_depth)
+                    - $signed({4'd0, LaserDelay});
+                sigma <= !are_two ? alone_sigma : own_first ? solved_sigma : other_sigma;
+                status <= first_status;
+                valid <= first_status == 7'd0;
+                chi_square <= are_two ? sum_chi : alone_chi;
+                second_depth <= !are_two ? 36'sd0
+                    : (own_first ? other_depth : solved_depth) - $signed({4'd0, LaserDelay});
+                second_sigma <= !are_two ? 36'd0 : own_first ? other_sigma : solved_sigma;
+                second_strength <= !are_two ? 24'd0 : own_first ? other_strength : strength;
+                second_status <= are_two ? later_status : 7'd0;
+                second_valid <= are_two && later_status == 7'd0;
+                scan <= 1'b0;
+            end
+            if (!HasSecond && state == End && ran) begin
                 // An arrival counts from the laser edge, a depth from where the light leaves.
                 depth <= solved_depth - $signed({4'd0, LaserDelay});
                 sigma <= solved_sigma;
@@ -228,6 +364,7 @@ module likelihood_estimator #(
         .OwnChains(OwnChains),
         .GlassBins(GlassBins),
         .GlassFile(GlassFile),
+        .Targets(Targets),
         .EdgesFile(EdgesFile)
     ) likelihood_memory (
         .clk_sys(clk_sys),
@@ -244,6 +381,9 @@ module likelihood_estimator #(
         .scan(scan),
         .fit_begin(fit_begin),
         .fit_end(fit_end),
+        .wide(wide),
+        .later_begin(later_begin),
+        .later_end(later_end),
         .phase(phase),
         .word_bin(word_bin),
         .word_rest(word_rest),
@@ -255,7 +395,8 @@ module likelihood_estimator #(
         .word_width(word_width),
         .word_end(word_end),
         .word_glass(word_glass),
-        .word_window(word_window)
+        .word_window(word_window),
+        .word_later(word_later)
     );
 
     likelihood_terms #(
@@ -263,6 +404,7 @@ module likelihood_estimator #(
         .BinBits(BinBits),
         .CountBits(CountBits),
         .GlassBins(GlassBins),
+        .Targets(Targets),
         .StepLog2(StepLog2),
         .PulseFile(PulseFile),
         .HazardFile(HazardFile)
@@ -272,6 +414,7 @@ module likelihood_estimator #(
         .scan(scan),
         .dark(dark),
         .glass_light(glass_light),
+        .other_light(other_light),
         .arrival(arrival),
         .strength(strength),
         .ambient(ambient),
@@ -294,12 +437,14 @@ module likelihood_estimator #(
         .single(single),
         .slide(slide),
         .hazard_bits(hazard_bits),
-        .hazard_reciprocal(hazard_reciprocal)
+        .hazard_reciprocal(hazard_reciprocal),
+        .ambient_light(ambient_light)
     );
 
     likelihood_sums #(
         .BinBits(BinBits),
-        .CountBits(CountBits)
+        .CountBits(CountBits),
+        .Targets(Targets)
     ) likelihood_sums (
         .clk_sys(clk_sys),
         .pass(sums),
@@ -328,7 +473,8 @@ module likelihood_estimator #(
     wire signed [CountBits+8:0] glass_residual = Glass ? residual : {CountBits + 9{1'b0}};
     // Without a glass it stays in place, with constant inputs: a generate block would put its own scope into its path.
     likelihood_glass #(
-        .CountBits(CountBits)
+        .CountBits(CountBits),
+        .Targets(Targets)
     ) likelihood_glass (
         .clk_sys(clk_sys),
         .pass(Glass && sums),
@@ -341,12 +487,49 @@ module likelihood_estimator #(
         .weight_first(weight_first),
         .share(share),
         .slope(slope),
+        .paired(paired),
+        .still_share(still_share),
         .glass_light(glass_light),
         .sum_14(sum_14),
         .sum_24(sum_24),
         .sum_34(sum_34),
         .sum_44(sum_44),
         .score_4(score_4)
+    );
+
+    likelihood_pair #(
+        .Used(Used),
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .GlassBins(GlassBins),
+        .Targets(Targets),
+        .StepLog2(StepLog2),
+        .PulseFile(PulseFile)
+    ) likelihood_pair (
+        .clk_sys(clk_sys),
+        .pass(sums),
+        .phase(phase),
+        .paired(paired),
+        .other_arrival(other_arrival),
+        .other_strength(other_strength),
+        .word_bin(word_bin),
+        .word_edge(word_edge),
+        .word_first(word_first),
+        .word_end(word_end),
+        .glass_light(glass_light),
+        .ambient_light(ambient_light),
+        .hazard_bits(hazard_bits),
+        .hazard_reciprocal(hazard_reciprocal),
+        .residual(residual),
+        .weight_first(weight_first),
+        .share(share),
+        .slope(slope),
+        .other_light(other_light),
+        .still_share(still_share),
+        .still_13(still_13),
+        .still_23(still_23),
+        .still_33(still_33),
+        .still_score(still_score)
     );
 
     likelihood_scan #(
@@ -391,6 +574,7 @@ module likelihood_estimator #(
         .MetresShift(MetresShift),
         .GlassBins(GlassBins),
         .GlassLight(GlassLight),
+        .Targets(Targets),
         .ProgramFile(ProgramFile)
     ) likelihood_solver (
         .clk_sys(clk_sys),
@@ -418,11 +602,18 @@ module likelihood_estimator #(
         .sum_34(sum_34),
         .sum_44(sum_44),
         .score_4(score_4),
+        .paired(paired),
+        .still_13(still_13),
+        .still_23(still_23),
+        .still_33(still_33),
+        .still_score(still_score),
         .ran(ran),
         .arrival(arrival),
         .strength(strength),
         .ambient(ambient),
         .glass(glass),
+        .other_arrival(other_arrival),
+        .other_strength(other_strength),
         .depth(solved_depth),
         .sigma(solved_sigma),
         .flags(flags),

@@ -6,7 +6,8 @@
 //
 // Four multipliers work twice a beat of two cycles, but for the last.
 module likelihood_glass #(
-    parameter integer CountBits = 16             // of a word of the histogram, 8 to 24
+    parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
+    parameter integer Targets = 1                // see likelihood_memory
 ) (
     input wire clk_sys,
     input wire pass,                             // begins the sums of a pass
@@ -20,6 +21,10 @@ module likelihood_glass #(
     input wire [(CountBits > 16 ? CountBits + 8 : 24)-1:0] weight_first,  // w, in the second cycle of the next beat
     input wire [12:0] share,                     // s, the signal's in the hazard [2^-12]
     input wire signed [8:0] slope,               // z
+    // verilator lint_off UNUSEDSIGNAL
+    input wire paired,                           // another echo has light: ambient light has a share of its own
+    input wire [12:0] still_share,               // r, that one [2^-12]
+    // verilator lint_on UNUSEDSIGNAL
     output reg [25:0] glass_light,               // hazard of the light in the second cycle of a beat [2^-22]
     // Sums; w has 6 fraction bits
     output reg signed [CountBits+23:0] sum_14,   // of w s g z
@@ -30,6 +35,8 @@ module likelihood_glass #(
 );
     localparam integer WeightBits = CountBits + 8 > 24 ? CountBits + 8 : 24, ResidualBits = CountBits + 9;
     localparam integer WordBits = CountBits + 19;
+    localparam [0:0] HasSecond = Targets != 1;
+    localparam integer FactorBits = HasSecond ? 14 : 9, ProductBits = WeightBits + FactorBits;
     localparam [25:0] MostHazard = 26'h3ffffff;
     localparam [WordBits-1:0] Sixteenth = 4;
     localparam signed [12:0] Half = 2048;        // of what is cut off a product, to round it
@@ -54,8 +61,10 @@ module likelihood_glass #(
     reg signed [ResidualBits-1:0] seen;                       // v g
     reg [WeightBits-1:0] once_0, once_1, second_a;            // w g
     reg [WeightBits-1:0] both, square, third_a;               // w s g, w g g
-    reg signed [8:0] third_b;
-    reg signed [WeightBits+8:0] third_product, both_z;        // w s g z
+    reg signed [FactorBits-1:0] third_b;
+    reg signed [ProductBits-1:0] third_product;
+    reg signed [WeightBits+8:0] both_z;                       // w s g z
+    reg [WeightBits-1:0] still;                               // w g r
 
     initial begin
         {glass_light, sum_14, sum_24, sum_34, sum_44, score_4} = 0;
@@ -64,7 +73,7 @@ module likelihood_glass #(
         {shares_0, shares_1, shares_2, shares_3, shares_4, shares_5} = 0;
         {echo_shares_0, echo_shares_1, echo_shares_2, z_0, z_1, z_2, z_3} = 0;
         {first_a, first_b, first_product, second_a, second_b, second_product, third_a, third_b, third_product} = 0;
-        {seen, once_0, once_1, both, square, both_z} = 0;
+        {seen, once_0, once_1, both, square, both_z, still} = 0;
     end
 
     // The hazard as it is shifted, the longest way first: the others have fewer bits to look at.
@@ -81,6 +90,7 @@ module likelihood_glass #(
     // A product is cut to its words.
     // verilator lint_off UNUSEDSIGNAL
     wire signed [WeightBits+14:0] first = first_product + Half, second = second_product + Half;
+    wire signed [WeightBits+14:0] third = third_product + Half;
     // verilator lint_on UNUSEDSIGNAL
     wire [41:0] times = level_product + (phase ? 11'd1024 : 11'd256);
     // verilator lint_on WIDTH
@@ -108,6 +118,10 @@ module likelihood_glass #(
             // The sign bit of a weight is none.
             // verilator lint_off WIDTH
             third_product <= $signed({1'b0, third_a}) * third_b;
+            if (HasSecond) begin
+                {third_a, third_b} <= {once_0, 1'b0, still_share};
+                still <= third[WeightBits+11:12];
+            end
             // verilator lint_on WIDTH
         end else begin
             {parts_3, parts_2, parts_1, parts_0} <= {parts_2, parts_1, parts_0, word_glass};
@@ -119,13 +133,19 @@ module likelihood_glass #(
             {z_3, z_2, z_1, z_0} <= {z_2, z_1, z_0, slope};
             {once_1, once_0} <= {once_0, first[WeightBits+11:12]};
             square <= second[WeightBits+11:12];
-            {third_a, third_b} <= {both, z_3};
+            third_a <= both;
+            // Words are extended to the multiplier, and products cut to words.
+            // verilator lint_off WIDTH
+            third_b <= z_3;
             both_z <= third_product;
+            if (HasSecond) third_product <= $signed({1'b0, third_a}) * third_b;
+            // verilator lint_on WIDTH
             // Terms are extended to the sums.
             // verilator lint_off WIDTH
             score_4 <= score_4 + seen;
             sum_24 <= sum_24 + $signed({1'b0, both});
-            sum_34 <= sum_34 + ($signed({1'b0, once_1}) - $signed({1'b0, both}));
+            sum_34 <= sum_34 + (HasSecond && paired ? $signed({1'b0, still})
+                : $signed({1'b0, once_1}) - $signed({1'b0, both}));
             sum_44 <= sum_44 + $signed({1'b0, square});
             sum_14 <= sum_14 + both_z;
             // verilator lint_on WIDTH

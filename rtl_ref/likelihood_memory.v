@@ -15,6 +15,7 @@ module likelihood_memory #(
     parameter [0:0] OwnChains = 1'b0,            // each column has its own bins, in 2 to the power of BinBits + 1 words
     parameter integer GlassBins = 0,             // bins with light of a cover glass, 0 if it is not known
     parameter GlassFile = "",                    // the part of that light in each bin
+    parameter integer Targets = 1,               // targets that are looked for, 1 or 2
     parameter EdgesFile = "rtl_ref/edges.mem"    // of each place the width of the bin before it [units], and its time
 ) (
     input wire clk_sys,
@@ -36,6 +37,11 @@ module likelihood_memory #(
     input wire scan,                             // over all bins but those of the fit
     input wire [BinBits:0] fit_begin,               // begin of the fit [bins]
     input wire [BinBits:0] fit_end,                // end of the fit [bins]
+    // verilator lint_off UNUSEDSIGNAL
+    input wire wide,                             // a fit goes on over the later bins
+    input wire [BinBits:0] later_begin,          // begin of the later bins of a fit [bins]
+    input wire [BinBits:0] later_end,            // their end [bins]
+    // verilator lint_on UNUSEDSIGNAL
     input wire phase,                            // second cycle of a beat
     output reg word_bin,                         // the word is a bin of the pass
     output reg word_rest,                        // it stands for all other bins
@@ -47,11 +53,12 @@ module likelihood_memory #(
     output reg [9:0] word_width,                 // its width [units]
     output reg [BinBits+7:0] word_end,           // where it ends [half units]
     output reg [16:0] word_glass,                // part of the glass's light in it [2^-17]
-    output reg word_window                       // it is the first one of the window around the echo
+    output reg word_window,                      // it is the first one of the window around the echo
+    output reg word_later                        // it is the first one of the later bins
 );
     localparam integer Bins = 1 << BinBits, EdgeBits = BinBits + 8, RestBits = CountBits + BinBits;
     localparam integer ExposureBits = RestBits + 10, KeptBits = 2 * CountBits + ExposureBits;
-    localparam [0:0] Glass = GlassBins != 0;
+    localparam [0:0] Glass = GlassBins != 0, HasSecond = Targets != 1, MoreLight = Glass || HasSecond;
     // Numbers of bins are integers elsewhere.
     // verilator lint_off WIDTH
     localparam [BinBits:0] All = Bins, Tail = BoxBins - BoxBins / 2 - 1, GlassEnd = GlassBins;
@@ -95,6 +102,8 @@ module likelihood_memory #(
     reg [16:0] read_glass;                  // part of the glass's light
     reg read_window;                        // the first bin of the window
     reg in_glass;                           // the pass is at the bins of the glass
+    reg read_later;                         // the first of the later bins
+    reg in_later;                           // the pass is at the later bins
     reg [RestBits-1:0] rest_ended;          // hits outside of the fit, when it has been gone through
     reg [ExposureBits-1:0] rest_exposure;   // exposure outside of it
 
@@ -117,6 +126,7 @@ module likelihood_memory #(
         if (Used) $readmemh(EdgesFile, edges);
         if (GlassBins != 0) $readmemh(GlassFile, glass_parts);
         {word_glass, word_window, read_glass, read_window, in_glass} = 37'd0;
+        {word_later, read_later, in_later} = 3'd0;
         for (i = 0; i < Bins; i = i + 1) ram[i] = {KeptBits{1'b0}};
         {read_en, block_done, word_bin, word_rest, word_edge, word_slide, word_first} = 7'd0;
         {begun, begun_bin, begun_ended, begun_waiting, begun_three, begun_width, begun_exposure} = 0;
@@ -142,9 +152,11 @@ module likelihood_memory #(
     wire first_of_block = written_bin[BinBits-4:0] == {BinBits - 3{1'b0}};
     wire [CountBits:0] less = {1'b0, left} - {1'b0, count};
     wire at_begin = index == fit_begin, at_end = index == fit_end;
-    wire last = scanning ? index == All : Glass ? index >= fit_end : at_end;
+    wire past_end = index >= (HasSecond && in_later ? later_end : fit_end);
+    wire last = scanning ? index == All : MoreLight ? past_end : at_end;
     wire glass_over = Glass && in_glass && !opening && index == GlassEnd;
-    wire goes_on = in_glass || !last || opening && (scanning || !Glass);
+    wire goes_on = in_glass || !last || opening && (scanning || !MoreLight);
+    wire later_next = HasSecond && wide && !scanning && !in_later;
     wire last_tail = !scanning || tail == Tail;
 
     // Written as differences, as those of likelihood_sums are.
@@ -196,6 +208,7 @@ module likelihood_memory #(
     always @(posedge clk_sys) begin
         if (rst) begin
             {word_glass, word_window, read_glass, read_window, in_glass} <= 37'd0;
+            {word_later, read_later, in_later} <= 3'd0;
             {read_en, block_done, word_bin, word_rest, word_edge, word_slide, word_first} <= 7'd0;
             {begun, begun_bin, begun_ended, begun_waiting, begun_three, begun_width, begun_exposure} <= 0;
             {read_addr, taken_bin, written_bin, bin} <= {4 * BinBits{1'b0}};
@@ -281,6 +294,10 @@ module likelihood_memory #(
                     word_glass <= read_bin ? read_glass : 17'd0;
                     word_window <= read_window;
                 end
+                if (HasSecond) begin
+                    read_later <= passing && !opening && !tailing && !blank && {1'b0, bin} == later_begin;
+                    word_later <= read_later;
+                end
             end
 
             // The pass
@@ -288,17 +305,21 @@ module likelihood_memory #(
                 {passing, opening, tailing, blank} <= 4'b1100;
                 scanning <= scan;
                 in_glass <= Glass && !scan;
+                in_later <= 1'b0;
                 index <= scan || Glass ? {BinBits + 1{1'b0}} : fit_begin;
                 tail <= {BinBits + 1{1'b0}};
             end else if (passing && phase) begin
-                opening <= glass_over;
+                opening <= glass_over || !goes_on && later_next;
                 if (glass_over) begin
                     in_glass <= 1'b0;
                     if (index < fit_begin) index <= fit_begin;
                 end else if (goes_on) begin
                     index <= index + 1'b1;
                     bin <= index[BinBits-1:0];
-                    if (at_begin || at_end) blank <= scanning && !at_end && !Glass;
+                    if (at_begin || at_end) blank <= scanning && !at_end && !MoreLight;
+                end else if (later_next) begin
+                    in_later <= 1'b1;
+                    if (index < later_begin) index <= later_begin;
                 end else if (!tailing) tailing <= 1'b1;
                 else if (last_tail) passing <= 1'b0;
                 else tail <= tail + 1'b1;

@@ -18,6 +18,7 @@ module likelihood_solver #(
     parameter integer MetresShift = 13,
     parameter integer GlassBins = 0,             // see likelihood_memory
     parameter [23:0] GlassLight = 24'd0,         // light of the glass when it was calibrated [2^-14 photons a shot]
+    parameter integer Targets = 1,               // see likelihood_memory
     parameter ProgramFile = "rtl_ref/solver.mem"  // an instruction a word
 ) (
     input wire clk_sys,
@@ -49,6 +50,12 @@ module likelihood_solver #(
     input wire signed [CountBits+18:0] sum_34,
     input wire signed [CountBits+18:0] sum_44,
     input wire signed [CountBits+18:0] score_4,
+    // likelihood_pair
+    input wire paired,                           // both echoes have light: its sums are those of log b
+    input wire signed [CountBits+23:0] still_13,
+    input wire signed [CountBits+18:0] still_23,
+    input wire signed [CountBits+18:0] still_33,
+    input wire signed [CountBits+18:0] still_score,
     // verilator lint_on UNUSEDSIGNAL
     // Results
     output reg ran,                              // a program has ended; one cycle
@@ -56,6 +63,8 @@ module likelihood_solver #(
     output reg [23:0] strength,                  // photons a shot [2^-14]
     output reg [23:0] ambient,                   // hazard of ambient light [2^-30 / unit]
     output reg [23:0] glass,                     // light of a glass, photons a shot [2^-14]
+    output reg [BinBits+10:0] other_arrival,     // of the other echo [units / 16]
+    output reg [23:0] other_strength,            // photons a shot [2^-14]
     output reg signed [35:0] depth,              // of the last end program [2^-29 m]
     output reg [35:0] sigma,                     // its deviation [2^-29 m]
     output reg [6:0] flags,                      // of the last end program
@@ -74,10 +83,10 @@ module likelihood_solver #(
     localparam [3:0] Large = 4'd1;
     localparam signed [CountBits+18:0] Scarce = 512;  // 8 counts of information on log b
     // Words that are outputs too, and constants
-    localparam [0:0] Glass = GlassBins != 0;
-    localparam integer ProgramBits = Glass ? 7 : 6, PlaceBits = Glass ? 6 : 5;
+    localparam [0:0] Glass = GlassBins != 0, HasSecond = Targets != 1, MoreLight = Glass || HasSecond;
+    localparam integer ProgramBits = MoreLight ? 7 : 6, PlaceBits = MoreLight ? 6 : 5;
     localparam [5:0] Arrival = 6'd0, Signal = 6'd1, Ambient = 6'd2, Depth = 6'd32, SigmaAt = 6'd33;
-    localparam [5:0] GlassAt = 6'd48, Calibrated = 6'd49, Left33 = 6'd56;
+    localparam [5:0] GlassAt = 6'd48, Calibrated = 6'd49, Left33 = 6'd56, OtherArrival = 6'd58, OtherSignal = 6'd59;
     // Places are integers.
     // verilator lint_off WIDTH
     localparam [PlaceBits-1:0] One = 18, KappaAt = 19, Stride = 20, MetresAt = 21, Third = 22, Nineteen = 23,
@@ -157,7 +166,7 @@ module likelihood_solver #(
         words[Variance] = 64;
         words[Unsure] = 40;
         words[Two] = 2;
-        glass = 0;
+        {glass, other_arrival, other_strength} = 0;
         {ran, arrival, strength, ambient, depth, sigma, flags, cut, scarce, running, counter, pause} = 0;
         {at_0, at_1, at_2, at_3, at_4, at_5, at_6, at_7, at_8, from_a, from_b, a, b, c} = 0;
         {number_0, number_1, number_2, number_3, number_4, number_5, number_6, number_7} = 0;
@@ -181,16 +190,21 @@ module likelihood_solver #(
     wire computes = op == Alu || op == Reciprocal || op == Root;
     wire begins = running && !run && pause == 6'd0;
 
+    // Information on log b, of all light but the signal, or with another echo of all but both
+    wire signed [CountBits+23:0] on_13 = HasSecond && paired ? still_13 : sum_13;
+    wire signed [CountBits+18:0] on_23 = HasSecond && paired ? still_23 : sum_23, on_33 = HasSecond && paired ? still_33 : sum_33;
+    wire signed [CountBits+18:0] on_score = HasSecond && paired ? still_score : score_3;
+
     // Operands from other blocks, in groups of four
     reg signed [WordBits-1:0] sum_a, scan_a, box_a, glass_a, other_a, sum_c, later_c, other_c;
     // Operands are extended to words, or cut as long as words.
     // verilator lint_off WIDTH
     always @* begin
         case (from_a[1:0])
-            Sum13: sum_a = sum_13 >>> 5;
-            Sum23: sum_a = sum_23;
-            Sum33: sum_a = sum_33;
-            default: sum_a = score_3 <<< 2;
+            Sum13: sum_a = on_13 >>> 5;
+            Sum23: sum_a = on_23;
+            Sum33: sum_a = on_33;
+            default: sum_a = on_score <<< 2;
         endcase
         case (from_a[1:0])
             Ended: scan_a = lone ? {ambient_ended, 12'd0} : {ambient_ended, 16'd0};
@@ -213,10 +227,10 @@ module likelihood_solver #(
             default: sum_c = score_1 >>> 3;
         endcase
         case (from_c[1:0])
-            Sum13: later_c = sum_13 >>> 5;
-            Sum23: later_c = sum_23;
-            Sum33: later_c = sum_33;
-            default: later_c = score_3 <<< 2;
+            Sum13: later_c = on_13 >>> 5;
+            Sum23: later_c = on_23;
+            Sum33: later_c = on_33;
+            default: later_c = on_score <<< 2;
         endcase
         other_c = Glass && from_c[3] ? later_c : from_c[2] ? score_2 <<< 2 : sum_c;
     end
@@ -354,11 +368,11 @@ module likelihood_solver #(
     // verilator lint_on WIDTH
 
     always @(posedge clk_sys)
-        if (at_8 && (!to[5] || Glass && to[4])) words[to[PlaceBits-1:0]] <= result;
+        if (at_8 && (!to[5] || MoreLight && to[4])) words[to[PlaceBits-1:0]] <= result;
 
     always @(posedge clk_sys) begin
         if (rst) begin
-            glass <= 0;
+            {glass, other_arrival, other_strength} <= 0;
             {ran, arrival, strength, ambient, depth, sigma, flags, cut, scarce, running, counter, pause} <= 0;
             {at_0, at_1, at_2, at_3, at_4, at_5, at_6, at_7, at_8, from_a, from_b, a, b, c} <= 0;
             {number_0, number_1, number_2, number_3, number_4, number_5, number_6, number_7} <= 0;
@@ -368,7 +382,7 @@ module likelihood_solver #(
             {minus, divides, roots, sum, past, opposite, limits, result, dividing, divided, digit} <= 0;
             {bits, exponent, magnitude, remainder, quotient} <= 0;
         end else begin
-            if (!Glass) scarce <= sum_33 < Scarce;
+            if (!Glass) scarce <= on_33 < Scarce;
             // What begins
             ran <= begins && op == Stop;
             if (run) begin
@@ -397,7 +411,7 @@ module likelihood_solver #(
             {base, by} <= {of_shift[20:16], of_shift[15:13]};
             {from_c, alu} <= {of_c[27:22], of_c[48:46] == Alu};
             if (at_0) begin
-                a <= from_a[5] && !(Glass && from_a[4]) ? other_a : words[from_a[PlaceBits-1:0]];
+                a <= from_a[5] && !(MoreLight && from_a[4]) ? other_a : words[from_a[PlaceBits-1:0]];
                 b <= words[from_b[PlaceBits-1:0]];
             end
             low_product <= $signed({1'b0, a[16:0]}) * part;
@@ -416,7 +430,7 @@ module likelihood_solver #(
                 shifted <= {negative, fine[ShiftedBits-1:1]};
                 beyond <= !moved_fits;
                 half <= fine[0] && alu;
-                c <= from_c[5] && !(Glass && from_c[4]) ? other_c : words[from_c[PlaceBits-1:0]];
+                c <= from_c[5] && !(MoreLight && from_c[4]) ? other_c : words[from_c[PlaceBits-1:0]];
                 minus <= of_minus[21];
                 divides <= !alu;
                 roots <= of_minus[48:46] == Root;
@@ -455,6 +469,8 @@ module likelihood_solver #(
                     Signal: strength <= result;
                     Ambient: ambient <= result;
                     GlassAt: if (Glass) glass <= result;
+                    OtherArrival: if (HasSecond) other_arrival <= result;
+                    OtherSignal: if (HasSecond) other_strength <= result;
                     Left33: if (Glass) scarce <= result < Scarce;
                     Depth: depth <= result;
                     SigmaAt: sigma <= result;

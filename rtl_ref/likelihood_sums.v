@@ -6,7 +6,8 @@
 // What a bin says goes on for nine beats of two cycles each; four multipliers work twice a beat.
 module likelihood_sums #(
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
-    parameter integer CountBits = 16             // of a word of the histogram, 8 to 24
+    parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
+    parameter integer Targets = 1                // see likelihood_memory
 ) (
     input wire clk_sys,
     input wire pass,                             // begins a pass
@@ -264,6 +265,8 @@ module likelihood_sums #(
             far <= 1'b0;
             // What is on the way from a pass that was no check is no square.
             {square_0, square_1, square_2, reciprocal, twice_first} <= 0;
+            // What a check has left: no scan comes between it and the next fit.
+            if (Targets != 1) tzz <= 0;
         end
     end
 endmodule

@@ -9,16 +9,18 @@ module likelihood_terms #(
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
     parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
     parameter integer GlassBins = 0,             // see likelihood_memory
+    parameter integer Targets = 1,               // see likelihood_memory
     parameter integer StepLog2 = 1,              // step of the pulse is 2 to the power of this [units]
     parameter PulseFile = "rtl_ref/pulse.mem",   // part before, slope of the pulse, slope of the part, by time
     parameter HazardFile = "rtl_ref/hazard.mem"  // lambda / (1 - exp(-lambda)) each quarter, and what it grows by
 ) (
     input wire clk_sys,
     input wire phase,                            // second cycle of a beat
-    input wire scan,                             // without signal, unless there is a glass
+    input wire scan,                             // without signal, unless there is a glass or a second target
     // verilator lint_off UNUSEDSIGNAL
     input wire dark,                             // without signal, if there is one
     input wire [25:0] glass_light,               // hazard of its light [2^-22]
+    input wire [25:0] other_light,               // of the other echo [2^-22]
     // verilator lint_on UNUSEDSIGNAL
     input wire [BinBits+10:0] arrival,           // of the echo [units / 16]
     input wire [23:0] strength,                  // photons a shot [2^-14]
@@ -42,14 +44,15 @@ module likelihood_terms #(
     output reg single,                           // the residual is that of a single bin
     output reg slide,                            // a box goes on with it
     output reg [4:0] hazard_bits,                // bits of the hazard
-    output reg [9:0] hazard_reciprocal           // of its mantissa [2^-10]
+    output reg [9:0] hazard_reciprocal,          // of its mantissa [2^-10]
+    output reg [25:0] ambient_light              // hazard of ambient light [2^-22]
 );
     localparam integer RestBits = CountBits + BinBits, TimeBits = BinBits + 12;
     localparam integer EndedBits = RestBits + 17, WaitingProductBits = RestBits + 14;
     localparam integer ExpectedBits = CountBits + 18, ResidualBits = CountBits + 9;
     localparam [25:0] MostHazard = 26'h3ffffff;
-    localparam [0:0] Glass = GlassBins != 0;
-    localparam integer HazardSumBits = Glass ? 28 : 27;
+    localparam [0:0] Glass = GlassBins != 0, HasSecond = Targets != 1, MoreLight = Glass || HasSecond;
+    localparam integer HazardSumBits = MoreLight ? 28 : 27;
 
     // Words on the way
     reg bin_0, bin_1, bin_2, bin_3, bin_4, bin_5, bin_6, bin_7, bin_8, bin_9, bin_10, bin_11, bin_12, bin_13,
@@ -146,6 +149,7 @@ module likelihood_terms #(
 
     initial begin
         {residual, predicted, gain, share, slope, middle, waits, single, slide, hazard_bits, hazard_reciprocal} = 0;
+        ambient_light = 26'd0;
         {bin_0, bin_1, bin_2, bin_3, bin_4, bin_5, bin_6, bin_7, bin_8, bin_9, bin_10, bin_11, bin_12, bin_13, bin_14}
             = 0;
         {rest_0, rest_1, rest_2, rest_3, rest_4, rest_5, rest_6, rest_7, rest_8, rest_9, rest_10, rest_11, rest_12,
@@ -341,7 +345,7 @@ module likelihood_terms #(
 
             last_part <= none ? 17'd0 : pulse_part;
             last_slope <= pulse_slope;
-            part <= bin_2 && !(Glass ? dark : scan) ? pulse_part - last_part : 17'd0;
+            part <= bin_2 && !(MoreLight ? dark : scan) ? pulse_part - last_part : 17'd0;
             z_0 <= rest_2 ? 9'sd0 : first_2 ? pulse_first : slopes[9:1];
             {z_11, z_10, z_9, z_8, z_7, z_6, z_5, z_4, z_3, z_2, z_1}
                 <= {z_10, z_9, z_8, z_7, z_6, z_5, z_4, z_3, z_2, z_1, z_0};
@@ -349,12 +353,14 @@ module likelihood_terms #(
             lit <= lit_first;
             // Hazards are extended to the sum.
             // verilator lint_off WIDTH
-            sum <= {1'b0, lit_first} + {1'b0, light} + (Glass ? glass_light : 26'd0);
+            sum <= {1'b0, lit_first} + {1'b0, light} + (Glass ? glass_light : 26'd0)
+                + (HasSecond ? other_light : 26'd0);
             // verilator lint_on WIDTH
             {hazard_4, hazard_3, hazard_2, hazard_1, hazard_0} <= {hazard_3, hazard_2, hazard_1, hazard_0, limited};
             {signal_hazard_1, signal_hazard_0} <= {signal_hazard_0, lit};
 
-            if (Glass) {hazard_bits, hazard_reciprocal} <= {bits_0, reciprocal};
+            if (HasSecond) ambient_light <= light;
+            if (MoreLight) {hazard_bits, hazard_reciprocal} <= {bits_0, reciprocal};
             {bits_4, bits_3, bits_2, bits_1, bits_0} <= {bits_3, bits_2, bits_1, bits_0, length};
             {mantissa_2, mantissa_1, mantissa_0} <= {mantissa_1, mantissa_0, mantissa_first};
             aligned <= shifted[25:12];

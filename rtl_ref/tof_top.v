@@ -65,6 +65,8 @@ module tof_top #(
     parameter integer GlassBins = 0,
     parameter [23:0] GlassLight = 24'd0,
     parameter GlassFile = "",
+    parameter integer Targets = 1,
+    parameter [0:0] Strongest = 1'b0,
     parameter integer InputHz = 200000000,       // see pll
     parameter integer Multiply = 5,
     parameter integer Divide = 1,
@@ -135,6 +137,11 @@ module tof_top #(
     output wire [6:0] status,         // why not to believe it; likewise
     output wire valid,                // the status says nothing against it; likewise
     output wire algo_done,            // the depth is ready; one cycle
+    output wire signed [35:0] second_depth,  // of the second target, 0 without one [2^-29 m]
+    output wire [35:0] second_sigma,  // its standard deviation [2^-29 m]
+    output wire [23:0] second_strength,  // its signal, photons a shot [2^-14]
+    output wire [6:0] second_status,  // why not to believe it
+    output wire second_valid,         // there is one, and its status says nothing against it
     output wire hist_valid,           // a word of the histogram is being read
     output wire [BinBits-1:0] hist_bin,  // which word
     output wire [CountBits-1:0] hist_count,  // the word [hits]
@@ -179,7 +186,11 @@ module tof_top #(
     wire network_done, network_read_en, centroid_done, centroid_read_en, likelihood_done, likelihood_read_en;
     wire [35:0] likelihood_sigma;
     wire [6:0] likelihood_status;
-    wire likelihood_valid;
+    wire likelihood_valid, likelihood_second_valid;
+    wire signed [35:0] likelihood_second_depth;
+    wire [35:0] likelihood_second_sigma;
+    wire [23:0] likelihood_second_strength;
+    wire [6:0] likelihood_second_status;
     wire [BinBits-1:0] network_read_addr, centroid_read_addr, likelihood_read_addr;
     localparam [0:0] Centroid = Estimator == 2'd1, Likelihood = Estimator == 2'd2;
 
@@ -191,6 +202,11 @@ module tof_top #(
     assign sigma = Likelihood ? likelihood_sigma : 36'd0;
     assign status = Likelihood ? likelihood_status : 7'd0;
     assign valid = Likelihood && likelihood_valid;
+    assign second_depth = Likelihood ? likelihood_second_depth : 36'sd0;
+    assign second_sigma = Likelihood ? likelihood_second_sigma : 36'd0;
+    assign second_strength = Likelihood ? likelihood_second_strength : 24'd0;
+    assign second_status = Likelihood ? likelihood_second_status : 7'd0;
+    assign second_valid = Likelihood && likelihood_second_valid;
 
     // Nothing of it stays where the TDC has its ages from a ROM.
     wire calibrating, rings, n_valid;
@@ -574,6 +590,8 @@ module tof_top #(
         .GlassBins(GlassBins),
         .GlassLight(GlassLight),
         .GlassFile(GlassFile),
+        .Targets(Targets),
+        .Strongest(Strongest),
         .EdgesFile(EdgesFile),
         .PulseFile(PulseFile),
         .HazardFile(HazardFile),
@@ -595,7 +613,12 @@ module tof_top #(
         .chi_square(),
         // verilator lint_on PINCONNECTEMPTY
         .valid(likelihood_valid),
-        .algo_done(likelihood_done)
+        .algo_done(likelihood_done),
+        .second_depth(likelihood_second_depth),
+        .second_sigma(likelihood_second_sigma),
+        .second_strength(likelihood_second_strength),
+        .second_status(likelihood_second_status),
+        .second_valid(likelihood_second_valid)
     );
 
     uart_bridge #(

@@ -17,6 +17,7 @@ pub mod laser_guard;
 pub mod likelihood_estimator;
 pub mod likelihood_glass;
 pub mod likelihood_memory;
+pub mod likelihood_pair;
 pub mod likelihood_scan;
 pub mod likelihood_solver;
 pub mod likelihood_sums;

@@ -63,13 +63,19 @@ fn fitted(entries: Vec<Entry>, sizes: &Sizes) -> Vec<Entry> {
         let kind = match entry.kind {
             kind if entry.signal.is_shared(sizes) => kind,
             // Its registers stay what they are, and nobody reads them.
-            _ if matches!(entry.signal.only_if, Some(Size::Scanned | Size::Glass)) => return None,
+            _ if is_optional(entry.signal.only_if) => return None,
             Kind::Output if !reads(entry) => Kind::Internal,
             _ => return None,
         };
         Some(Entry { signal: entry.signal.clone().fitted(sizes)?, kind, ..entry.clone() })
     };
     entries.iter().filter_map(fit).collect()
+}
+
+/// Returns whether a signal vanishes from a design that does not have it, and is not kept as a register.
+fn is_optional(only_if: Option<Size>) -> bool {
+    use Size::{Glass, HasSecond, MoreLight, Scanned};
+    matches!(only_if, Some(Scanned | Glass | HasSecond | MoreLight))
 }
 
 /// Lists every name in every scope of the largest possible design, in hierarchical order, without the RAM's words.

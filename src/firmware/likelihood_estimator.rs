@@ -15,7 +15,7 @@
 //! (`docs/accuracy.md`).
 //! The unit of time is a 64th of a bin; words are as `docs/model.md` has them.
 
-use crate::kernel::U;
+use crate::kernel::{S, U};
 use crate::{connect, signals, states};
 
 mod duration;
@@ -26,12 +26,15 @@ pub mod pulse;
 mod sequence;
 mod slotted;
 pub mod tables;
+pub mod targets;
+mod turns;
 mod unfit;
 pub mod words;
 
 use super::forward2::Depth;
 use super::likelihood_glass::{self, LikelihoodGlass};
 use super::likelihood_memory::{self, LikelihoodMemory, Place};
+use super::likelihood_pair::{self, LikelihoodPair};
 use super::likelihood_scan::{self, LikelihoodScan};
 use super::likelihood_solver::{self, LikelihoodSolver};
 use super::likelihood_sums::{self, LikelihoodSums};
@@ -62,6 +65,10 @@ states! {
         Rescan,
         /// Computes the results.
         End,
+        /// Computes the begin of the other echo.
+        Second,
+        /// Puts the echoes in each other's place.
+        Swap,
     }
 }
 
@@ -84,12 +91,30 @@ signals! {
         pub valid: bool,
         /// The depth is ready; one cycle.
         pub algo_done: bool,
+        /// Depth of the second target, 0 without one.
+        #[only_if(HasSecond)]
+        pub second_depth: Depth,
+        /// Its standard deviation, with as many fraction bits.
+        #[only_if(HasSecond)]
+        #[view(heading = "Estimator", probe = true)]
+        pub second_sigma: U<36>,
+        /// Its signal, 14 fraction bits [photons a shot].
+        #[only_if(HasSecond)]
+        #[view(heading = "Estimator", probe = true)]
+        pub second_strength: U<24>,
+        /// Reasons to reject its depth, as of [`Status`].
+        #[only_if(HasSecond)]
+        #[view(heading = "Estimator", probe = true)]
+        pub second_status: U<7>,
+        /// There is a second target, and its status says nothing against its depth.
+        #[only_if(HasSecond)]
+        pub second_valid: bool,
         /// State of the computation.
         #[view(heading = "Likelihood", probe = true)]
         pub(crate) state: State,
         /// Cycles in this state.
         #[size(WaitBits)]
-        pub(crate) waited: U<13>,
+        pub(crate) waited: U<14>,
         /// Steps taken.
         #[view(heading = "Likelihood", probe = true)]
         pub(crate) steps: U<3>,
@@ -122,7 +147,7 @@ signals! {
         /// Few shots waited at the first.
         pub(crate) used_up: bool,
         /// A fit or a scan is without an echo.
-        #[only_if(Glass)]
+        #[only_if(MoreLight)]
         pub(crate) dark: bool,
         /// The check has come to the window around the echo.
         #[only_if(Glass)]
@@ -131,6 +156,76 @@ signals! {
         pub(crate) free: bool,
         /// The same of the shots of this estimation.
         pub(crate) unarmed: bool,
+        /// A pass goes over the bins around both echoes.
+        #[only_if(HasSecond)]
+        pub(crate) wide: bool,
+        /// Both echoes have light.
+        #[only_if(HasSecond)]
+        pub(crate) paired: bool,
+        /// Steps taken of both.
+        #[only_if(HasSecond)]
+        #[view(heading = "Likelihood", probe = true)]
+        pub(crate) turns: U<4>,
+        /// The other echo's bins are the earlier ones.
+        #[only_if(HasSecond)]
+        pub(crate) behind: bool,
+        /// Begin of the later bins of a fit [bins].
+        #[only_if(HasSecond)]
+        #[size(PlaceBits)]
+        pub(crate) later_begin: Place,
+        /// Their end.
+        #[only_if(HasSecond)]
+        #[size(PlaceBits)]
+        pub(crate) later_end: Place,
+        /// The check has come to the later bins.
+        #[only_if(HasSecond)]
+        pub(crate) later_reached: bool,
+        /// One of them has come.
+        #[only_if(HasSecond)]
+        pub(crate) later_seen: bool,
+        /// Few shots waited at the first.
+        #[only_if(HasSecond)]
+        pub(crate) later_used_up: bool,
+        /// Score of the box over one echo.
+        #[only_if(HasSecond)]
+        pub(crate) alone_score: likelihood_scan::Log,
+        /// Depth of one echo.
+        #[only_if(HasSecond)]
+        pub(crate) alone_depth: S<36, 29>,
+        /// Its deviation.
+        #[only_if(HasSecond)]
+        pub(crate) alone_sigma: U<36>,
+        /// Flags of one echo.
+        #[only_if(HasSecond)]
+        pub(crate) alone_flags: U<7>,
+        /// Its last step was shortened.
+        #[only_if(HasSecond)]
+        pub(crate) alone_cut: bool,
+        /// The cover glass's light has changed, as one echo has it.
+        #[only_if(HasSecond)]
+        pub(crate) alone_changed: bool,
+        /// Chi-square of one echo over the bins of both.
+        #[only_if(HasSecond)]
+        #[size(ChiBits)]
+        pub(crate) alone_chi: U<35>,
+        /// A bin is far from it.
+        #[only_if(HasSecond)]
+        pub(crate) alone_far: bool,
+        /// Few shots waited at its first bin.
+        #[only_if(HasSecond)]
+        pub(crate) alone_used_up: bool,
+        /// Depth of the other of two echoes.
+        #[only_if(HasSecond)]
+        pub(crate) other_depth: S<36, 29>,
+        /// Its deviation.
+        #[only_if(HasSecond)]
+        pub(crate) other_sigma: U<36>,
+        /// Flags of the other echo.
+        #[only_if(HasSecond)]
+        pub(crate) other_flags: U<7>,
+        /// Its last step was shortened.
+        #[only_if(HasSecond)]
+        pub(crate) other_cut: bool,
     }
 }
 
@@ -147,6 +242,8 @@ pub struct LikelihoodEstimator {
     pub likelihood_sums: LikelihoodSums,
     /// The cover glass.
     pub likelihood_glass: LikelihoodGlass,
+    /// The other echo.
+    pub likelihood_pair: LikelihoodPair,
     /// The box.
     pub likelihood_scan: LikelihoodScan,
     /// Arithmetic.
@@ -163,11 +260,12 @@ connect! {
         rst <- i.rst;
         load <- this.registers.load;
         [depth_column, count] <- i;
-        [pass, scan, fit_begin, fit_end, phase] <- this.registers;
+        [pass, scan, fit_begin, fit_end, wide, later_begin, later_end, phase] <- this.registers;
     }
     likelihood_terms(clk_sys): likelihood_terms::In {
         [phase, scan, dark] <- this.registers;
         glass_light <- this.likelihood_glass.glass_light;
+        other_light <- this.likelihood_pair.other_light;
         [arrival, strength, ambient] <- this.likelihood_solver.registers;
         [
             word_bin, word_rest, word_edge, word_slide, word_first, word_ended, word_waiting,
@@ -186,6 +284,17 @@ connect! {
         word_glass <- this.likelihood_memory.registers.word_glass;
         [hazard_bits, hazard_reciprocal, residual, share, slope] <- this.likelihood_terms;
         weight_first <- this.likelihood_sums.weight_first;
+        paired <- this.registers.paired;
+        still_share <- this.likelihood_pair.still_share;
+    }
+    likelihood_pair(clk_sys): likelihood_pair::In {
+        pass <- this.registers.sums;
+        [phase, paired] <- this.registers;
+        [other_arrival, other_strength] <- this.likelihood_solver.registers;
+        [word_bin, word_edge, word_first, word_end] <- this.likelihood_memory.registers;
+        glass_light <- this.likelihood_glass.glass_light;
+        [ambient_light, hazard_bits, hazard_reciprocal, residual, share, slope] <- this.likelihood_terms;
+        weight_first <- this.likelihood_sums.weight_first;
     }
     likelihood_scan(clk_sys): likelihood_scan::In {
         load <- this.registers.load;
@@ -203,6 +312,8 @@ connect! {
             sum_11, sum_12, sum_13, sum_22, sum_23, sum_33, score_1, score_2, score_3
         ] <- this.likelihood_sums;
         [sum_14, sum_24, sum_34, sum_44, score_4] <- this.likelihood_glass;
+        paired <- this.registers.paired;
+        [still_13, still_23, still_33, still_score] <- this.likelihood_pair;
     }
 }
 

@@ -52,6 +52,12 @@ signals! {
         pub share: Share,
         /// z.
         pub slope: Slope,
+        /// Another echo has light: what counts as ambient light has a share of its own.
+        #[only_if(HasSecond)]
+        pub paired: bool,
+        /// That share.
+        #[only_if(HasSecond)]
+        pub still_share: Share,
     }
 }
 
@@ -131,13 +137,18 @@ signals! {
         #[size(WeightBits)]
         third_a: Weight,
         /// Second operand of the last multiplier.
-        third_b: Slope,
+        #[size(GlassFactorBits)]
+        third_b: S<14>,
         /// Their product.
-        #[size(WeightSlopeBits)]
-        third_product: S<41>,
+        #[size(GlassProductBits)]
+        third_product: S<46>,
         /// w s g z.
         #[size(WeightSlopeBits)]
         both_z: S<41>,
+        /// w g r, with r the share of what counts as ambient light beside another echo.
+        #[only_if(HasSecond)]
+        #[size(WeightBits)]
+        still: Weight,
     }
 }
 
@@ -156,7 +167,7 @@ impl Clocked for LikelihoodGlass {
             shift(&mut d.shares, self.share_first);
             shift(&mut d.echo_shares, i.share);
             shift(&mut d.z, i.slope);
-            self.accumulate(&mut d);
+            self.accumulate(i, &mut d);
         }
         if i.pass {
             d.clear();
@@ -208,22 +219,31 @@ impl LikelihoodGlass {
         if i.phase {
             shift(&mut d.once, weight(first));
             d.square = weight(second);
-            (d.third_a, d.third_b) = (self.both, self.z[3]);
-            d.both_z = self.third_product;
+            (d.third_a, d.third_b) = (self.both, S::new(self.z[3].get()));
+            d.both_z = S::new(wrapped(self.third_product.get(), weight_bits + 9));
+            if p.has_second() {
+                d.third_product = S::new(self.third_a.get() as i64 * self.third_b.get());
+            }
         } else {
             d.seen = S::new(wrapped(first >> 12, p.histogram.count_bits + 9));
             d.both = weight(second);
             let product = self.third_a.get() as i64 * self.third_b.get();
-            d.third_product = S::new(wrapped(product, weight_bits + 9));
+            let bits = weight_bits + if p.has_second() { 14 } else { 9 };
+            d.third_product = S::new(wrapped(product, bits));
+            if p.has_second() {
+                (d.third_a, d.third_b) = (self.once[0], S::new(i.still_share.get() as i64));
+                d.still = weight(self.third_product.get() + HALF);
+            }
         }
     }
 
     /// Adds a bin to the sums.
-    fn accumulate(&self, d: &mut Self) {
+    fn accumulate(&self, i: &In, d: &mut Self) {
         let [both, once] = [self.both, self.once[1]].map(|weight| weight.get() as i64);
         d.score_4 = self.score_4 + self.seen.get();
         d.sum_24 = self.sum_24 + both;
-        d.sum_34 = self.sum_34 + (once - both);
+        let still = if i.paired { self.still.get() as i64 } else { once - both };
+        d.sum_34 = self.sum_34 + still;
         d.sum_44 = self.sum_44 + self.square.get() as i64;
         d.sum_14 = self.sum_14 + self.both_z.get();
     }

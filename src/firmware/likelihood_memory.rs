@@ -54,6 +54,17 @@ signals! {
         /// End of the fit [bins].
         #[size(PlaceBits)]
         pub fit_end: Place,
+        /// A fit goes on over the later bins.
+        #[only_if(HasSecond)]
+        pub wide: bool,
+        /// Begin of the later bins of a fit [bins].
+        #[only_if(HasSecond)]
+        #[size(PlaceBits)]
+        pub later_begin: Place,
+        /// Their end.
+        #[only_if(HasSecond)]
+        #[size(PlaceBits)]
+        pub later_end: Place,
         /// Second cycle of a beat.
         pub phase: bool,
     }
@@ -103,6 +114,9 @@ signals! {
         /// The word is the first one of the window around the echo.
         #[only_if(Glass)]
         pub word_window: bool,
+        /// The word is the first one of the later bins.
+        #[only_if(HasSecond)]
+        pub word_later: bool,
         /// A word has been read in the last cycle.
         taken: bool,
         /// Its bin.
@@ -211,6 +225,12 @@ signals! {
         /// The pass is at the bins with light of the cover glass.
         #[only_if(Glass)]
         in_glass: bool,
+        /// The bin is the first one of the later bins.
+        #[only_if(HasSecond)]
+        read_later: bool,
+        /// The pass is at the later bins.
+        #[only_if(HasSecond)]
+        in_later: bool,
         /// Hits outside of the fit, when it has been gone through.
         #[size(RestBits)]
         rest_ended: Waiting,

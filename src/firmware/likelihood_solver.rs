@@ -113,6 +113,25 @@ signals! {
         #[only_if(Glass)]
         #[size(SumWordBits)]
         pub score_4: S<43>,
+        /// Both echoes have light.
+        #[only_if(HasSecond)]
+        pub paired: bool,
+        /// Sum of the information on mu and log b beside another echo.
+        #[only_if(HasSecond)]
+        #[size(SlopeSumBits)]
+        pub still_13: S<48>,
+        /// Sum of the information on log S and log b beside another echo.
+        #[only_if(HasSecond)]
+        #[size(SumWordBits)]
+        pub still_23: S<43>,
+        /// Sum of the information on log b beside another echo.
+        #[only_if(HasSecond)]
+        #[size(SumWordBits)]
+        pub still_33: S<43>,
+        /// Score of log b beside another echo.
+        #[only_if(HasSecond)]
+        #[size(SumWordBits)]
+        pub still_score: S<43>,
     }
 }
 
@@ -134,6 +153,15 @@ signals! {
         /// C, 14 fraction bits [photons a shot].
         #[only_if(Glass)]
         pub glass: U<24>,
+        /// Arrival of the other echo [units / 16].
+        #[only_if(HasSecond)]
+        #[size(ArrivalBits)]
+        #[view(heading = "Likelihood", probe = true)]
+        pub other_arrival: U<21>,
+        /// S of the other echo.
+        #[only_if(HasSecond)]
+        #[view(heading = "Likelihood", probe = true)]
+        pub other_strength: U<24>,
         /// Depth of the last end program [2^-29 m].
         pub depth: S<36, 29>,
         /// Its deviation [2^-29 m].
@@ -288,7 +316,7 @@ impl LikelihoodSolver {
         let q = self.registers;
         let mut d = q;
         if p.glass.bins() == 0 {
-            d.scarce = i.sum_33.get() < SCARCE;
+            d.scarce = i.on_ambient().2 < SCARCE;
         }
         q.begin(i, p, &mut d);
         q.go_on(p, &mut d);

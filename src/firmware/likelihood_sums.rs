@@ -225,6 +225,10 @@ impl Clocked for LikelihoodSums {
         self.accumulate(i, &mut d);
         if i.pass {
             d.clear(i.check);
+            if p.has_second() {
+                // What a check has left: no scan comes between it and the next fit.
+                d.tzz = S::new(0);
+            }
         }
         d
     }

@@ -38,10 +38,10 @@ signals! {
     pub struct In {
         /// Second cycle of a beat.
         pub phase: bool,
-        /// Without signal, unless the estimator knows of a cover glass.
+        /// Without signal, unless the estimator knows of a cover glass, or looks for a second target.
         pub scan: bool,
-        /// Without signal, if it does.
-        #[only_if(Glass)]
+        /// Without signal, if it does, or looks for a second target.
+        #[only_if(MoreLight)]
         pub dark: bool,
         /// Arrival of the echo [units / 16].
         #[size(ArrivalBits)]
@@ -53,6 +53,9 @@ signals! {
         /// Hazard of the cover glass's light, 22 fraction bits.
         #[only_if(Glass)]
         pub glass_light: Hazard,
+        /// Hazard of the other echo's light, 22 fraction bits.
+        #[only_if(HasSecond)]
+        pub other_light: Hazard,
         /// The word is a bin.
         pub word_bin: bool,
         /// The word stands for all other bins.
@@ -106,11 +109,14 @@ signals! {
         /// A box goes on with it.
         pub slide: bool,
         /// Bits of the hazard.
-        #[only_if(Glass)]
+        #[only_if(MoreLight)]
         pub hazard_bits: U<5>,
         /// Reciprocal of its mantissa, 10 fraction bits.
-        #[only_if(Glass)]
+        #[only_if(MoreLight)]
         pub hazard_reciprocal: U<10>,
+        /// Hazard of ambient light.
+        #[only_if(HasSecond)]
+        pub ambient_light: Hazard,
         /// Words on the way: of a bin, from the one at the pulse on.
         bin: [bool; 15],
         /// Of all others.
@@ -272,7 +278,7 @@ impl Clocked for LikelihoodTerms {
             self.give(p, &mut d);
         }
         self.fetch(i, p, &mut d);
-        self.light_up(i, &mut d);
+        self.light_up(i, p, &mut d);
         self.normalise(i, &mut d);
         self.divide(i, &mut d);
         self.multiply(i, &mut d);

@@ -121,6 +121,8 @@ connect! {
         output ring_on <- this.tdc_calibration.registers.ring_on;
         output [spad_rst, spad_sel] <- this.spad_control;
         output [depth, sigma, status, valid] <- this.slot.words;
+        output [second_depth, second_sigma] <- this.slot.words.second;
+        output [second_strength, second_status, second_valid] <- this.slot.words.second;
         output algo_done <- this.slot.algo_done;
         output hist_valid <- this.slot.read_en;
         output hist_bin <- this.slot.read_addr;

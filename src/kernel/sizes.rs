@@ -167,10 +167,18 @@ sizes! { s:
 
     /// 1 if the likelihood estimator knows of a cover glass.
     Glass = s.has_glass.into();
+    /// 1 if the likelihood estimator looks for a second target.
+    HasSecond = s.has_second.into();
+    /// 1 if the likelihood estimator knows of a cover glass, or looks for a second target.
+    MoreLight = (s.has_glass || s.has_second).into();
     /// Bits of a place in the likelihood estimator's program.
-    ProgramBits = 6 + u32::from(s.has_glass);
+    ProgramBits = 6 + u32::from(s.has_glass || s.has_second);
     /// Bits of a sum of hazards.
-    HazardSumBits = 27 + u32::from(s.has_glass);
+    HazardSumBits = 27 + u32::from(s.has_glass || s.has_second);
+    /// Bits of the last factor of the glass's products: a slope, or a share.
+    GlassFactorBits = 9 + 5 * u32::from(s.has_second);
+    /// Bits of the last of the glass's products.
+    GlassProductBits = s.weight_bits() + 9 + 5 * u32::from(s.has_second);
     /// Bits of a number of bins.
     PlaceBits = s.bin_bits() + 1;
     /// Bits of a sum of bin counts.
@@ -248,7 +256,7 @@ sizes! { s:
     /// Bits of a number of terms of a box.
     BoxSumBits = s.bin_bits() + 2;
     /// Bits of a count of the likelihood estimator's cycles.
-    WaitBits = s.bin_bits() + 3;
+    WaitBits = s.bin_bits() + 3 + u32::from(s.has_second);
     /// Bits of a word of the solver.
     WordBits = s.word_bits();
     /// Bits of the product of a word's lower part.

@@ -8,7 +8,7 @@ use tofsim::firmware::forward2::Depth;
 use tofsim::firmware::registers::map::{
     FRAME, FRAMES, FRAMES_PERMITTED, HISTOGRAM, HITS, HOLD, SHOTS, STATUS_BITS,
 };
-use tofsim::firmware::tof_top::slot::EstimateWords;
+use tofsim::firmware::tof_top::slot::{EstimateWords, SecondWords};
 use tofsim::kernel::U;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
@@ -115,6 +115,8 @@ impl Board {
                 sigma: U::new(wide(words[4], words[5])),
                 status: U::new(words[6].into()),
                 valid: words[7] == 1,
+                // The registers hold the first target alone.
+                second: SecondWords::default(),
             },
             shots: setup.params.frame_ctrl.shots_per_frame.into(),
             tdc_hits: 0,

@@ -19,7 +19,7 @@ const CYCLES: u64 = 20_000;
 const SHORT: [&str; 2] = ["-s", "firmware.shots_per_frame=300"];
 
 /// Configurations that take Icarus more than five seconds each: `./check --full` runs them.
-const SLOW: [&str; 15] = [
+const SLOW: [&str; 16] = [
     "depth_estimator.neurons_31",
     "forward1.neurons_16",
     "forward1.neurons_31",
@@ -35,6 +35,7 @@ const SLOW: [&str; 15] = [
     "tof_top.likelihood",
     "tof_top.neurons_16",
     "tof_top.reordered",
+    "tof_top.two",
 ];
 
 /// The reports of a `verify` that has to pass; `check` names it.

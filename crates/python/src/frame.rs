@@ -98,6 +98,24 @@ impl Frame {
         self.estimate.status.words()
     }
 
+    /// Depth of the second target, if the firmware has found one [m].
+    #[getter]
+    fn second_depth_m(&self) -> Option<f64> {
+        self.estimate.second.map(|second| second.depth_m)
+    }
+
+    /// Standard deviation of that depth [m].
+    #[getter]
+    fn second_sigma_m(&self) -> Option<f64> {
+        self.estimate.second.map(|second| second.sigma_m)
+    }
+
+    /// Whether there is a second target whose status has no reason to reject its depth.
+    #[getter]
+    fn second_valid(&self) -> bool {
+        self.estimate.second.and_then(|second| second.valid).unwrap_or(false)
+    }
+
     /// The estimator's word.
     #[getter]
     fn depth_raw(&self) -> i64 {

@@ -10,7 +10,7 @@ use serde_json::json;
 
 use tofsim::error::Input;
 use tofsim::firmware::tof_top::slot::EstimateWords;
-use tofsim::sim::estimates::Estimate;
+use tofsim::sim::estimates::{EchoDepth, Estimate};
 use tofsim::{Note, Setup};
 use tofsim_cli::report::causes::{CAUSES, Causes};
 
@@ -97,6 +97,15 @@ pub struct Frames {
     /// Reasons to reject the depth, a list of words for each frame.
     #[pyo3(get)]
     status: Vec<Vec<&'static str>>,
+    /// Depth of the second target, NaN where the firmware has found none [m].
+    #[pyo3(get)]
+    second_depth_m: Py<PyArray1<f64>>,
+    /// Standard deviation of that depth, NaN likewise [m].
+    #[pyo3(get)]
+    second_sigma_m: Py<PyArray1<f64>>,
+    /// Whether there is a second target whose status has no reason to reject its depth.
+    #[pyo3(get)]
+    second_valid: Py<PyArray1<bool>>,
     /// Number of the frame, from 0.
     #[pyo3(get)]
     index: Numbers,
@@ -135,6 +144,12 @@ impl Frames {
         let sigmas = estimates.iter().map(|one| one.sigma_m.unwrap_or(f64::NAN)).collect();
         let valid = estimates.iter().map(|one| one.valid).collect();
         let status = estimates.iter().map(|one| one.status.words()).collect();
+        let seconds = |of: fn(&EchoDepth) -> f64| {
+            let metres = estimates.iter().map(|one| one.second.as_ref().map_or(f64::NAN, of));
+            PyArray1::from_vec(py, metres.collect()).unbind()
+        };
+        let is_valid = |one: &Estimate| one.second.and_then(|second| second.valid).unwrap_or(false);
+        let second_valid = estimates.iter().map(is_valid).collect();
         let numbers = std::mem::take(&mut columns.numbers);
         let [index, shots, hits, tdc_hits, estimator_cycles, frame_cycles] =
             numbers.map(|column| PyArray1::from_vec(py, column).unbind());
@@ -147,6 +162,9 @@ impl Frames {
             sigma_m: PyArray1::from_vec(py, sigmas).unbind(),
             valid: PyArray1::from_vec(py, valid).unbind(),
             status,
+            second_depth_m: seconds(|second| second.depth_m),
+            second_sigma_m: seconds(|second| second.sigma_m),
+            second_valid: PyArray1::from_vec(py, second_valid).unbind(),
             index,
             shots,
             hits,

@@ -63,13 +63,14 @@ fn vector(output: bool, width: u32) -> PortShape {
     PortShape { output, width, words: None }
 }
 
-/// Ports for the most neurons, with a calibration, a host, a cover glass, a second column and a second bank; all else is as large as by default.
+/// Ports for the most neurons, with a calibration, a host, a cover glass, a second target, a second column and a second bank; all else is as large as by default.
 fn sizes() -> Sizes {
     let (columns, banks) = (2, 2);
     let with_all = Sizes {
         calibrates: true,
         hosted: true,
         has_glass: true,
+        has_second: true,
         columns,
         banks,
         ..Sizes::default()

@@ -1,6 +1,7 @@
 //! How long each part of an estimation takes.
 
 use super::params::Params;
+use super::targets::TURNS;
 use super::words::{GLASS_STEPS, STEPS};
 
 /// Beats from a bin in the memory to the sums, or to the highest box, with one for the edge.
@@ -25,7 +26,33 @@ impl Params {
             + steps * program.cycles(program.step)
             + program.cycles(program.end);
         let states = 1 + 2 + passes;
-        self.load_cycles() + 2 * self.scan_cycles() + passes * self.fit_cycles() + programs + states
+        let one = self.load_cycles()
+            + 2 * self.scan_cycles()
+            + passes * self.fit_cycles()
+            + programs
+            + states;
+        if self.has_second() { one + self.second_cycles() } else { one }
+    }
+
+    /// What a second target takes: a scan, the begin of it and a check without its light, the results of either echo
+    /// beside those of one, a pass and a step of each in turn, and longer checks [cycles of clk_sys].
+    fn second_cycles(&self) -> u64 {
+        let (program, turns) = (self.program(), TURNS as u64);
+        let turn =
+            program.cycles(program.swap) + self.pair_cycles() + program.cycles(program.step) + 1;
+        self.scan_cycles()
+            + 1
+            + program.cycles(program.second)
+            + self.pair_cycles()
+            + 1
+            + turns * turn
+            + 2 * program.cycles(program.end)
+            + (self.pair_cycles() - self.fit_cycles())
+    }
+
+    /// Cycles of a pass over the bins of both echoes.
+    pub fn pair_cycles(&self) -> u64 {
+        self.fit_cycles() + 2 * (self.fitted() as u64 + 1)
     }
 
     /// Cycles of a scan.

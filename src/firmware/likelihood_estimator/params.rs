@@ -9,6 +9,7 @@ use crate::kernel::sizes::likelihood::{self, EDGE_BITS, WIDTH_BITS};
 
 use super::glass::{Glass, MOST_LIGHT};
 use super::pulse::{PulseWord, step_log2, words};
+use super::targets::Targets;
 pub use super::unfit::Unfit;
 use super::words::{DEPTH_FRACTION, UNITS};
 
@@ -52,6 +53,8 @@ pub struct Params {
     pub delay: i64,
     /// The cover glass's light.
     pub glass: Glass,
+    /// Targets that are found, and which comes first.
+    pub targets: Targets,
 }
 
 /// Numbers that times and distances are reckoned with, as words or without rounding.
@@ -92,6 +95,8 @@ pub struct Wanted<'a> {
     pub delay_ps: f64,
     /// Hazard of a cover glass's light in each bin; empty without one [1].
     pub glass: &'a [f64],
+    /// Targets that are found, and which comes first.
+    pub targets: Targets,
 }
 
 /// Without the ROMs, which follow from the rest and the chain.
@@ -109,6 +114,7 @@ impl fmt::Debug for Params {
             metres,
             delay,
             glass,
+            targets,
             ..
         } = self;
         let words = (step_log2, before, after, box_bins, kappa, sigma, metres, delay);
@@ -116,6 +122,9 @@ impl fmt::Debug for Params {
         all.field("histogram", histogram).field("shots", shots).field("words", &words);
         if glass.bins() > 0 {
             all.field("glass", glass);
+        }
+        if targets.has_second() {
+            all.field("targets", targets);
         }
         all.finish()
     }
@@ -130,10 +139,28 @@ impl Params {
         let (shots, pulse) = (histogram.most_hits(), Pulse::Gaussian { sigma_ps: bin_ps });
         let (metres_per_ps, delay_ps) = (1.5e-4, 0.0);
         let edges_ps = &edges_ps;
-        let glass = &[];
-        let wanted =
-            Wanted { histogram, shots, edges_ps, bin_ps, pulse, metres_per_ps, delay_ps, glass };
-        Params::of(&wanted)
+        Params::of(&Wanted {
+            histogram,
+            shots,
+            edges_ps,
+            bin_ps,
+            pulse,
+            metres_per_ps,
+            delay_ps,
+            glass: &[],
+            targets: Targets::One,
+        })
+    }
+
+    /// Returns whether a second target is looked for.
+    pub fn has_second(&self) -> bool {
+        self.targets.has_second()
+    }
+
+    /// Returns whether there may be other light than that of one echo and of ambient light: of a cover glass, or of a
+    /// second target.
+    pub fn has_more_light(&self) -> bool {
+        self.glass.bins() > 0 || self.has_second()
     }
 
     /// Bits of a word of the solver.
@@ -221,6 +248,7 @@ impl Params {
             metres_shift: scales.metres_shift,
             delay: libm::round(scales.delay) as i64,
             glass: Glass::of(wanted.glass),
+            targets: wanted.targets,
         }
     }
 }

@@ -22,10 +22,12 @@ impl LikelihoodEstimator {
         let after = |cycles: u64| q.waited == cycles;
         let ran = self.likelihood_solver.registers.ran;
         let (program, has_glass) = (p.program(), p.glass.bins() > 0);
+        let fit_cycles = if q.wide { p.pair_cycles() } else { p.fit_cycles() };
         match q.state {
             State::Idle if i.algo_start => {
                 (d.state, d.load) = (State::Load, true);
                 (d.fit_begin, d.fit_end, d.steps) = Default::default();
+                (d.wide, d.paired, d.turns) = Default::default();
                 (d.unarmed, d.free) = (d.free, i.mode);
             }
             State::Load if after(p.load_cycles()) => d.solve(State::Ambient, program.ambient),
@@ -33,7 +35,10 @@ impl LikelihoodEstimator {
                 d.dark = true;
                 self.fit(State::Fit, p, &mut d);
             }
-            State::Ambient if ran => d.slide(State::Scan),
+            State::Ambient if ran => {
+                d.dark = p.has_second();
+                d.slide(State::Scan);
+            }
             State::Scan if after(p.scan_cycles()) => {
                 d.start_score = self.likelihood_scan.registers.best_score;
                 d.solve(State::Start, program.start);
@@ -42,7 +47,8 @@ impl LikelihoodEstimator {
                 d.dark = false;
                 self.fit(State::Fit, p, &mut d);
             }
-            State::Fit if after(p.fit_cycles()) => d.solve(State::Step, program.step),
+            State::Fit if after(fit_cycles) => d.solve(State::Step, program.step),
+            State::Step if ran && q.paired => self.turn(p, &mut d),
             State::Step if ran && q.dark && q.steps == GLASS_STEPS as u64 - 1 => {
                 d.steps = U::new(0);
                 d.slide(State::Scan);
@@ -50,11 +56,29 @@ impl LikelihoodEstimator {
             State::Step if ran => {
                 let last = q.steps == STEPS as u64 - 1;
                 d.steps = q.steps + 1;
-                self.fit(if last { State::Check } else { State::Fit }, p, &mut d);
+                match (last, p.has_second()) {
+                    (true, true) => d.solve(State::End, program.end),
+                    (true, false) => self.fit(State::Check, p, &mut d),
+                    _ => self.fit(State::Fit, p, &mut d),
+                }
             }
-            State::Check if after(p.fit_cycles()) => d.slide(State::Rescan),
+            State::Check if after(fit_cycles) && p.has_second() && !q.paired => {
+                self.keep_alone(&mut d);
+                d.solve(State::Swap, program.swap);
+            }
+            State::Check if after(fit_cycles) => d.slide(State::Rescan),
             State::Check => self.look(has_glass, &mut d),
+            State::Rescan if after(p.scan_cycles()) && p.has_second() && !q.paired => {
+                d.alone_score = self.likelihood_scan.registers.best_score;
+                d.solve(State::Second, program.second);
+            }
             State::Rescan if after(p.scan_cycles()) => d.solve(State::End, program.end),
+            State::Second if ran => {
+                d.wide = true;
+                self.fit(State::Check, p, &mut d);
+            }
+            State::Swap if ran => self.fit(State::Fit, p, &mut d),
+            State::End if ran && p.has_second() => self.end(p, &mut d),
             State::End if ran => self.give(p, &mut d),
             _ => {}
         }
@@ -65,18 +89,28 @@ impl LikelihoodEstimator {
     }
 
     /// Begins a pass over the bins around the arrival.
-    fn fit(&self, state: State, p: &Params, d: &mut Registers) {
-        let bins = p.histogram.bins as u64;
-        let centre = (self.likelihood_solver.registers.arrival.get() >> 10).min(bins - 1);
-        (d.fit_begin, d.fit_end) = if d.dark {
-            Default::default()
-        } else {
+    pub(super) fn fit(&self, state: State, p: &Params, d: &mut Registers) {
+        let around = |arrival: u64| {
+            let bins = p.histogram.bins as u64;
+            let centre = (arrival >> 10).min(bins - 1);
             let begin = centre.saturating_sub(p.before as u64);
             (U::new(begin), U::new((centre + p.after as u64 + 1).min(bins)))
         };
+        let solver = &self.likelihood_solver.registers;
+        let own = around(solver.arrival.get());
+        (d.fit_begin, d.fit_end) = if d.dark { Default::default() } else { own };
+        if p.has_second() {
+            let other = around(solver.other_arrival.get());
+            d.behind = d.wide && other.0 < own.0;
+            (d.later_begin, d.later_end) = if d.behind { own } else { other };
+            if d.behind {
+                (d.fit_begin, d.fit_end) = other;
+            }
+        }
         (d.pass, d.sums, d.state) = (true, true, state);
         d.check = state == State::Check;
         (d.seen, d.reached) = (false, false);
+        (d.later_seen, d.later_reached) = (false, false);
     }
 
     /// Looks at the first bin of the check, with a cover glass at the first one of the window around the echo.
@@ -87,10 +121,15 @@ impl LikelihoodEstimator {
             d.seen = true;
             d.used_up = memory.word_waiting.get() < LEAST_WAITING;
         }
+        d.later_reached |= memory.word_later;
+        if memory.word_bin && !self.registers.later_seen && d.later_reached {
+            d.later_seen = true;
+            d.later_used_up = memory.word_waiting.get() < LEAST_WAITING;
+        }
     }
 
     /// Gives what has come out.
-    fn give(&self, p: &Params, d: &mut Registers) {
+    pub(super) fn give(&self, p: &Params, d: &mut Registers) {
         let solver = &self.likelihood_solver.registers;
         let flag = |flag: u64| solver.flags.get() >> flag & 1 != 0;
         let unsure = flag(1) && d.start_score.get() < SURE_SCORE;
@@ -119,13 +158,13 @@ impl LikelihoodEstimator {
 
 impl Registers {
     /// Begins a program.
-    fn solve(&mut self, state: State, program: u64) {
+    pub(super) fn solve(&mut self, state: State, program: u64) {
         (self.state, self.run, self.entry) = (state, true, U::new(program));
         self.scan = false;
     }
 
     /// Begins a scan.
-    fn slide(&mut self, state: State) {
+    pub(super) fn slide(&mut self, state: State) {
         (self.state, self.pass, self.scan, self.check) = (state, true, true, false);
     }
 }

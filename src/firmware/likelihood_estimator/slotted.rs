@@ -1,7 +1,9 @@
 //! The estimator in the slot of the top: its clock edge, its outputs, and when it rests.
 
 use crate::firmware::histogram_builder;
-use crate::firmware::tof_top::slot::{Assumptions, EstimateWords, SlotEstimator, SlotOut};
+use crate::firmware::tof_top::slot::{
+    Assumptions, EstimateWords, SecondWords, SlotEstimator, SlotOut,
+};
 use crate::kernel::Clocked;
 
 use super::params::Params;
@@ -22,6 +24,7 @@ impl SlotEstimator for LikelihoodEstimator {
         let (sums, scan) = (Wires::likelihood_sums(self, i), Wires::likelihood_scan(self, i));
         let solver = Wires::likelihood_solver(self, i);
         let glass = (p.glass.bins() > 0).then(|| Wires::likelihood_glass(self, i));
+        let pair = p.has_second().then(|| Wires::likelihood_pair(self, i));
         let registers = if i.rst { Registers::default() } else { self.next(i, p) };
 
         self.likelihood_memory.rise(&memory, p);
@@ -29,6 +32,9 @@ impl SlotEstimator for LikelihoodEstimator {
         self.likelihood_sums.tick(&sums, p);
         if let Some(glass) = glass {
             self.likelihood_glass.tick(&glass, p);
+        }
+        if let Some(pair) = pair {
+            self.likelihood_pair.tick(&pair, p);
         }
         self.likelihood_scan.rise(&scan, p);
         self.likelihood_solver.rise(&solver, p);
@@ -40,7 +46,16 @@ impl SlotEstimator for LikelihoodEstimator {
         let memory = &self.likelihood_memory.registers;
         let (read_en, read_addr) = (memory.read_en, memory.read_addr);
         let Registers { depth, sigma, status, valid, algo_done, .. } = self.registers;
-        let words = EstimateWords { depth, sigma, status, valid };
+        let Registers { second_depth, second_sigma, second_strength, .. } = self.registers;
+        let Registers { second_status, second_valid, .. } = self.registers;
+        let second = SecondWords {
+            second_depth,
+            second_sigma,
+            second_strength,
+            second_status,
+            second_valid,
+        };
+        let words = EstimateWords { depth, sigma, status, valid, second };
         SlotOut { read_en, read_addr, words, algo_done }
     }
 
@@ -66,5 +81,8 @@ impl SlotEstimator for LikelihoodEstimator {
             && (p.glass.bins() == 0
                 || self.likelihood_glass.next(&Wires::likelihood_glass(self, i), p)
                     == self.likelihood_glass)
+            && (!p.has_second()
+                || self.likelihood_pair.next(&Wires::likelihood_pair(self, i), p)
+                    == self.likelihood_pair)
     }
 }

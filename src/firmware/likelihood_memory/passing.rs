@@ -26,32 +26,39 @@ impl Params {
 }
 
 impl Registers {
-    /// Goes on with a pass, or begins one. A fit goes over the bins with light of a cover glass first.
+    /// Goes on with a pass, or begins one. A fit goes over the bins with light of a cover glass first, and with two
+    /// echoes over the later bins last.
     pub(super) fn pass(&self, i: &In, p: &Params, d: &mut Self) {
         let glass = p.glass.bins() as u64;
         if i.pass {
             (d.passing, d.opening, d.tailing, d.scanning) = (true, true, false, i.scan);
             d.blank = false;
             d.in_glass = glass > 0 && !i.scan;
+            d.in_later = false;
             d.index = if i.scan || glass > 0 { U::new(0) } else { i.fit_begin };
             d.tail = U::new(0);
         } else if self.passing && i.phase {
             d.opening = false;
             let (at_begin, at_end) = (self.index == i.fit_begin, self.index == i.fit_end);
-            let last = match (self.scanning, glass > 0) {
+            let past_end = self.index >= if self.in_later { i.later_end } else { i.fit_end };
+            let last = match (self.scanning, p.has_more_light()) {
                 (true, _) => self.index == p.histogram.bins as u64,
                 (false, false) => at_end,
-                (false, true) => self.index >= i.fit_end,
+                (false, true) => past_end,
             };
+            let is_narrow = !p.has_more_light();
             if self.in_glass && !self.opening && self.index == glass {
                 (d.in_glass, d.opening) = (false, true);
                 d.index = self.index.max(i.fit_begin);
-            } else if self.in_glass || !last || self.opening && (self.scanning || glass == 0) {
+            } else if self.in_glass || !last || self.opening && (self.scanning || is_narrow) {
                 d.index = self.index + 1;
                 d.bin = U::new(self.index.get() % p.histogram.bins as u64);
                 if at_begin || at_end {
-                    d.blank = self.scanning && !at_end && glass == 0;
+                    d.blank = self.scanning && !at_end && is_narrow;
                 }
+            } else if p.has_second() && i.wide && !self.scanning && !self.in_later {
+                (d.in_later, d.opening) = (true, true);
+                d.index = self.index.max(i.later_begin);
             } else if !self.tailing {
                 d.tailing = true;
             } else if !self.scanning || self.tail == p.scan_tail() {
@@ -73,6 +80,7 @@ impl Registers {
         (d.read_ended, d.read_waiting, d.read_exposure) = (kept.ended, kept.waiting, kept.exposure);
         d.read_glass = U::new(p.glass.part(self.bin.index()) as u64);
         d.read_window = bin && self.bin.get() == i.fit_begin.get();
+        d.read_later = p.has_second() && bin && self.bin.get() == i.later_begin.get();
     }
 
     /// Hands a bin on, or all others; a bin without width is none.
@@ -83,6 +91,7 @@ impl Registers {
         d.word_slide = self.read_slide;
         d.word_glass = if self.read_bin { self.read_glass } else { U::new(0) };
         d.word_window = self.read_window;
+        d.word_later = self.read_later;
         d.word_end = self.fetched_end;
         (d.word_ended, d.word_waiting, d.word_width) = match self.read_rest {
             true => {

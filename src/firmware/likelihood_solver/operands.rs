@@ -48,6 +48,8 @@ impl LikelihoodSolver {
             places::SIGNAL => d.strength = U::new(result as u64),
             places::AMBIENT => d.ambient = U::new(result as u64),
             places::GLASS => d.glass = U::new(result as u64),
+            places::OTHER_ARRIVAL => d.other_arrival = U::new(result as u64),
+            places::OTHER_SIGNAL => d.other_strength = U::new(result as u64),
             places::A33 => d.scarce = result < SCARCE,
             _ => {}
         }
@@ -75,10 +77,10 @@ impl In {
     /// Returns the operand `a` if it comes from another block.
     fn first_operand(&self, place: u8) -> Option<i64> {
         Some(match other(place)? {
-            0 => self.sum_13.get() >> 5,
-            1 => self.sum_23.get(),
-            2 => self.sum_33.get(),
-            3 => self.score_3.get() << 2,
+            0 => self.on_ambient().0 >> 5,
+            1 => self.on_ambient().1,
+            2 => self.on_ambient().2,
+            3 => self.on_ambient().3 << 2,
             4 if self.lone => (self.ambient_ended.get() << 12) as i64,
             4 => (self.ambient_ended.get() << 16) as i64,
             5 => self.ambient_exposure.get() as i64,
@@ -102,11 +104,23 @@ impl In {
             2 => self.sum_22.get(),
             3 => self.score_1.get() >> 3,
             4..8 => self.score_2.get() << 2,
-            8 => self.sum_13.get() >> 5,
-            9 => self.sum_23.get(),
-            10 => self.sum_33.get(),
-            _ => self.score_3.get() << 2,
+            8 => self.on_ambient().0 >> 5,
+            9 => self.on_ambient().1,
+            10 => self.on_ambient().2,
+            _ => self.on_ambient().3 << 2,
         })
+    }
+
+    /// Returns the information on log b with mu, log S and alone, and its score: of all light but the signal, or with
+    /// another echo of all but both.
+    pub(super) fn on_ambient(&self) -> (i64, i64, i64, i64) {
+        if self.paired {
+            let In { still_13, still_23, still_33, still_score, .. } = self;
+            (still_13.get(), still_23.get(), still_33.get(), still_score.get())
+        } else {
+            let In { sum_13, sum_23, sum_33, score_3, .. } = self;
+            (sum_13.get(), sum_23.get(), sum_33.get(), score_3.get())
+        }
     }
 }
 

@@ -82,6 +82,10 @@ pub const A23: u8 = 55;
 /// Information on log b that is left without log C.
 pub const A33: u8 = 56;
 pub const Y3: u8 = 57;
+/// Arrival of the other echo.
+pub const OTHER_ARRIVAL: u8 = 58;
+/// S of the other echo.
+pub const OTHER_SIGNAL: u8 = 59;
 
 /// Returns whether a place is a word of the solver, which all but operands from other blocks are.
 pub fn is_own(place: u8) -> bool {

@@ -71,25 +71,48 @@ pub struct Program {
     pub step: u64,
     /// Depth, deviation and flags.
     pub end: u64,
+    /// From the box to the other echo.
+    pub second: u64,
+    /// The echoes in each other's place.
+    pub swap: u64,
 }
 
-/// The programs of an estimator that knows of no cover glass.
-static USUAL: LazyLock<Program> = LazyLock::new(|| {
-    let step = [&ELIMINATION[..], &SOLUTION].concat();
-    Program::new([AMBIENT_LIGHT.to_vec(), START.to_vec(), step, END_RESULTS.to_vec()])
-});
+/// The programs of an estimator that knows of no cover glass and of one target.
+static USUAL: LazyLock<Program> = LazyLock::new(|| Program::new(usual()));
 
-/// Those of one that does.
-static WITH_GLASS: LazyLock<Program> = LazyLock::new(|| {
+/// Those of one that knows of a cover glass.
+static WITH_GLASS: LazyLock<Program> = LazyLock::new(|| Program::new(with_glass()));
+
+/// Those of one that looks for a second target.
+static WITH_SECOND: LazyLock<Program> =
+    LazyLock::new(|| Program::new(usual().into_iter().chain(for_second())));
+
+/// Those of one that does both.
+static WITH_BOTH: LazyLock<Program> =
+    LazyLock::new(|| Program::new(with_glass().into_iter().chain(for_second())));
+
+/// Ambient light, the start, a step and the results.
+fn usual() -> [Vec<Instruction>; 4] {
+    let step = [&ELIMINATION[..], &SOLUTION].concat();
+    [AMBIENT_LIGHT.to_vec(), START.to_vec(), step, END_RESULTS.to_vec()]
+}
+
+/// The same with a cover glass.
+fn with_glass() -> [Vec<Instruction>; 4] {
     let ambient = [&AMBIENT_LIGHT[..], &[times(GLASS, CALIBRATED, ONE, 0)]].concat();
     let step = [&GLASS_ELIMINATION[..], &SOLUTION, &GLASS_STEP].concat();
-    Program::new([ambient, START.to_vec(), step, END_RESULTS.to_vec()])
-});
+    [ambient, START.to_vec(), step, END_RESULTS.to_vec()]
+}
+
+/// The start of a second echo, and what puts the echoes in each other's place.
+fn for_second() -> [Vec<Instruction>; 2] {
+    [SECOND.to_vec(), SWAP.to_vec()]
+}
 
 impl Params {
     /// The solver's programs.
     pub fn program(&self) -> &'static Program {
-        Program::of(self.glass.bins() > 0)
+        Program::of(self.glass.bins() > 0, self.has_second())
     }
 }
 
@@ -110,6 +133,25 @@ const START: [Instruction; 5] = [
     times(T, LENGTH, T, 13),
     times(ARRIVAL, BOX, ONE, 0),
     times(SIGNAL, T, NINETEEN, 4).clamp(Clamp::Signal),
+];
+
+/// The same for the other echo.
+const SECOND: [Instruction; 5] = [
+    over(MIDDLE),
+    times(T, EXCESS, R, 0).by(By::Bits),
+    times(T, LENGTH, T, 13),
+    times(OTHER_ARRIVAL, BOX, ONE, 0),
+    times(OTHER_SIGNAL, T, NINETEEN, 4).clamp(Clamp::Signal),
+];
+
+/// The echoes in each other's place.
+const SWAP: [Instruction; 6] = [
+    times(T, ARRIVAL, ONE, 0),
+    times(N1, SIGNAL, ONE, 0),
+    times(ARRIVAL, OTHER_ARRIVAL, ONE, 0),
+    times(SIGNAL, OTHER_SIGNAL, ONE, 0),
+    times(OTHER_ARRIVAL, T, ONE, 0),
+    times(OTHER_SIGNAL, N1, ONE, 0),
 ];
 
 /// Elimination of log b.
@@ -211,22 +253,29 @@ const END_RESULTS: [Instruction; 14] = [
 ];
 
 impl Program {
-    /// Returns the programs of an estimator that knows of a cover glass, or of none.
-    pub fn of(has_glass: bool) -> &'static Self {
-        if has_glass { &WITH_GLASS } else { &USUAL }
+    /// Returns the programs of an estimator that knows of a cover glass, or of none, and looks for a second target, or
+    /// does not.
+    pub fn of(has_glass: bool, has_second: bool) -> &'static Self {
+        match (has_glass, has_second) {
+            (false, false) => &USUAL,
+            (true, false) => &WITH_GLASS,
+            (false, true) => &WITH_SECOND,
+            (true, true) => &WITH_BOTH,
+        }
     }
 
     /// Puts programs one after the other, each with the waits that its operands need.
-    fn new(programs: [Vec<Instruction>; 4]) -> Self {
+    fn new(programs: impl IntoIterator<Item = Vec<Instruction>>) -> Self {
         let mut instructions = Vec::new();
-        let [ambient, start, step, end] = programs.map(|mut program| {
-            let entry = instructions.len() as u64;
+        let mut entries = [0; 6];
+        for (entry, mut program) in entries.iter_mut().zip(programs) {
+            *entry = instructions.len() as u64;
             program.push(END_OF_PROGRAM);
             schedule(&mut program);
             instructions.append(&mut program);
-            entry
-        });
-        Program { instructions, ambient, start, step, end }
+        }
+        let [ambient, start, step, end, second, swap] = entries;
+        Program { instructions, ambient, start, step, end, second, swap }
     }
 
     /// From the cycle that begins a program to the one in which it has ended, both counted [cycles of clk_sys].
@@ -250,5 +299,12 @@ mod tests {
         assert_eq!(cycles(&USUAL), [65, 56, 165, 74]);
         assert_eq!(USUAL.instructions.len(), 64);
         assert_eq!(cycles(&WITH_GLASS), [67, 56, 245, 74]);
+        for (program, alone) in [(&WITH_SECOND, &USUAL), (&WITH_BOTH, &WITH_GLASS)] {
+            assert_eq!(cycles(program), cycles(alone));
+            assert_eq!(program.second as usize, alone.instructions.len());
+            let of_second = [program.second, program.swap].map(|entry| program.cycles(entry));
+            assert_eq!(of_second, [56, 23]);
+        }
+        assert_eq!([&WITH_SECOND, &WITH_BOTH].map(|program| program.instructions.len()), [77, 97]);
     }
 }

@@ -1,5 +1,6 @@
 //! The hazards of a bin: their sum, its k, and the signal's share in it.
 
+use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::pipeline::shift;
 use crate::firmware::likelihood_estimator::tables::{Tables, length};
 use crate::firmware::likelihood_estimator::words::{LEAST_HAZARD, MOST_HAZARD, WHOLE};
@@ -12,7 +13,7 @@ const MANTISSA_BITS: u32 = 14;
 
 impl LikelihoodTerms {
     /// The hazards: that of the signal begins in the first cycle of a beat, that of ambient light in the second.
-    pub(super) fn light_up(&self, i: &In, d: &mut Self) {
+    pub(super) fn light_up(&self, i: &In, p: &Params, d: &mut Self) {
         (d.level, d.amount) = match i.phase {
             true => (i.ambient, U::new(2 * self.width[3].get())),
             false => (i.strength, self.part),
@@ -22,8 +23,12 @@ impl LikelihoodTerms {
         d.light = U::new((self.level_times.get() >> 9).min(MOST_HAZARD as u64));
         d.lit_first = self.light;
         if i.phase {
+            if p.has_second() {
+                d.ambient_light = self.light;
+            }
             d.lit = self.lit_first;
-            d.sum = U::new(self.lit_first.get() + self.light.get() + i.glass_light.get());
+            let others = i.glass_light.get() + i.other_light.get();
+            d.sum = U::new(self.lit_first.get() + self.light.get() + others);
             shift(
                 &mut d.hazard,
                 U::new(self.sum.get().clamp(LEAST_HAZARD as u64, MOST_HAZARD as u64)),

@@ -34,7 +34,7 @@ impl LikelihoodTerms {
         let none = self.edge_alone[2] && self.first[2];
         d.last_part = if none { U::new(0) } else { self.pulse_part };
         d.last_slope = self.pulse_slope;
-        let dark = if p.glass.bins() > 0 { i.dark } else { i.scan };
+        let dark = if p.has_more_light() { i.dark } else { i.scan };
         let lit = self.bin[2] && !dark;
         d.part = if lit { self.pulse_part - self.last_part.get() } else { U::new(0) };
         let between = (self.pulse_slope.get() + self.last_slope.get()) >> 1;

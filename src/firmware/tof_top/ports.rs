@@ -152,12 +152,15 @@ impl Params {
         let bank = (self.frame_ctrl.scan.banks == 1).then_some("second_bank");
         let glass = (self.estimators.likelihood_estimator.glass.bins() == 0)
             .then_some("likelihood_estimator.likelihood_glass");
+        let pair = (!self.estimators.likelihood_estimator.has_second())
+            .then_some("likelihood_estimator.likelihood_pair");
         let host = OF_HOST.into_iter().filter(|_| !self.is_hosted);
         sources
             .into_iter()
             .chain(calibration)
             .chain(bank)
             .chain(glass)
+            .chain(pair)
             .chain(host)
             .chain(others.map(FirmwareEstimator::module))
             .collect()

@@ -46,6 +46,7 @@ impl Params {
             hits_log2: calibration.map_or(HITS_LOG2, |own| own.hits_log2),
             drain_cycles: self.frame_ctrl.drain_cycles as u32,
             has_glass: self.estimators.likelihood_estimator.glass.bins() > 0,
+            has_second: self.estimators.likelihood_estimator.has_second(),
             likelihood_cycles: self.estimators.likelihood_estimator.done() as u32,
             ..usual(
                 &decoder.scale,
@@ -102,6 +103,7 @@ fn usual(
         centroid_cycles: centroid.done() as u32,
         position_bits: centroid_estimator::position_bits(histogram),
         has_glass: false,
+        has_second: false,
         likelihood_cycles: 0,
     }
 }

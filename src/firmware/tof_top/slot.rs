@@ -74,6 +74,23 @@ pub struct EstimateWords {
     pub status: StatusBits,
     /// The status has no reason to reject the depth; low from an estimator that states none.
     pub valid: bool,
+    /// The second target; all 0 without one.
+    pub second: SecondWords,
+}
+
+/// Words of a second target.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SecondWords {
+    /// Its distance [m].
+    pub second_depth: Depth,
+    /// Standard deviation of its distance; 0 without a second target.
+    pub second_sigma: Sigma,
+    /// Its signal, 14 fraction bits [photons a shot].
+    pub second_strength: U<24>,
+    /// Reasons to reject its distance.
+    pub second_status: StatusBits,
+    /// There is a second target, and its status has no reason to reject the distance.
+    pub second_valid: bool,
 }
 
 /// Distance with the fraction bits of a depth word [m].

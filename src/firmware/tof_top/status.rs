@@ -104,6 +104,16 @@ impl StatusSet {
         self.0 & status.bit() != 0
     }
 
+    /// These reasons and one more.
+    pub const fn with(self, status: Status) -> Self {
+        StatusSet(self.0 | status.bit())
+    }
+
+    /// These reasons but one.
+    pub const fn without(self, status: Status) -> Self {
+        StatusSet(self.0 & !status.bit())
+    }
+
     /// The words of the reasons.
     pub fn words(self) -> Vec<&'static str> {
         let held = Status::ALL.iter().filter(|&&status| self.contains(status));

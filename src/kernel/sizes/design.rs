@@ -71,6 +71,8 @@ pub struct Sizes {
     pub position_bits: u32,
     /// True if the likelihood estimator knows of a cover glass.
     pub has_glass: bool,
+    /// True if the likelihood estimator looks for a second target.
+    pub has_second: bool,
     /// Latency of the likelihood estimator [cycles of clk_sys].
     pub likelihood_cycles: u32,
 }

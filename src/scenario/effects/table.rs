@@ -112,6 +112,11 @@ fn with_template(scenario: &Scenario) -> &'static [Method] {
     }
 }
 
+/// Returns the methods that find a second target.
+fn with_two_targets(scenario: &Scenario) -> &'static [Method] {
+    if scenario.estimator.targets > 1 { &[LikelihoodEstimator] } else { &[] }
+}
+
 fn has_cover(scenario: &Scenario) -> bool {
     scenario.cover.is_there()
 }
@@ -224,6 +229,7 @@ effects! {
     SecondTarget {
         keys: [key!(target.second_share)],
         breaks: [&[Likelihood, LikelihoodEstimator, Matched], SEARCHES],
+        spares: with_two_targets,
         why: "the light of a shot is two echoes of the laser's pulse",
         example: ["target.second_share=0.5", "target.second_distance_m=0.45", "target.second_reflectance=0.9"],
     }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::firmware::frame_ctrl::DRAIN_CYCLES;
 use crate::firmware::histogram_builder::COUNT_BITS;
+use crate::firmware::likelihood_estimator::targets::Order;
 use crate::firmware::pll;
 use crate::firmware::tof_top::FirmwareEstimator;
 use crate::firmware::vcsel_driver::PERIODS;
@@ -191,6 +192,12 @@ table! {
         /// `two-echoes`, `matched`, and `likelihood_estimator` in the firmware. They fit its amplitude along with the echo.
         #[schemars(extend("source" = "choice: none"))]
         pub glass_file: Option<String> = None,
+        /// Targets that `likelihood_estimator` finds in the firmware: one, or up to two.
+        #[schemars(range(min = 1, max = 2), extend("unit" = "targets", "source" = "choice: one"))]
+        pub targets: u32 = 1,
+        /// Target that it reports first, of two: `nearest` or `strongest`.
+        #[schemars(extend("source" = "choice: the nearest"))]
+        pub order: Order = Order::Nearest,
     }
 }
 

@@ -3,8 +3,9 @@
 use serde::{Serialize, Serializer};
 
 use crate::firmware::depth_estimator::datapath::DEPTH_BITS;
+use crate::firmware::likelihood_estimator::words::SIGNAL_FRACTION;
 use crate::firmware::tof_top::FirmwareEstimator;
-use crate::firmware::tof_top::slot::{DepthM, EstimateWords};
+use crate::firmware::tof_top::slot::{DepthM, EstimateWords, SecondWords, SigmaM};
 use crate::firmware::tof_top::status::StatusSet;
 
 /// Result of an estimator for a histogram.
@@ -44,6 +45,36 @@ pub struct EchoDepth {
     pub depth_m: f64,
     /// Its standard deviation [m].
     pub sigma_m: f64,
+    /// Its signal, from the firmware [photons per shot].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub signal_per_shot: Option<f64>,
+    /// Whether its status has no reason to reject the distance, from the firmware.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub valid: Option<bool>,
+    /// Reasons to reject the distance, in words; empty if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub status: Option<StatusSet>,
+}
+
+impl EchoDepth {
+    /// Returns an echo with a distance and its standard deviation alone [m].
+    pub fn new(depth_m: f64, sigma_m: f64) -> Self {
+        EchoDepth { depth_m, sigma_m, signal_per_shot: None, valid: None, status: None }
+    }
+
+    /// Returns the second target in words of the firmware, if there is one.
+    pub fn of_words(second: &SecondWords) -> Option<Self> {
+        let is_there = second.second_sigma != 0;
+        is_there.then(|| EchoDepth {
+            depth_m: DepthM::from_bits(second.second_depth.get()).to_num(),
+            sigma_m: SigmaM::from_bits(second.second_sigma.get()).to_num(),
+            signal_per_shot: Some(
+                second.second_strength.get() as f64 / f64::from(1 << SIGNAL_FRACTION),
+            ),
+            valid: Some(second.second_valid),
+            status: Some(second.second_status.into()),
+        })
+    }
 }
 
 /// The light of a cover window beside its template.
@@ -83,6 +114,7 @@ impl Estimate {
             sigma_m: states.then(|| words.sigma_m().to_num()),
             valid: words.valid || !states,
             status: words.status.into(),
+            second: EchoDepth::of_words(&words.second),
             ..Estimate::of_depth(estimator.estimator(), Some(depth.to_num()))
         }
     }
@@ -109,7 +141,7 @@ mod tests {
     fn an_estimate_has_what_its_words_state() {
         let status = U::new((Status::CutOff.bit() | Status::NoFit.bit()).into());
         let (depth, sigma) = (Depth::new(0x1013_c199), U::new(1 << 19));
-        let words = EstimateWords { depth, sigma, status, valid: false };
+        let words = EstimateWords { depth, sigma, status, ..EstimateWords::default() };
         let json = |words| {
             serde_json::to_value(Estimate::of_words(FirmwareEstimator::LikelihoodEstimator, words))
         };

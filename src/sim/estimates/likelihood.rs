@@ -10,6 +10,7 @@ mod point;
 mod scan;
 mod step;
 mod sums;
+mod targets;
 mod terms;
 mod verdict;
 
@@ -28,10 +29,11 @@ use verdict::{Judged, verdict};
 pub use histogram::{Ambient, Block};
 pub use instrument::Instrument;
 pub use number::Number;
-pub use point::Point;
+pub use point::{Echo, Point};
 pub use scan::Best;
 pub use step::Information;
-pub use verdict::Found;
+pub use targets::Turns;
+pub use verdict::{Found, Second};
 
 /// An estimate with its intermediate results.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +55,8 @@ pub struct Trace<N> {
     pub flags: [bool; 7],
     /// Shots that wait at the first bin of the fit, if it has one.
     pub waiting: Option<N>,
+    /// Two echoes in turn, if a second target is looked for.
+    pub turns: Option<Turns<N>>,
 }
 
 impl Clockless for LikelihoodEstimator {
@@ -83,14 +87,27 @@ pub fn trace<I: Instrument>(p: &I, histogram: &[u32]) -> Trace<I::Number> {
         (point, information) = step(p, &shots, &point);
         (point, information)
     });
-    let other = if p.has_glass() {
+    let other = if p.words().has_more_light() {
         scan(p, &shots, &point, 0..0)
     } else {
         scan(p, &shots, &Point::dark(point.ambient, point.glass), p.window(point.arrival))
     };
-    let Judged { found, flags, waiting } =
-        verdict(p, &shots, [&start, &other], &point, &information);
-    Trace { ambient, start, begin, steps, other, found, flags, waiting }
+    let with = |Judged { found, flags, waiting }, turns| Trace {
+        ambient,
+        start,
+        begin,
+        steps,
+        other,
+        found,
+        flags,
+        waiting,
+        turns,
+    };
+    if !p.words().has_second() {
+        return with(verdict(p, &shots, [&start, &other], &point, &information), None);
+    }
+    let (judged, turns) = targets::find(p, &shots, [&start, &other], &point, &information);
+    with(judged, Some(turns))
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use crate::error::Input;
 use crate::firmware::likelihood_estimator::params::{Params, Unfit, Wanted};
+use crate::firmware::likelihood_estimator::targets::Targets;
 use crate::kernel::pulse::Pulse;
 use crate::optics::Bins;
 use crate::optics::budget::LIGHT_M_S;
@@ -80,6 +81,7 @@ impl Setup {
             metres_per_ps: LIGHT_M_S / 2e12,
             delay_ps: scenario.laser.delay_ps,
             glass: &glass,
+            targets: Targets::of(keys.targets, keys.order),
         };
         make(&wanted).map_err(|unfit| {
             let (field, value) = match unfit {

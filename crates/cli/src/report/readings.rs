@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn a_second_surface_stands_beside_the_first_and_its_error() {
         let setup = Setup::load("kc705", &[]).unwrap();
-        let second = Some(EchoDepth { depth_m: 0.75, sigma_m: 0.001 });
+        let second = Some(EchoDepth::new(0.75, 0.001));
         let reading = Estimate { second, ..Estimate::of_depth("two-echoes", Some(0.501)) };
         let found: Vec<_> = rows(&setup, &[reading]).collect();
         let said = "0.501000 m  +1.00 mm and 0.750000 m".to_owned();

@@ -227,6 +227,12 @@ pub fn in_words(estimate: &Estimate, truth_m: Option<f64>) -> String {
     if !estimate.valid {
         text += &format!(", rejected: {}", estimate.status);
     }
+    if let Some(second) = &estimate.second {
+        text += &format!(", second target {:.6} m, sd {:.6} m", second.depth_m, second.sigma_m);
+        if let Some(status) = second.status.filter(|status| !status.is_empty()) {
+            text += &format!(", rejected: {status}");
+        }
+    }
     text
 }
 

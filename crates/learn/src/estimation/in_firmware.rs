@@ -8,7 +8,7 @@ use tofsim::firmware::tof_top::status::StatusSet;
 use tofsim::sim::estimates::Clockless;
 use tofsim::sim::setup::Setup;
 
-use super::estimator::{Estimator, Failure, Found, hits};
+use super::estimator::{EchoDepth, Estimator, Failure, Found, hits};
 
 /// An estimator of the firmware for the histograms of one instrument; a depth that it rejects is a failure.
 pub struct InFirmware<E: Clockless> {
@@ -58,7 +58,8 @@ impl<E: Clockless> Estimator for InFirmware<E> {
         }
         let sigma_m = E::STATES_SIGMA.then(|| words.sigma_m().to_num());
         let depth_m = words.depth_m().to_num();
-        Ok(Found { sigma_m, ..Found::depth(depth_m) })
+        let second = EchoDepth::of_words(&words.second).filter(|second| second.valid == Some(true));
+        Ok(Found { sigma_m, second, ..Found::depth(depth_m) })
     }
 }
 

@@ -144,10 +144,8 @@ impl Likelihood {
 
     /// Distance of what the echo of a fit comes from.
     fn depth(&self, fit: &Fit) -> EchoDepth {
-        EchoDepth {
-            depth_m: (fit.echo.arrival_ps - self.delay_ps) / ARRIVAL_PS_PER_M,
-            sigma_m: fit.arrival_deviation_ps / ARRIVAL_PS_PER_M,
-        }
+        let depth_m = (fit.echo.arrival_ps - self.delay_ps) / ARRIVAL_PS_PER_M;
+        EchoDepth::new(depth_m, fit.arrival_deviation_ps / ARRIVAL_PS_PER_M)
     }
 
     /// The model of the histograms.
@@ -212,7 +210,7 @@ impl Estimator for Likelihood {
 
     fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
         let fit = self.fit(histogram)?;
-        let EchoDepth { depth_m, sigma_m } = self.depth(&fit);
+        let EchoDepth { depth_m, sigma_m, .. } = self.depth(&fit);
         let pedestal = self.pedestal(histogram, &[fit]);
         Ok(Found { sigma_m: Some(sigma_m), pedestal, ..Found::depth(depth_m) })
     }

@@ -33,6 +33,7 @@ blocks! {
     likelihood_estimator
     likelihood_glass
     likelihood_memory
+    likelihood_pair
     likelihood_scan
     likelihood_solver
     likelihood_sums

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use tofsim::error::Result;
 use tofsim::firmware::likelihood_estimator::glass::Glass;
 use tofsim::firmware::likelihood_estimator::params::Params;
+use tofsim::firmware::likelihood_estimator::targets::Targets;
 use tofsim::network::Fixed;
 use tofsim::scenario::{self, DEFAULT};
 use tofsim::sim::setup::Setup;
@@ -111,6 +112,24 @@ pub const GLASS: Configuration = Configuration {
     ..DEFAULTS
 };
 
+/// Two targets that the likelihood estimator finds.
+pub const TWO: Configuration = Configuration {
+    name: "two",
+    set: &["estimator.targets=2"],
+    parameters: &["Targets"],
+    module: Some("likelihood_pair"),
+    ..DEFAULTS
+};
+
+/// Two targets behind a cover glass, the stronger one first.
+pub const TWO_BEHIND_GLASS: Configuration = Configuration {
+    name: "two_behind_glass",
+    set: &["estimator.targets=2", "estimator.order=strongest"],
+    parameters: &["Targets", "GlassBins"],
+    has_glass: true,
+    ..TWO
+};
+
 /// An array of pixels with two banks of histograms.
 pub const ARRAY: Configuration = Configuration {
     name: "array",
@@ -156,6 +175,16 @@ pub fn behind_glass(mut setting: Setting) -> Setting {
     let own = &*setting.setup.params.estimators.likelihood_estimator;
     let own = Params { glass: pedestal(&setting.setup), ..own.clone() };
     setting.setup.params.estimators.likelihood_estimator = Arc::new(own);
+    setting
+}
+
+/// Returns a setting whose likelihood estimator finds two targets.
+pub fn with_second(mut setting: Setting) -> Setting {
+    let own = &*setting.setup.params.estimators.likelihood_estimator;
+    if !own.has_second() {
+        let own = Params { targets: Targets::NearestFirst, ..own.clone() };
+        setting.setup.params.estimators.likelihood_estimator = Arc::new(own);
+    }
     setting
 }
 

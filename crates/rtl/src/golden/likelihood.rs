@@ -12,6 +12,7 @@ use tofsim::sim::setup::Setup;
 
 mod kinds;
 mod outcome;
+mod pairs;
 pub mod part;
 mod scenes;
 
@@ -23,8 +24,9 @@ use super::draw::Draw;
 use super::setting::Setting;
 use super::spec::FIRST_RESET;
 
-/// States of the estimator.
+/// States of the estimator, and with those of a second target.
 const STATES: u64 = State::End as u64 + 1;
+const STATES_OF_TWO: u64 = State::Swap as u64 + 1;
 /// Every so many estimations is a whole one.
 const WHOLE: u64 = 2;
 /// So often a histogram is drawn that is of its kind.
@@ -55,6 +57,7 @@ pub struct Estimations<'a> {
     seen: Cover,
     modes: Cover,
     limits: Cover,
+    pairs: Cover,
 }
 
 impl<'a> Estimations<'a> {
@@ -62,7 +65,8 @@ impl<'a> Estimations<'a> {
     pub fn new(setting: &'a Setting, cuts: bool) -> Self {
         let setup = &setting.setup;
         let params = &*setup.params.estimators.likelihood_estimator;
-        let states = if cuts { 0..STATES } else { 0..0 };
+        let has_second = params.has_second();
+        let states = if cuts { 0..states(params) } else { 0..0 };
         // Behind a glass the scan expects the light that the fit finds: no echo fails by its score alone.
         let least = if params.glass.bins() > 0 { ANOTHER } else { LEAST };
         Estimations {
@@ -80,7 +84,14 @@ impl<'a> Estimations<'a> {
             resets: Cover::new("reset in state but idle", states.skip(1)),
             modes: Cover::new("shots armed and not", if cuts { 0..2 } else { 0..0 }),
             seen: Cover::new("depths without and with a status", if cuts { 0..2 } else { 0..0 }),
-            limits: Cover::new("sides of a limit", if cuts { 2 * least..2 * KINDS } else { 0..0 }),
+            limits: Cover::new(
+                "sides of a limit",
+                if cuts && !has_second { 2 * least..2 * KINDS } else { 0..0 },
+            ),
+            pairs: Cover::new(
+                "fates of two echoes",
+                if cuts && has_second { pairs::FATES } else { 0..0 },
+            ),
         }
     }
 
@@ -139,13 +150,17 @@ impl<'a> Estimations<'a> {
         }
         self.histogram =
             if self.cuts { self.of_kind(kind, draw) } else { self.histogram(kind, draw) };
-        let place = 1 + self.begun / WHOLE % (STATES - 1);
-        let cut = self.cuts && self.begun < WHOLE * STATES && !self.begun.is_multiple_of(WHOLE);
+        let states = states(self.params);
+        let place = 1 + self.begun / WHOLE % (states - 1);
+        let cut = self.cuts && self.begun < WHOLE * states && !self.begun.is_multiple_of(WHOLE);
         self.cut = cut.then(|| (place, draw.below(12)));
     }
 
     /// Draws histograms until one is of its kind.
     fn of_kind(&mut self, kind: u64, draw: &mut Draw) -> Vec<u32> {
+        if kind >= LEAST && self.params.has_second() {
+            return self.of_fate(kind - LEAST, draw);
+        }
         if kind >= LEAST {
             return self.at_limit(kind, draw);
         }
@@ -205,7 +220,12 @@ impl<'a> Estimations<'a> {
     }
 
     /// Returns the coverage.
-    pub fn coverage(self) -> [Cover; 5] {
-        [self.starts, self.resets, self.seen, self.modes, self.limits]
+    pub fn coverage(self) -> [Cover; 6] {
+        [self.starts, self.resets, self.seen, self.modes, self.limits, self.pairs]
     }
+}
+
+/// Returns the number of states of such an estimator.
+fn states(params: &Params) -> u64 {
+    if params.has_second() { STATES_OF_TWO } else { STATES }
 }

@@ -2,6 +2,7 @@
 
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::{self, Bin, Count};
+use tofsim::firmware::likelihood_estimator::targets::Targets;
 use tofsim::firmware::tdc_decoder::Decoder;
 use tofsim::firmware::tof_top::Params;
 use tofsim::firmware::{
@@ -204,6 +205,11 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Pa
     if params.glass.bins() > 0 {
         list.push(("GlassBins", number(params.glass.bins() as u64)));
         list.push(("GlassLight", number(params.glass.light as u64)));
+    }
+    if params.has_second() {
+        list.push(("Targets", number(params.targets.most().into())));
+        let is_strongest = params.targets == Targets::StrongestFirst;
+        list.push(("Strongest", number(is_strongest.into())));
     }
     let names = ["EdgesFile", "PulseFile", "HazardFile", "LogFile", "ProgramFile", "GlassFile"];
     list.extend(files(names, mem::likelihood_estimator(params)));

@@ -139,8 +139,15 @@ fn past(found: &Interface, task: &Task, sizes: &Sizes) -> Vec<Port> {
     };
     let most = Sizes { neurons: MOST_NEURONS as u32, ..*sizes };
     let columns = sizes.columns.max(2);
-    let with_all =
-        Sizes { calibrates: true, hosted: true, has_glass: true, columns, banks: 2, ..*sizes };
+    let with_all = Sizes {
+        calibrates: true,
+        hosted: true,
+        has_glass: true,
+        has_second: true,
+        columns,
+        banks: 2,
+        ..*sizes
+    };
     let inputs = task.spec.ports(&with_all).into_iter().filter(|port| !port.output);
     task.spec.ports(&most).into_iter().chain(inputs).filter(is_past).collect()
 }

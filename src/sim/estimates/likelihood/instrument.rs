@@ -45,12 +45,6 @@ pub trait Instrument {
         let centre = bin.place().min(histogram.bins - 1);
         centre.saturating_sub(*before)..(centre + after + 1).min(histogram.bins)
     }
-
-    /// Bins of a fit, in two ranges: those with light of the glass, and the others of the window.
-    fn fitted(&self, window: Range<usize>) -> [Range<usize>; 2] {
-        let glass = self.words().glass.bins();
-        [0..glass, window.start.max(glass)..window.end.max(glass)]
-    }
 }
 
 impl Instrument for Params {

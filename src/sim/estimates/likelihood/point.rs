@@ -22,21 +22,32 @@ pub struct Point<N> {
     pub ambient: N,
     /// Light from the cover glass [photons a shot, 14 fraction bits].
     pub glass: N,
+    /// The other echo of a fit of two; without signal, only its bins are fitted.
+    pub other: Option<Echo<N>>,
+}
+
+/// An echo that a fit holds still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Echo<N> {
+    /// Arrival [units / 16].
+    pub arrival: N,
+    /// S [photons a shot, 14 fraction bits].
+    pub signal: N,
 }
 
 impl<N: Number> Point<N> {
     /// Returns a point without an echo.
     pub fn dark(ambient: N, glass: N) -> Self {
-        Point { arrival: N::default(), signal: N::default(), ambient, glass }
+        Point { arrival: N::default(), signal: N::default(), ambient, glass, other: None }
     }
 
     /// Computes the terms of each bin of a fit, with its z, followed by all other bins as one.
     pub fn terms(&self, p: &impl Instrument<Number = N>, shots: &Shots<N>) -> Vec<(Terms<N>, N)> {
         let none = N::default();
         let (mut ended, mut exposure) = (shots.all_ended, shots.exposure);
-        let [early, window] = p.fitted(self.window(p));
-        let mut all = Vec::with_capacity(early.len() + window.len() + 1);
-        for range in [early, window] {
+        let ranges = self.fitted(p);
+        let mut all = Vec::with_capacity(ranges.iter().map(|range| range.len()).sum::<usize>() + 1);
+        for range in ranges {
             for (bin, light) in range.clone().zip(self.light(p, range)) {
                 let (count, waiting, width) = (shots.ended(bin), shots.waiting(bin), p.width(bin));
                 ended = ended - count;
@@ -53,9 +64,36 @@ impl<N: Number> Point<N> {
         let waiting =
             exposure.floored(UNITS.ilog2().into()).filled(size.count_bits + size.bins.ilog2());
         let ambient = self.ambient_in(N::whole(UNITS));
-        let rest = Light { signal: none, ambient, glass: none, z: none };
+        let rest = Light { ambient, ..Light::default() };
         all.push((rest.bin(ended, waiting).terms(size.count_bits), none));
         all
+    }
+
+    /// Returns the bins of a fit, in ranges one after the other: those with light of the glass, and those around each
+    /// echo.
+    pub fn fitted(&self, p: &impl Instrument<Number = N>) -> [Range<usize>; 3] {
+        let own = self.window(p);
+        let other = self.other.map_or(own.end..own.end, |other| p.window(other.arrival));
+        let [first, second] = if other.start < own.start { [other, own] } else { [own, other] };
+        let glass = p.words().glass.bins();
+        let after = |range: Range<usize>, end: usize| range.start.max(end)..range.end.max(end);
+        let first = after(first, glass);
+        let end = first.end;
+        [0..glass, first, after(second, end)]
+    }
+
+    /// Returns the point with the echoes in each other's place.
+    pub fn swapped(self) -> Self {
+        let Point { arrival, signal, other, .. } = self;
+        match other {
+            Some(now) => Point {
+                arrival: now.arrival,
+                signal: now.signal,
+                other: Some(Echo { arrival, signal }),
+                ..self
+            },
+            None => self,
+        }
     }
 
     /// Returns the bins of the fit; none without an echo.
@@ -72,6 +110,11 @@ impl<N: Number> Point<N> {
         let none = [N::default(); 3];
         let is_lit = self.signal > N::default();
         let has_glass = p.has_glass();
+        let other = self.other.filter(|other| other.signal > N::default());
+        let mut other_part = match other {
+            Some(other) if bins.start > 0 => p.pulse(bins.start, other.arrival)[0],
+            _ => N::default(),
+        };
         let [mut part, mut slope, _] =
             if is_lit && bins.start > 0 { p.pulse(bins.start, self.arrival) } else { none };
         bins.map(move |bin| {
@@ -84,6 +127,11 @@ impl<N: Number> Point<N> {
                 light.signal = photons(self.signal, next - part);
                 light.z = if bin == 0 { first } else { (slope + next_slope).floored(1) };
                 (part, slope) = (next, next_slope);
+            }
+            if let Some(other) = other {
+                let [next, ..] = p.pulse(bin + 1, other.arrival);
+                light.other = photons(other.signal, next - other_part);
+                other_part = next;
             }
             light
         })
@@ -106,13 +154,14 @@ pub struct Light<N> {
     signal: N,
     ambient: N,
     glass: N,
+    other: N,
     z: N,
 }
 
 impl<N: Number> Light<N> {
     /// Returns a bin with this light.
     pub fn bin(&self, ended: N, waiting: N) -> Bin<N> {
-        let Light { signal, ambient, glass, .. } = *self;
-        Bin { ended, waiting, signal, ambient, glass }
+        let Light { signal, ambient, glass, other, .. } = *self;
+        Bin { ended, waiting, signal, ambient, glass, other }
     }
 }

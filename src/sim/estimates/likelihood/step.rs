@@ -43,7 +43,7 @@ pub fn step<I: Instrument>(
     let (word, scales) = (p.words().word_bits(), p.scales());
     let (whole, one) = (I::Number::whole, I::Number::whole(1));
     let times = |a: I::Number, b: I::Number| a.times(b).shifted(Q);
-    let sums = Sums::new(&from.terms(p, shots));
+    let sums = Sums::new(&from.terms(p, shots), from.other.is_some());
     let (sums, along_glass) =
         if p.has_glass() { without_glass(&sums, word) } else { (sums, [whole(0); 4]) };
     let Sums { a11, a12, a13, a22, a23, a33, y1, y2, y3, .. } = sums;
@@ -91,6 +91,7 @@ pub fn step<I: Instrument>(
         } else {
             from.glass
         },
+        other: from.other,
     };
     (to, Information { a22, a11, determinant, exponent, cut, move_by })
 }

@@ -49,26 +49,36 @@ pub struct GlassSums<N> {
 
 impl<N: Number> Sums<N> {
     /// Adds the terms up, from the ridges on.
-    pub fn new(terms: &[(Terms<N>, N)]) -> Self {
+    pub fn new(terms: &[(Terms<N>, N)], paired: bool) -> Self {
         let [a11, a22, a33] = [2 * RIDGE, RIDGE, AMBIENT_RIDGE].map(N::whole);
         let a44 = N::whole(RIDGE);
         let mut sums = Sums { a11, a22, a33, ..Sums::default() };
         let mut of_glass = GlassSums { a44, ..GlassSums::default() };
-        for &(Terms { residual, weight, share, glass, .. }, z) in terms {
+        for &(Terms { residual, weight, share, glass, still, .. }, z) in terms {
             let of = |value: N| (value * share).shifted(12);
             let (once, seen) = (of(weight), of(residual));
             let twice = of(once);
             sums.a11 += (twice * z).floored(9) * z;
             sums.a12 += twice * z;
-            sums.a13 += (once - twice) * z;
             sums.a22 += twice;
-            sums.a23 += once - twice;
-            sums.a33 += weight - once - once + twice;
             sums.y1 += seen * z;
             sums.y2 += seen;
-            sums.y3 += residual - seen;
+            if paired {
+                let of = |value: N, share: N| (value * share).shifted(12);
+                let once = of(weight, still);
+                let both = of(once, share);
+                sums.a13 += both * z;
+                sums.a23 += both;
+                sums.a33 += of(once, still);
+                sums.y3 += of(residual, still);
+            } else {
+                sums.a13 += (once - twice) * z;
+                sums.a23 += once - twice;
+                sums.a33 += weight - once - once + twice;
+                sums.y3 += residual - seen;
+            }
             if glass > N::default() {
-                of_glass.add((residual, weight), (share, glass), z);
+                of_glass.add((residual, weight), (share, glass), z, paired.then_some(still));
             }
         }
         // mu counts in 32 of z, and residuals as weights do.
@@ -92,13 +102,13 @@ impl<N: Number> Sums<N> {
 
 impl<N: Number> GlassSums<N> {
     /// Adds a bin with its residual and weight, the shares of echo and glass, and z.
-    fn add(&mut self, (residual, weight): (N, N), (share, glass): (N, N), z: N) {
+    fn add(&mut self, (residual, weight): (N, N), (share, glass): (N, N), z: N, still: Option<N>) {
         let of = |value: N, share: N| (value * share).shifted(12);
         let once = of(weight, glass);
         let both = of(once, share);
         self.a14 += both * z;
         self.a24 += both;
-        self.a34 += once - both;
+        self.a34 += still.map_or(once - both, |still| of(once, still));
         self.a44 += of(once, glass);
         self.y4 += of(residual, glass);
     }

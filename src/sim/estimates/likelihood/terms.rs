@@ -20,6 +20,8 @@ pub struct Bin<N> {
     pub ambient: N,
     /// Hazard of the cover glass's light.
     pub glass: N,
+    /// Hazard of the other echo's light.
+    pub other: N,
 }
 
 /// Terms of a bin.
@@ -35,24 +37,26 @@ pub struct Terms<N> {
     pub share: N,
     /// The share of the cover glass's light, 12 fraction bits.
     pub glass: N,
+    /// The share of ambient light and of the cover glass's, 12 fraction bits.
+    pub still: N,
 }
 
 impl<N: Number> Bin<N> {
     /// With words for counts of so many bits.
     pub fn terms(&self, count_bits: u32) -> Terms<N> {
-        let hazard = self.signal + self.ambient + self.glass;
+        let hazard = self.signal + self.ambient + self.glass + self.other;
         let hazard = hazard.within([LEAST_HAZARD, MOST_HAZARD].map(N::whole));
         let none = N::default();
         let share =
             |part: N| if part > none { N::share(part.at_most(hazard), hazard) } else { none };
-        let (share, glass) = (share(self.signal), share(self.glass));
+        let [share, glass, still] = [self.signal, self.glass, self.ambient + self.glass].map(share);
         let expected = N::expected(self.waiting, hazard).filled(count_bits + 18);
         let k = N::k(hazard);
         let surplus = self.ended * k - expected;
         let residual = surplus.shifted(FRACTION - i64::from(RESIDUAL_FRACTION));
         let gain = (k - hazard.floored(10)).at_least(N::default());
         let weight = (expected.floored(5).filled(count_bits + 8) * gain).shifted(13);
-        Terms { expected, residual: residual.kept(count_bits + 9), weight, share, glass }
+        Terms { expected, residual: residual.kept(count_bits + 9), weight, share, glass, still }
     }
 }
 

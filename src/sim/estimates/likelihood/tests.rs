@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 mod glass;
 
 use super::*;
-use crate::firmware::likelihood_estimator::{In, LikelihoodEstimator};
+use crate::firmware::likelihood_estimator::{In, LikelihoodEstimator, Registers};
 use crate::firmware::tof_top::slot::SlotEstimator;
 use crate::kernel::U;
 use crate::optics::{BinProbabilities, Hazard};
@@ -30,8 +30,22 @@ fn step(block: &mut LikelihoodEstimator, p: &Params, histogram: &[u32]) -> (Foun
         sigma: now.sigma.get() as i64,
         status: now.status.into(),
         chi_square: now.chi_square.get() as i64,
+        second: second(now),
     };
     (found, edges)
+}
+
+/// The second target, of which nothing but 0 is given without one.
+fn second(now: &Registers) -> Option<Second> {
+    let is_there = now.second_sigma != 0;
+    assert!(is_there || now.second_depth.get() == 0 && now.second_strength == 0);
+    assert_eq!(now.second_valid, is_there && now.second_status == 0);
+    is_there.then(|| Second {
+        depth: now.second_depth.get(),
+        sigma: now.second_sigma.get() as i64,
+        signal: now.second_strength.get() as i64,
+        status: now.second_status.into(),
+    })
 }
 
 /// Histograms of a scenario, drawn from its closed form.
@@ -61,13 +75,16 @@ fn extremes(bins: usize, most: u32, rng: &mut impl RngExt) -> Vec<Vec<u32>> {
 }
 
 /// Instruments: a scenario's name and what is set.
-const INSTRUMENTS: [(&str, &[&str]); 6] = [
+const INSTRUMENTS: [(&str, &[&str]); 9] = [
     ("kc705", &[]),
     ("kc705", &["tdc.profile=table6_3", "laser.pulse_sigma_ps=400"]),
     ("kc705", &["tdc.profile=ideal", "laser.pulse_sigma_ps=80", "target.distance_m=0.07"]),
     ("compact", &[]),
     ("fine", &["target.distance_m=0.06", "ambient.irradiance_w_m2_nm=1"]),
     ("kc705", &["laser.delay_ps=1234.5", "target.distance_m=0.2"]),
+    ("kc705", &["estimator.targets=2"]),
+    ("compact", &["estimator.targets=2", "estimator.order=strongest"]),
+    ("fine", &["estimator.targets=2", "target.distance_m=0.06"]),
 ];
 
 /// Compares block and estimate on so many drawn histograms of each instrument, and as many extreme ones.

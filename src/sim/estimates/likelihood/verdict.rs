@@ -3,9 +3,9 @@
 use crate::firmware::forward2::Depth;
 use crate::firmware::likelihood_estimator::words::{
     ANOTHER_SCORE, CERTAIN_SCORE, CHI_FRACTION, DEPTH_FRACTION, FAR, LEAST_SCORE, LEAST_WAITING,
-    SURE_SCORE, WEIGHT_FRACTION,
+    SIGNAL_FRACTION, SURE_SCORE, WEIGHT_FRACTION,
 };
-use crate::firmware::tof_top::slot::EstimateWords;
+use crate::firmware::tof_top::slot::{EstimateWords, SecondWords};
 use crate::firmware::tof_top::status::{Status, StatusSet};
 use crate::kernel::U;
 
@@ -32,6 +32,21 @@ pub struct Found<N = i64> {
     pub status: StatusSet,
     /// Sum of squared residuals over their variances, 8 fraction bits [1].
     pub chi_square: N,
+    /// The second target, if there are two.
+    pub second: Option<Second<N>>,
+}
+
+/// The second of two targets.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Second<N = i64> {
+    /// Depth [m, 29 fraction bits].
+    pub depth: N,
+    /// Its standard deviation [m, 29 fraction bits].
+    pub sigma: N,
+    /// Signal [photons a shot, 14 fraction bits].
+    pub signal: N,
+    /// Reasons to reject it.
+    pub status: StatusSet,
 }
 
 impl Found {
@@ -42,7 +57,38 @@ impl Found {
             sigma: U::new(self.sigma as u64),
             status: U::new(self.status.bits().into()),
             valid: self.status.is_empty(),
+            second: self.second.map(|second| second.words()).unwrap_or_default(),
         }
+    }
+}
+
+impl Second {
+    /// The words as the ports have them.
+    fn words(&self) -> SecondWords {
+        SecondWords {
+            second_depth: Depth::new(self.depth),
+            second_sigma: U::new(self.sigma as u64),
+            second_strength: U::new(self.signal as u64),
+            second_status: U::new(self.status.bits().into()),
+            second_valid: self.status.is_empty(),
+        }
+    }
+}
+
+impl<N: Number> Second<N> {
+    /// The depth [m].
+    pub fn depth_m(&self) -> f64 {
+        self.depth.value(DEPTH_FRACTION)
+    }
+
+    /// Standard deviation of the depth [m].
+    pub fn sigma_m(&self) -> f64 {
+        self.sigma.value(DEPTH_FRACTION)
+    }
+
+    /// Signal [photons a shot].
+    pub fn signal(&self) -> f64 {
+        self.signal.value(SIGNAL_FRACTION)
     }
 }
 
@@ -100,7 +146,9 @@ pub fn verdict<I: Instrument>(
         terms.squared(count_bits) > whole(FAR) * (terms.weight + whole(1 << WEIGHT_FRACTION))
     });
     let chi_square = terms.iter().map(|(terms, _)| terms.chi_square(count_bits));
-    let first = p.window(last.arrival).find(|&bin| p.has(bin));
+    let begin = p.window(last.arrival).start;
+    let mut bins = last.fitted(p).into_iter().flatten();
+    let first = bins.find(|&bin| bin >= begin && p.has(bin));
     let waiting = first.map(|bin| shots.waiting(bin));
     let margin = scales.sigma.floored(-3);
     // Largest variance of log S: a 16th unless the echo is certain, and with a score that is not sure, a 25th.
@@ -133,6 +181,7 @@ pub fn verdict<I: Instrument>(
         sigma: to_depth(sigma),
         status: StatusSet::of(&reasons),
         chi_square: chi_square.fold(whole(0), |sum, term| sum + term),
+        second: None,
     };
     Judged { found, flags, waiting }
 }

@@ -63,7 +63,7 @@ impl Estimator for TwoEchoes {
         let alone = self.0.fit(histogram)?;
         let both = self.0.fit_both(histogram, &alone);
         let fits = both.map_or(vec![alone], |both| vec![both.first, both.second]);
-        let EchoDepth { depth_m, sigma_m } = self.0.depth(&fits[0]);
+        let EchoDepth { depth_m, sigma_m, .. } = self.0.depth(&fits[0]);
         let second = fits.get(1).map(|second| self.0.depth(second));
         let pedestal = self.0.pedestal(histogram, &fits);
         Ok(Found { depth_m, sigma_m: Some(sigma_m), second, pedestal })

@@ -1,5 +1,6 @@
 //! Two surfaces in a beam: what an estimator of one echo makes of two, and what can be made of them together.
 
+mod firmware;
 mod joint;
 mod one_echo;
 mod pair;

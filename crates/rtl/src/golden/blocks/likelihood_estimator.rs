@@ -10,7 +10,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.likelihood_cycles.into() }],
-    configurations: &[LATE, configuration::GLASS],
+    configurations: &[LATE, configuration::GLASS, configuration::TWO, configuration::TWO_BEHIND_GLASS],
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
         at.top.likelihood_estimator.rise(&i, &at.params.estimators.likelihood_estimator);
@@ -30,12 +30,17 @@ const LATE: Configuration = Configuration {
 const CYCLES: usize = 126_000;
 /// The same where an estimation takes longer.
 const CYCLES_WITH_GLASS: usize = 200_000;
+const CYCLES_OF_TWO: usize = 500_000;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut estimations = Estimations::new(setting, true);
     let mut run = Recorder::without_parts(spec, setting, In::list());
-    let has_glass = setting.setup.params.estimators.likelihood_estimator.glass.bins() > 0;
-    let cycles = if has_glass { CYCLES_WITH_GLASS } else { CYCLES };
+    let params = &setting.setup.params.estimators.likelihood_estimator;
+    let cycles = match (params.has_second(), params.glass.bins() > 0) {
+        (true, _) => CYCLES_OF_TWO,
+        (false, true) => CYCLES_WITH_GLASS,
+        (false, false) => CYCLES,
+    };
     for _ in 0..setting.cycles.unwrap_or(cycles) {
         let i = estimations.next(&run.top.likelihood_estimator, &mut run.draw);
         run.line(&i);

@@ -4,11 +4,12 @@ use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_estimator::{LikelihoodEstimator, Wires};
 use tofsim::firmware::likelihood_glass::In;
 
-use crate::golden::configuration::behind_glass;
+use crate::golden::configuration::{TWO_BEHIND_GLASS, behind_glass};
 use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
+    configurations: &[Configuration { parameters: &["Targets"], ..TWO_BEHIND_GLASS }],
     model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_glass", "likelihood_estimator.likelihood_glass", record)
 };
@@ -28,7 +29,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     };
     // A design without glass has no such block.
     let setting = &behind_glass(setting.clone());
-    let (mut drawn, histogram) = (Drawn::default(), setting.histogram());
+    let has_second = setting.setup.params.estimators.likelihood_estimator.has_second();
+    let (mut drawn, histogram) = (Drawn { has_second, ..Drawn::default() }, setting.histogram());
     let run = PART.record(spec, setting, see, |_, _, draw| drawn.next(&histogram, draw));
     vectors(run, spec, setting, [lights, signs])
 }
@@ -38,6 +40,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
 struct Drawn {
     now: In,
     left: u64,
+    has_second: bool,
 }
 
 impl Drawn {
@@ -47,6 +50,7 @@ impl Drawn {
         if now.pass {
             self.left = 30 + draw.below(90);
             now.glass = U::new(draw.near_ends(1 << 24) >> draw.below(24));
+            now.paired = self.has_second && draw.one_in(2);
         }
         self.left -= 1;
         if now.pass || now.phase {
@@ -61,6 +65,9 @@ impl Drawn {
         now.weight_first = U::new(draw.near_ends(1 << (count + 8).max(24)));
         now.share = U::new(draw.near_ends(4097));
         now.slope = S::new(draw.signed_within(9));
+        if self.has_second {
+            now.still_share = U::new(draw.near_ends(4097));
+        }
         *now
     }
 }

@@ -3,14 +3,14 @@
 use tofsim::firmware::likelihood_estimator::Wires;
 use tofsim::firmware::likelihood_memory::In;
 
-use crate::golden::configuration::GLASS;
+use crate::golden::configuration::{GLASS, TWO, TWO_BEHIND_GLASS};
 use crate::golden::likelihood::Estimations;
 use crate::golden::likelihood::part::vectors;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    configurations: &[GLASS],
+    configurations: &[GLASS, TWO, TWO_BEHIND_GLASS],
     model: Some(Model::new::<In>(|at| {
         let i = at.input();
         at.top.likelihood_estimator.likelihood_memory.rise(&i, &at.params.estimators.likelihood_estimator);

@@ -5,14 +5,15 @@ use tofsim::firmware::likelihood_estimator::words::SCARCE;
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_solver::In;
 use tofsim::firmware::likelihood_solver::program::Program;
+use tofsim::firmware::likelihood_estimator::params::Params;
 
-use crate::golden::configuration::GLASS;
+use crate::golden::configuration::{GLASS, TWO, TWO_BEHIND_GLASS};
 use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    configurations: &[GLASS],
+    configurations: &[GLASS, TWO, TWO_BEHIND_GLASS],
     model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_solver", "likelihood_estimator.likelihood_solver", record)
 };
@@ -23,13 +24,14 @@ const PART: Part<In> = Part {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let program = setting.setup.params.estimators.likelihood_estimator.program();
+    let params = &*setting.setup.params.estimators.likelihood_estimator;
+    let program = params.program();
     let mut counters = Cover::new("instruction", 0..program.instructions.len() as u64);
     let see = |estimator: &LikelihoodEstimator, _: &In, _| counters.see(estimator.likelihood_solver.counter());
     let (mut running, histogram) = (false, setting.histogram());
     let run = PART.record(spec, setting, see, |estimator, _, draw| {
         running &= !estimator.likelihood_solver.registers.ran;
-        let mut own = operands(&histogram, program, draw);
+        let mut own = operands(&histogram, params, draw);
         own.run = !running && draw.one_in(3);
         running = (running || own.run) && !own.rst;
         own
@@ -38,17 +40,20 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
 }
 
 /// Draws a program and its operands.
-fn operands(histogram: &histogram_builder::Params, program: &Program, draw: &mut Draw) -> In {
+fn operands(histogram: &histogram_builder::Params, params: &Params, draw: &mut Draw) -> In {
     let (count, bin) = (histogram.count_bits, histogram.bins.ilog2());
-    let &Program { ambient, start, step, end, .. } = program;
+    let Program { ambient, start, step, end, second, swap, .. } = *params.program();
     // Most arrivals are next to an end of the window, and a step leads out of it.
     let last = 2 * histogram.bins as u64 - 1;
-    let programs = [ambient, start, start, step, step, step, end];
+    let mut programs = vec![ambient, start, start, step, step, step, end];
+    if params.has_second() {
+        programs.extend([second, swap, swap]);
+    }
     let mut slope = || S::new(draw.signed_within(count + 24));
     let (sum_12, sum_13, score_1) = (slope(), slope(), slope());
     let mut sum = || S::new(draw.signed_within(count + 19));
     let (sum_23, score_2, score_3) = (sum(), sum(), sum());
-    let has_glass = program.instructions.len() > 64;
+    let has_glass = params.glass.bins() > 0;
     let mut of_glass = |bits: u32| if has_glass { draw.signed_within(bits) } else { 0 };
     let (sum_14, sum_24, sum_34) = (of_glass(count + 24), of_glass(count + 19), of_glass(count + 19));
     let (sum_44, score_4) = (of_glass(count + 19).abs(), of_glass(count + 19));
@@ -83,5 +88,26 @@ fn operands(histogram: &histogram_builder::Params, program: &Program, draw: &mut
         sum_34: S::new(sum_34),
         sum_44: S::new(sum_44),
         score_4: S::new(score_4),
+        ..of_pair(count, params, draw)
+    }
+}
+
+/// Draws the sums of log b beside another echo.
+fn of_pair(count: u32, params: &Params, draw: &mut Draw) -> In {
+    if !params.has_second() {
+        return In::default();
+    }
+    let still_33 = if draw.one_in(4) {
+        SCARCE - 2 + draw.below(4) as i64
+    } else {
+        draw.unsigned_of(count + 18) as i64
+    };
+    In {
+        paired: draw.one_in(2),
+        still_13: S::new(draw.signed_within(count + 24)),
+        still_23: S::new(draw.signed_within(count + 19)),
+        still_33: S::new(still_33),
+        still_score: S::new(draw.signed_within(count + 19)),
+        ..In::default()
     }
 }

@@ -4,10 +4,12 @@ use tofsim::firmware::likelihood_estimator::{LikelihoodEstimator, Wires};
 use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_sums::In;
 
+use crate::golden::configuration::TWO;
 use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
+    configurations: &[TWO],
     model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_sums", "likelihood_estimator.likelihood_sums", record)
 };

@@ -5,12 +5,12 @@ use tofsim::firmware::likelihood_estimator::{LikelihoodEstimator, Wires};
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::likelihood_terms::In;
 
-use crate::golden::configuration::GLASS;
+use crate::golden::configuration::{GLASS, TWO, TWO_BEHIND_GLASS};
 use crate::golden::likelihood::part::{Part, vectors};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    configurations: &[GLASS],
+    configurations: &[GLASS, TWO, TWO_BEHIND_GLASS],
     model: Some(Model::new::<In>(|at| PART.step(at))),
     ..Spec::new("likelihood_terms", "likelihood_estimator.likelihood_terms", record)
 };
@@ -52,9 +52,14 @@ fn draw(own: &mut In, params: &Params, draw: &mut Draw) {
         own.strength = U::new(size(24, draw));
         own.ambient = U::new(size(24, draw));
     }
-    if params.glass.bins() > 0 {
+    if params.has_more_light() {
         own.dark = draw.one_in(8);
+    }
+    if params.glass.bins() > 0 {
         own.glass_light = U::new(size(26, draw));
+    }
+    if params.has_second() {
+        own.other_light = U::new(size(26, draw));
     }
     let (step, arrival) = (8i64 << params.step_log2, own.arrival.get() as i64);
     let steps = match draw.below(4) {

@@ -32,7 +32,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, GLASS, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK, OWN_EDGES, OWN_CHAINS],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, GLASS, TWO, CODES, HISTOGRAM, TWO_BANKS, ONE_BANK, OWN_EDGES, OWN_CHAINS],
     model: Some(Model {
         // It is looked at once its clocks run.
         settle: |at| at.top.pll.locked = true,
@@ -75,6 +75,15 @@ const GLASS: Configuration = Configuration {
     parameters: &["Estimator", "GlassBins", "GlassLight", "GlassFile"],
     module: Some("likelihood_glass"),
     has_glass: true,
+    ..LIKELIHOOD
+};
+
+/// The same where it finds two targets.
+const TWO: Configuration = Configuration {
+    name: "two",
+    set: &["estimator.kind=likelihood", "laser.pulse_sigma_ps=100", "estimator.targets=2"],
+    parameters: &["Estimator", "Targets", "ProgramFile"],
+    module: Some("likelihood_pair"),
     ..LIKELIHOOD
 };
 

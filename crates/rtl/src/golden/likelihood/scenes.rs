@@ -77,7 +77,13 @@ impl Estimations<'_> {
     }
 
     /// A histogram of a target at a part of the window.
-    fn scene(&self, place: f64, reflectance: f64, irradiance: f64, draw: &mut Draw) -> Vec<u32> {
+    pub(super) fn scene(
+        &self,
+        place: f64,
+        reflectance: f64,
+        irradiance: f64,
+        draw: &mut Draw,
+    ) -> Vec<u32> {
         let mut scenario = self.setup.scenario.clone();
         scenario.target.distance_m = self.end_ps() * 1.5e-4 * place;
         scenario.target.reflectance = reflectance;

@@ -80,7 +80,7 @@ impl CountedDesign {
 
     /// The programs of the likelihood estimator's solver.
     pub fn program(&self) -> &'static Program {
-        self.likelihood.as_ref().map_or_else(|| Program::of(false), Likelihood::program)
+        self.likelihood.as_ref().map_or_else(|| Program::of(false, false), Likelihood::program)
     }
 
     /// The macros that say how large the likelihood estimator is, and its parameters.
@@ -94,6 +94,7 @@ impl CountedDesign {
             ("BinsBefore", before, BESIDE),
             ("BinsAfter", after, BESIDE),
             ("GlassBins", params.glass.bins(), 0),
+            ("Targets", params.targets.most() as usize, 1),
         ];
         vec![
             ("LIKELIHOOD_BINS", bins.to_string()),
@@ -101,6 +102,7 @@ impl CountedDesign {
             ("LIKELIHOOD_BEFORE", before.to_string()),
             ("LIKELIHOOD_AFTER", after.to_string()),
             ("LIKELIHOOD_GLASS", params.glass.bins().to_string()),
+            ("LIKELIHOOD_TARGETS", params.targets.most().to_string()),
             ("LIKELIHOOD", others(&sizes)),
         ]
         .into_iter()
@@ -152,11 +154,17 @@ pub fn with_defines(module: &str, defines: &[Define], text: &str) -> String {
 
 /// The macros with the programs of the likelihood estimator's solver: first and last instruction and cycles of each, and
 /// for each instruction the cycle in which it begins and how long it waits for that.
-fn of_program(program: &Program) -> [Define; 5] {
-    let Program { instructions, ambient, start, step, end } = program;
-    let entries = [*ambient, *start, *step, *end, instructions.len() as u64];
+fn of_program(program: &Program) -> [Define; 7] {
+    let Program { instructions, ambient, start, step, end, second, swap } = program;
+    // One target has four programs.
+    let after = instructions.len() as u64;
+    let [second, swap] = [second, swap].map(|entry| if *entry > 0 { *entry } else { after });
+    let entries = [*ambient, *start, *step, *end, second, swap, after];
     let literal = |which: usize| {
-        let (first, last) = (entries[which], entries[which + 1] - 1);
+        let (first, last) = (entries[which], entries[which + 1].saturating_sub(1));
+        if first == after {
+            return "30'd0".to_owned();
+        }
         format!("{{7'd{first}, 7'd{last}, 16'd{}}}", program.cycles(first))
     };
     let mut begins = 0;
@@ -176,6 +184,8 @@ fn of_program(program: &Program) -> [Define; 5] {
         ("LIKELIHOOD_START", literal(1)),
         ("LIKELIHOOD_STEP", literal(2)),
         ("LIKELIHOOD_END", literal(3)),
+        ("LIKELIHOOD_SECOND", literal(4)),
+        ("LIKELIHOOD_SWAP", literal(5)),
         ("LIKELIHOOD_PROGRAM", lines.join(" ")),
     ]
 }

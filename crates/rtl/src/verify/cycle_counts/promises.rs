@@ -75,6 +75,7 @@ static LIKELIHOOD: Properties = Properties {
         "likelihood_terms",
         "likelihood_sums",
         "likelihood_glass",
+        "likelihood_pair",
         "likelihood_scan",
     ],
     registers: &[
@@ -82,6 +83,9 @@ static LIKELIHOOD: Properties = Properties {
         "waited",
         "steps",
         "dark",
+        "wide",
+        "paired",
+        "turns",
         "run",
         "entry",
         "likelihood_solver.running",
@@ -90,7 +94,7 @@ static LIKELIHOOD: Properties = Properties {
         "likelihood_solver.pause",
     ],
     logic: "proc -norom; memory -nomap; memory_map -rom-only; delete */t:likelihood_memory */t:likelihood_terms \
-            */t:likelihood_sums */t:likelihood_glass */t:likelihood_scan */t:$mem*",
+            */t:likelihood_sums */t:likelihood_glass */t:likelihood_pair */t:likelihood_scan */t:$mem*",
     steps: 2,
     ..Properties::new("check_likelihood", "bench_likelihood", of_estimator!("check_likelihood.sv"))
 };

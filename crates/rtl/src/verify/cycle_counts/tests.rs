@@ -142,6 +142,20 @@ fn an_estimation_behind_glass_takes_5639_clocks() {
 }
 
 #[test]
+fn an_estimation_of_two_targets_takes_9559_clocks() {
+    assert_eq!(likelihood(&["estimator.targets=2"]), 9559);
+}
+
+#[test]
+fn an_estimation_of_two_targets_behind_glass_takes_12901_clocks() {
+    let mut design = of(&["estimator.targets=2"]);
+    let hazards: Vec<_> = (0..30).map(|bin| 0.01 + 0.001 * f64::from(bin)).collect();
+    let glass = Glass::of(&hazards);
+    design.likelihood = design.likelihood.map(|usual| Likelihood { glass, ..usual });
+    assert_eq!(of_likelihood("two targets, a pedestal of 30 bins", design), 12_901);
+}
+
+#[test]
 fn a_likelihood_estimation_takes_3779_clocks() {
     assert_eq!(likelihood(&[]), 3779);
 }

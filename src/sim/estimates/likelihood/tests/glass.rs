@@ -8,6 +8,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use crate::firmware::histogram_builder;
 use crate::firmware::likelihood_estimator::LikelihoodEstimator;
 use crate::firmware::likelihood_estimator::params::{Params, Wanted};
+use crate::firmware::likelihood_estimator::targets::Targets;
 use crate::kernel::pulse::Pulse;
 
 use super::super::estimate;
@@ -26,7 +27,7 @@ fn parts(at_ps: f64) -> Vec<f64> {
     (0..256).map(|bin| before(bin + 1) - before(bin)).collect()
 }
 
-fn instrument(glass: &[f64]) -> Params {
+fn instrument(glass: &[f64], targets: Targets) -> Params {
     let edges_ps: Vec<_> = (0..=256).map(|bin| f64::from(bin) * BIN_PS).collect();
     Params::new(&Wanted {
         histogram: histogram_builder::Params::default(),
@@ -37,6 +38,7 @@ fn instrument(glass: &[f64]) -> Params {
         metres_per_ps: METRES_PER_PS,
         delay_ps: 0.0,
         glass,
+        targets,
     })
     .unwrap()
 }
@@ -66,7 +68,7 @@ fn errors_behind_glass_are_as_large_as_sigma_states() {
         let echo = parts(at_ps);
         let hazards: Vec<_> =
             (0..256).map(|bin| ambient + now * template[bin] + signal * echo[bin]).collect();
-        let found = estimate(&instrument(&template), &draw(&hazards, &mut random));
+        let found = estimate(&instrument(&template, Targets::One), &draw(&hazards, &mut random));
         all += 1;
         if !found.status.is_empty() {
             continue;
@@ -88,8 +90,7 @@ fn the_block_finds_the_same_behind_glass() {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     for (at_ps, light, scale) in [(0.0, 0.5, 1.0), (100.0, 3.0, 0.5), (700.0, 0.05, 2.0)] {
         let template: Vec<_> = parts(at_ps).iter().map(|part| part * light).collect();
-        let p = instrument(&template);
-        let mut block = LikelihoodEstimator::default();
+        let p = instrument(&template, Targets::One);
         let mut all = extremes(256, p.histogram.most_hits() as u32, &mut random);
         for at_ps in [200.0, 333.0, 700.0, 900.0, 1500.0, 4000.0, 6300.0] {
             let echo = parts(at_ps);
@@ -97,10 +98,44 @@ fn the_block_finds_the_same_behind_glass() {
             let hazard = |bin: usize| 1e-3 + scale * template[bin] + signal * echo[bin];
             all.push(draw(&(0..256).map(hazard).collect::<Vec<_>>(), &mut random));
         }
-        for histogram in all {
-            let (found, edges) = step(&mut block, &p, &histogram);
-            assert_eq!(found, estimate(&p, &histogram), "{at_ps} {histogram:?}");
-            assert_eq!(edges, p.done());
+        finds_the_same(&p, &all);
+    }
+}
+
+/// Compares block and estimate on histograms. Returns how many have two targets.
+fn finds_the_same(p: &Params, histograms: &[Vec<u32>]) -> usize {
+    let mut block = LikelihoodEstimator::default();
+    let same = |histogram: &Vec<u32>| {
+        let (found, edges) = step(&mut block, p, histogram);
+        assert_eq!(found, estimate(p, histogram), "{histogram:?}");
+        assert_eq!(edges, p.done());
+        usize::from(found.second.is_some())
+    };
+    histograms.iter().map(same).sum()
+}
+
+/// The same with two echoes near and far from each other, in either order, with a glass and without.
+#[test]
+fn the_block_finds_the_same_two_targets() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let glasses: [&[f64]; 2] = [&[], &parts(100.0)];
+    for glass in glasses {
+        for targets in [Targets::NearestFirst, Targets::StrongestFirst] {
+            let p = instrument(glass, targets);
+            let mut all = extremes(256, p.histogram.most_hits() as u32, &mut random);
+            for apart in [0.5, 1.0, 2.0, 2.7, 2.9, 3.2, 4.0, 6.0, 9.0, 12.0, 20.0, 30.0] {
+                let at_ps = random.random_range(150.0..3000.0);
+                let signal = random.random_range(0.02..1.0);
+                let second = signal * random.random_range(0.1f64.ln()..1.2).exp();
+                let [one, other] = [at_ps, at_ps + apart * SIGMA_PS].map(parts);
+                let hazard = |bin: usize| {
+                    let glass = glass.get(bin).copied().unwrap_or(0.0);
+                    1e-3 + glass + signal * one[bin] + second * other[bin]
+                };
+                all.push(draw(&(0..256).map(hazard).collect::<Vec<_>>(), &mut random));
+            }
+            let two = finds_the_same(&p, &all);
+            assert!((5..=13).contains(&two), "{two}");
         }
     }
 }

@@ -67,6 +67,12 @@ impl Pair {
         (Scene { instrument, shots: SHOTS, codes, bound_m: bounds_m[0], signal }, bounds_m)
     }
 
+    /// The scene without bounds, of a first echo alone if the second has no strength.
+    pub fn alone<'a>(&self, instrument: &'a Instrument, shots: u64) -> Scene<'a> {
+        let codes = self.codes(instrument);
+        Scene { instrument, shots, codes, bound_m: 0.0, signal: self.0[1].exp() }
+    }
+
     /// Cramér-Rao bounds of both distances, where all five coordinates are unknown [m].
     fn bounds_m(&self, instrument: &Instrument, chances: &[f64]) -> [f64; 2] {
         let moved = |k: usize, by: f64| {

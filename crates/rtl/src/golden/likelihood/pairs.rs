@@ -1,0 +1,81 @@
+//! Histograms with two echoes, drawn until a fit of both ends in each way that it can.
+
+use std::ops::Range;
+
+use tofsim::firmware::likelihood_estimator::targets::{HINT, LEAST_APART, LEAST_DROP, NEAR};
+use tofsim::sim::estimates::likelihood::trace;
+
+use crate::golden::draw::Draw;
+
+use super::{Estimations, TRIES};
+
+/// Two targets; two of which one has a status; two that are too near each other; one that may be two; one that a faint
+/// echo far from it leaves as it is.
+const FOUND: u64 = 0;
+const REJECTED: u64 = 1;
+const TOO_NEAR: u64 = 2;
+const MOVED: u64 = 3;
+const ALONE: u64 = 4;
+/// All of these.
+pub(super) const FATES: Range<u64> = 0..5;
+
+impl Estimations<'_> {
+    /// Draws pairs until one has that fate.
+    pub(super) fn of_fate(&mut self, fate: u64, draw: &mut Draw) -> Vec<u32> {
+        for _ in 1..TRIES {
+            let pair = self.pair(fate, draw);
+            if self.has_fate(&pair, fate) {
+                self.pairs.see(fate);
+                return pair;
+            }
+        }
+        self.pair(fate, draw)
+    }
+
+    /// Returns whether a fit of two echoes ends so.
+    fn has_fate(&self, histogram: &[u32], fate: u64) -> bool {
+        let trace = trace(self.params, histogram);
+        let Some(turns) = trace.turns else { return false };
+        let ([alone, both], sigma) = (turns.chi_squares, self.params.sigma);
+        let drop = alone - both;
+        match fate {
+            FOUND => trace.found.second.is_some_and(|second| second.status.is_empty()),
+            REJECTED => trace.found.second.is_some_and(|second| !second.status.is_empty()),
+            TOO_NEAR => drop > LEAST_DROP && turns.apart < LEAST_APART * sigma,
+            MOVED => (HINT..LEAST_DROP).contains(&drop) && turns.apart < NEAR * sigma,
+            ALONE => (HINT..LEAST_DROP).contains(&drop) && turns.apart > NEAR * sigma,
+            _ => true,
+        }
+    }
+
+    /// Draws two echoes, near each other, far from each other, or faint.
+    fn pair(&self, fate: u64, draw: &mut Draw) -> Vec<u32> {
+        let mut part = || draw.below(1000) as f64 / 1000.0;
+        let sigma = self.params.sigma as f64 / (64 * self.params.histogram.bins) as f64;
+        let first = 0.2 + 0.5 * part();
+        let apart = match fate {
+            FOUND | REJECTED => 2.9 + 4.0 * part(),
+            TOO_NEAR | MOVED => 1.0 + 1.7 * part(),
+            _ => 5.0 + 10.0 * part(),
+        };
+        // What comes back falls with the square of the distance.
+        let level = |least: f64, part: f64| first * first * least * (1.0 + 4.0 * part);
+        let [one, other] = match fate {
+            FOUND | TOO_NEAR => [level(0.1, part()), level(0.1, part())],
+            REJECTED => [level(0.3, part()), level(0.3, part())],
+            MOVED => [level(0.02, part()), level(0.005, part())],
+            _ => [level(0.05, part()), level(0.002, part())],
+        };
+        let second = (first + apart * sigma).min(0.98);
+        let mut counts = self.scene(first, one, 0.2, draw);
+        let other = self.scene(second, other, 0.2, draw);
+        counts.iter_mut().zip(other).for_each(|(count, other)| *count = (*count + other) / 2);
+        if fate == REJECTED {
+            // A bin of one of both has too many hits.
+            let peak = (0..counts.len()).max_by_key(|bin| counts[*bin]).unwrap_or(0);
+            let odd = (peak + 6).min(counts.len() - 1);
+            counts[odd] += counts[odd] / 4 + 100;
+        }
+        counts
+    }
+}
