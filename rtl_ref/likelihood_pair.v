@@ -11,7 +11,7 @@ module likelihood_pair #(
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
     parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
     parameter integer GlassBins = 0,             // see likelihood_memory
-    parameter integer Targets = 1,               // see likelihood_memory
+    parameter integer Targets = 2,               // see likelihood_memory; with 1, nothing is left of it
     parameter integer StepLog2 = 1,              // step of the pulse is 2 to the power of this [units]
     parameter PulseFile = "rtl_ref/pulse.mem"    // part before, slope of the pulse, slope of the part, by time
 ) (

@@ -114,7 +114,7 @@ fn with_template(scenario: &Scenario) -> &'static [Method] {
 
 /// Returns the methods that find a second target.
 fn with_two_targets(scenario: &Scenario) -> &'static [Method] {
-    if scenario.estimator.targets > 1 { &[LikelihoodEstimator] } else { &[] }
+    if scenario.estimator.targets > 1 { &[LikelihoodEstimator, SecondOpinion] } else { &[] }
 }
 
 fn has_cover(scenario: &Scenario) -> bool {

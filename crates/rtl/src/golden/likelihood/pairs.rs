@@ -10,18 +10,21 @@ use crate::golden::draw::Draw;
 use super::{Estimations, TRIES};
 
 /// Two targets; two of which one has a status; two that are too near each other; one that may be two; one that a faint
-/// echo far from it leaves as it is.
+/// echo far from it leaves as it is; two of which the second takes all shots that are left, so that its signal is not
+/// known.
 const FOUND: u64 = 0;
 const REJECTED: u64 = 1;
 const TOO_NEAR: u64 = 2;
 const MOVED: u64 = 3;
 const ALONE: u64 = 4;
+const UNCERTAIN: u64 = 5;
 /// All of these.
-pub(super) const FATES: Range<u64> = 0..5;
+pub(super) const FATES: Range<u64> = 0..6;
 
 impl Estimations<'_> {
-    /// Draws pairs until one has that fate.
+    /// Draws pairs until one has that fate; the last two take turns.
     pub(super) fn of_fate(&mut self, fate: u64, draw: &mut Draw) -> Vec<u32> {
+        let fate = if fate == ALONE { fate + self.begun % 2 } else { fate };
         for _ in 1..TRIES {
             let pair = self.pair(fate, draw);
             if self.has_fate(&pair, fate) {
@@ -44,12 +47,16 @@ impl Estimations<'_> {
             TOO_NEAR => drop > LEAST_DROP && turns.apart < LEAST_APART * sigma,
             MOVED => (HINT..LEAST_DROP).contains(&drop) && turns.apart < NEAR * sigma,
             ALONE => (HINT..LEAST_DROP).contains(&drop) && turns.apart > NEAR * sigma,
+            UNCERTAIN => drop > LEAST_DROP && turns.apart > LEAST_APART * sigma && !turns.are_two,
             _ => true,
         }
     }
 
     /// Draws two echoes, near each other, far from each other, or faint.
     fn pair(&self, fate: u64, draw: &mut Draw) -> Vec<u32> {
+        if fate == UNCERTAIN {
+            return self.with_last(draw);
+        }
         let mut part = || draw.below(1000) as f64 / 1000.0;
         let sigma = self.params.sigma as f64 / (64 * self.params.histogram.bins) as f64;
         let first = 0.2 + 0.5 * part();
@@ -75,6 +82,21 @@ impl Estimations<'_> {
             let peak = (0..counts.len()).max_by_key(|bin| counts[*bin]).unwrap_or(0);
             let odd = (peak + 6).min(counts.len() - 1);
             counts[odd] += counts[odd] / 4 + 100;
+        }
+        counts
+    }
+    /// Draws a bright echo, and puts the shots that it leaves around a place after it.
+    fn with_last(&self, draw: &mut Draw) -> Vec<u32> {
+        let place = 0.1 + 0.1 * (draw.below(1000) as f64 / 1000.0);
+        let mut counts = self.scene(place, 0.5 + draw.below(1000) as f64 / 250.0, 0.05, draw);
+        let ended: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+        let left = self.params.shots.saturating_sub(ended).min(2000);
+        let last = counts.len() as u64 - 1;
+        let middle = counts.len() as u64 / 2 + draw.below(last / 4);
+        let sigma = self.params.sigma as u64 / 64;
+        for _ in 0..left {
+            let by: u64 = (0..4).map(|_| draw.below(2 * sigma + 1)).sum();
+            counts[(middle + by).min(last) as usize] += 1;
         }
         counts
     }
