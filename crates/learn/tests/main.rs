@@ -5,3 +5,4 @@ mod characterisation;
 mod estimators;
 mod glass;
 mod recalibration;
+mod sunlight;
