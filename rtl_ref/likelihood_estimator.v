@@ -300,7 +300,7 @@ module likelihood_estimator #(
                     : HasSecond && state_next == Swap ? SwapProgram : EndProgram;
             end
             if (state == Scan && begin_program) start_score <= best_score;
-            if (state == Step && ran && !paired) steps <= begin_scan ? 3'd0 : steps + 3'd1;
+            if (state == Step && ran && !(HasSecond && paired)) steps <= begin_scan ? 3'd0 : steps + 3'd1;
             if (HasSecond && state == Step && ran && paired) turns <= turns + 4'd1;
             if (Glass && state == Check && !begin_scan && !ends_alone && word_window) reached <= 1'b1;
             if (state == Check && !begin_scan && !ends_alone && word_bin && !seen && (!Glass || reached || word_window)) begin

@@ -90,7 +90,7 @@ impl<'a> Estimations<'a> {
             ),
             pairs: Cover::new(
                 "fates of two echoes",
-                if cuts && has_second { pairs::FATES } else { 0..0 },
+                if cuts && has_second { 0..FATES } else { 0..0 },
             ),
         }
     }

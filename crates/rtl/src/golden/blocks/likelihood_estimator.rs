@@ -30,7 +30,7 @@ const LATE: Configuration = Configuration {
 const CYCLES: usize = 126_000;
 /// The same where an estimation takes longer.
 const CYCLES_WITH_GLASS: usize = 200_000;
-const CYCLES_OF_TWO: usize = 500_000;
+const CYCLES_OF_TWO: usize = 600_000;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut estimations = Estimations::new(setting, true);

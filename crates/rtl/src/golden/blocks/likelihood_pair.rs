@@ -20,7 +20,7 @@ const PART: Part<In> = Part {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut lights = Cover::new("bits of a hazard", 0..27);
+    let mut lights = Cover::new("bits of a hazard", [0].into_iter().chain(4..27));
     let mut shares = Cover::new("share in 16ths", 0..17);
     let mut signs = Cover::new("sign of the score", 0..2);
     let see = |estimator: &LikelihoodEstimator, _: &In, _| {

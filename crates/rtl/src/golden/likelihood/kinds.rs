@@ -20,3 +20,14 @@ pub(super) const SURE: u64 = 13;
 pub(super) const ANOTHER: u64 = 14;
 pub(super) const WAITS: u64 = 15;
 pub(super) const CERTAIN: u64 = 16;
+
+/// Ends of a fit of two echoes, in the place of the limits: two targets; two of which one has a status; two that are too
+/// near each other; one that may be two; one that a faint echo far from it leaves as it is; two of which the second takes
+/// all shots that are left, so that its signal is not known.
+pub(super) const FATES: u64 = 6;
+pub(super) const FOUND: u64 = 0;
+pub(super) const REJECTED: u64 = 1;
+pub(super) const TOO_NEAR: u64 = 2;
+pub(super) const MOVED: u64 = 3;
+pub(super) const ALONE: u64 = 4;
+pub(super) const UNCERTAIN: u64 = 5;

@@ -1,25 +1,12 @@
 //! Histograms with two echoes, drawn until a fit of both ends in each way that it can.
 
-use std::ops::Range;
-
 use tofsim::firmware::likelihood_estimator::targets::{HINT, LEAST_APART, LEAST_DROP, NEAR};
 use tofsim::sim::estimates::likelihood::trace;
 
 use crate::golden::draw::Draw;
 
+use super::kinds::*;
 use super::{Estimations, TRIES};
-
-/// Two targets; two of which one has a status; two that are too near each other; one that may be two; one that a faint
-/// echo far from it leaves as it is; two of which the second takes all shots that are left, so that its signal is not
-/// known.
-const FOUND: u64 = 0;
-const REJECTED: u64 = 1;
-const TOO_NEAR: u64 = 2;
-const MOVED: u64 = 3;
-const ALONE: u64 = 4;
-const UNCERTAIN: u64 = 5;
-/// All of these.
-pub(super) const FATES: Range<u64> = 0..6;
 
 impl Estimations<'_> {
     /// Draws pairs until one has that fate; the last two take turns.
@@ -88,7 +75,7 @@ impl Estimations<'_> {
     /// Draws a bright echo, and puts the shots that it leaves around a place after it.
     fn with_last(&self, draw: &mut Draw) -> Vec<u32> {
         let place = 0.1 + 0.1 * (draw.below(1000) as f64 / 1000.0);
-        let mut counts = self.scene(place, 0.5 + draw.below(1000) as f64 / 250.0, 0.05, draw);
+        let mut counts = self.scene(place, 0.35 + draw.below(1000) as f64 / 2500.0, 0.02, draw);
         let ended: u64 = counts.iter().map(|&count| u64::from(count)).sum();
         let left = self.params.shots.saturating_sub(ended).min(2000);
         let last = counts.len() as u64 - 1;

@@ -12,7 +12,7 @@
     task estimation(input hold);
         begin
             k = -1;
-            while (k < 2000 + 32 * `BINS && (k < 0 || algo_done !== 1'b1)) begin
+            while (k < 8000 + 32 * `BINS && (k < 0 || algo_done !== 1'b1)) begin
                 edge_with(k < 0 || hold);
                 k = k + 1;
                 look;

@@ -32,9 +32,11 @@
     (* hierconn *) wire [$clog2(`LIKELIHOOD_BINS)+(HasSecond ? 3 : 2):0] \dut.waited ;
     (* hierconn *) wire [2:0] \dut.steps ;
     (* hierconn *) wire \dut.dark ;
+`ifdef LIKELIHOOD_HAS_SECOND
     (* hierconn *) wire \dut.wide ;
     (* hierconn *) wire \dut.paired ;
     (* hierconn *) wire [3:0] \dut.turns ;
+`endif
     (* hierconn *) wire \dut.run ;
     (* hierconn *) wire [6:0] \dut.entry ;
     (* hierconn *) wire \dut.likelihood_solver.running ;
@@ -57,9 +59,14 @@
     wire [15:0] waited = \dut.waited ;
     wire [15:0] steps = \dut.steps ;
     wire dark = Glass && \dut.dark ;
-    wire wide = HasSecond && \dut.wide ;
-    wire paired = HasSecond && \dut.paired ;
+`ifdef LIKELIHOOD_HAS_SECOND
+    wire wide = \dut.wide ;
+    wire paired = \dut.paired ;
     wire [15:0] turns = \dut.turns ;
+`else
+    wire wide = 1'b0, paired = 1'b0;
+    wire [15:0] turns = 16'd0;
+`endif
     wire [15:0] turn_from = TurnFrom + turns * TurnFor + (turns == 9 ? EndFor : 16'd0);
     wire [6:0] counter = \dut.likelihood_solver.counter ;
     wire [15:0] pause = \dut.likelihood_solver.pause ;

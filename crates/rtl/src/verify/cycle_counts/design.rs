@@ -106,6 +106,7 @@ impl CountedDesign {
             ("LIKELIHOOD", others(&sizes)),
         ]
         .into_iter()
+        .chain(params.has_second().then(|| ("LIKELIHOOD_HAS_SECOND", String::new())))
         .chain(of_program(params.program()))
         .collect()
     }

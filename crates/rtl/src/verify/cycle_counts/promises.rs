@@ -69,7 +69,7 @@ static CENTROID: Properties = Properties {
 
 /// No proof reads memories, so the solver's program, a ROM or a large `case`, becomes logic. What only feeds the open
 /// blocks and the solver's memory is taken away, with that memory: it is much, and what they do is anything already.
-static LIKELIHOOD: Properties = Properties {
+const LIKELIHOOD_OF_ONE: Properties = Properties {
     open: &[
         "likelihood_memory",
         "likelihood_terms",
@@ -78,6 +78,28 @@ static LIKELIHOOD: Properties = Properties {
         "likelihood_pair",
         "likelihood_scan",
     ],
+    registers: &[
+        "state",
+        "waited",
+        "steps",
+        "dark",
+        "run",
+        "entry",
+        "likelihood_solver.running",
+        "likelihood_solver.ran",
+        "likelihood_solver.counter",
+        "likelihood_solver.pause",
+    ],
+    logic: "proc -norom; memory -nomap; memory_map -rom-only; delete */t:likelihood_memory */t:likelihood_terms \
+            */t:likelihood_sums */t:likelihood_glass */t:likelihood_pair */t:likelihood_scan */t:$mem*",
+    steps: 2,
+    ..Properties::new("check_likelihood", "bench_likelihood", of_estimator!("check_likelihood.sv"))
+};
+
+static LIKELIHOOD: Properties = LIKELIHOOD_OF_ONE;
+
+/// The same where it looks for a second target: it takes turns.
+static LIKELIHOOD_OF_TWO: Properties = Properties {
     registers: &[
         "state",
         "waited",
@@ -93,10 +115,7 @@ static LIKELIHOOD: Properties = Properties {
         "likelihood_solver.counter",
         "likelihood_solver.pause",
     ],
-    logic: "proc -norom; memory -nomap; memory_map -rom-only; delete */t:likelihood_memory */t:likelihood_terms \
-            */t:likelihood_sums */t:likelihood_glass */t:likelihood_pair */t:likelihood_scan */t:$mem*",
-    steps: 2,
-    ..Properties::new("check_likelihood", "bench_likelihood", of_estimator!("check_likelihood.sv"))
+    ..LIKELIHOOD_OF_ONE
 };
 
 static SHOT: Properties = Properties {
@@ -191,12 +210,14 @@ pub fn centroid(design: &CountedDesign) -> Promise {
 
 /// As [`centroid`], where the estimator's model holds.
 pub fn likelihood(design: &CountedDesign) -> Option<Promise> {
-    let done = design.likelihood.as_ref()?.done();
+    let params = design.likelihood.as_ref()?;
+    let done = params.done();
+    let properties = if params.has_second() { &LIKELIHOOD_OF_TWO } else { &LIKELIHOOD };
     let what = "likelihood estimator: algo_start taken to algo_done";
     Some(Promise {
         parameter: "Latency",
         defines: with_latency(design.of_likelihood(), done),
-        ..Promise::new(&LIKELIHOOD, "likelihood_latency", done, what)
+        ..Promise::new(properties, "likelihood_latency", done, what)
     })
 }
 
