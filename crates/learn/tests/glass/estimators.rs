@@ -77,13 +77,14 @@ fn rows(frames: usize, take: impl Fn(f64, &Light, &Errors)) {
 
 /// Measured with 2000 frames in `docs/cover-glass.md`.
 #[test]
+#[ignore = "long: ./check --full"]
 fn likelihood_reaches_the_bound_behind_glass() {
-    rows(100, |glass, light, found| {
+    rows(300, |glass, light, found| {
         print(glass, light, found);
         let Errors { failures, mean_mm, mean_se_mm, rms_mm, bound_mm } = *found;
         assert!(mean_mm.abs() < 0.5 + 4.0 * mean_se_mm, "{glass} {light:?}: {mean_mm} mm");
-        // Four standard deviations of a standard deviation from 100 frames above 1.1.
-        assert!(rms_mm < bound_mm * 1.1 * (1.0 + 4.0 / 200f64.sqrt()), "{glass} {light:?}");
+        // Four standard deviations of a standard deviation from 300 frames above 1.1.
+        assert!(rms_mm < bound_mm * 1.1 * (1.0 + 4.0 / 600f64.sqrt()), "{glass} {light:?}");
         assert_eq!(failures, 0, "{glass} {light:?}");
     });
 }
