@@ -1,7 +1,5 @@
 //! Follows the firmware's frames: when they begin and end, and what they gave.
 
-use serde_json::value::{RawValue, to_raw_value};
-
 use crate::firmware::tof_top::slot::{DepthM, EstimateWords};
 use crate::firmware::tof_top::{FirmwareEstimator, HistogramSource, Params, TofTop};
 use crate::network::Histogram;
@@ -45,14 +43,6 @@ impl Frame {
     /// Returns the estimate: depth, sigma, status.
     pub fn estimate(&self) -> Estimate {
         Estimate::of_words(self.estimator, &self.words)
-    }
-
-    /// Returns the histogram as JSON. Most of a frame's JSON is made here, because this crate is optimised.
-    ///
-    /// # Errors
-    /// None in practice: numbers can be written.
-    pub fn histogram_json(&self) -> serde_json::Result<Box<RawValue>> {
-        to_raw_value(&self.histogram)
     }
 
     /// Hits in the histogram.

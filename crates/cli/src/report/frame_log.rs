@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use serde::Serialize;
-use serde_json::value::RawValue;
 use tempfile::SpooledTempFile;
 
 use tofsim::Note;
@@ -151,7 +150,6 @@ impl FrameLog {
         self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
         let simulated = |count: u64| (!self.is_measured).then_some(count);
         if let Some(json) = &mut self.json {
-            let fault = |fault| Input::new("--json", fault);
             let summary = FrameSummary {
                 index: frame.index,
                 true_depth_m: self.judge.truth_m,
@@ -159,7 +157,7 @@ impl FrameLog {
                 shots: frame.shots,
                 hits: frame.hits(),
                 tdc_hits: simulated(frame.tdc_hits),
-                histogram: frame.histogram_json().map_err(fault)?,
+                histogram: &frame.histogram,
                 estimator_cycles: simulated(frame.estimator_cycles),
                 frame_cycles: simulated(frame.frame_cycles),
                 second_opinion: opinion,
@@ -167,7 +165,8 @@ impl FrameLog {
                 estimates,
             };
             let comma = if self.count > 0 { "," } else { "" };
-            let text = serde_json::to_string(&summary).map_err(fault)?;
+            let text =
+                serde_json::to_string(&summary).map_err(|fault| Input::new("--json", fault))?;
             let written = write!(json, "{comma}{text}");
             written.map_err(Error::io(Path::new("temporary file"), "write"))?;
         }
@@ -232,7 +231,7 @@ fn moments_m(count: u64, (sum, squares): (i128, i128)) -> Option<(f64, f64)> {
 
 /// The JSON object of a frame.
 #[derive(Serialize)]
-struct FrameSummary {
+struct FrameSummary<'a> {
     index: u64,
     /// Null where no light was simulated, and of a board.
     true_depth_m: Option<f64>,
@@ -243,7 +242,7 @@ struct FrameSummary {
     hits: u64,
     /// Hits that the TDC kept, with a code or without; null of a board, as the cycles are.
     tdc_hits: Option<u64>,
-    histogram: Box<RawValue>,
+    histogram: &'a [u32],
     /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles].
     estimator_cycles: Option<u64>,
     /// From the edge that begins Clear to the one that raises `algo_done` [cycles].
