@@ -74,7 +74,7 @@ impl Clocked for ControlSync {
     type In = In;
     type Params = Params;
 
-    /// From the end on, so that each register takes what the one before it was.
+    /// Shifts from the last stage to the first, so that each stage takes the old value of the one before it.
     #[inline(always)]
     fn tick(&mut self, i: &In, p: &Params) {
         if !p.is_hosted {

@@ -215,7 +215,7 @@ fn report_all<S: Signals>(now: &S, id: usize, sink: &mut impl Sink) {
     now.changes(None, id, sink);
 }
 
-/// Reports those that differ from `before`.
+/// Reports the signals that differ from `before`.
 #[inline(never)]
 fn report_changes<S: Signals>(now: &S, before: &S, id: usize, sink: &mut impl Sink) {
     now.changes(Some(before), id, sink);

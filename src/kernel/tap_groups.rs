@@ -37,7 +37,7 @@ fn of_groups(
 ) {
     let (chunk, width) = (group.max(64), ones_width(group));
     let (groups, all) = (chunk / group, u128::MAX >> (128 - group));
-    // Of all taps low or high, it needs no count.
+    // A group whose taps are all low or all high needs no count.
     let code = |taps: u128| match taps {
         0 => 0,
         taps if taps == all => group as u64,

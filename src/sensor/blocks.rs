@@ -1,6 +1,6 @@
-//! Words of a stream by the eight blocks, in the processor's vectors.
+//! Random words of a stream, eight blocks of ChaCha8 at a time, one in each lane of a vector register.
 //!
-//! Exact: they are the words of [`ChaCha8Rng`], in an order of their own, which a count does not depend on.
+//! Exact: these are the words of [`ChaCha8Rng`] in another order, on which a count does not depend.
 
 #![expect(
     clippy::needless_range_loop,
@@ -25,7 +25,7 @@ const DOUBLE_ROUNDS: usize = 4;
 /// A row of each block.
 type Row = [u32; LANES];
 
-/// The blocks of a stream that follow its position.
+/// Blocks of a stream from a position on.
 #[derive(Clone, Debug)]
 pub struct Blocks {
     arch: Arch,
@@ -35,7 +35,7 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// The blocks of `stream` from its position on, which has to be at the begin of one.
+    /// Creates the blocks of `stream` from its position on, which must be the start of a block.
     pub fn of(stream: &ChaCha8Rng) -> Self {
         let mut bytes = *b"expand 32-byte k................................................";
         bytes[16..48].copy_from_slice(&stream.get_seed());
@@ -54,7 +54,7 @@ impl Blocks {
     }
 }
 
-/// The next blocks, compiled for the vectors of each kind of processor.
+/// Computation of the next blocks, compiled for the vector registers of each kind of processor.
 struct Fill<'a> {
     blocks: &'a Blocks,
     words: &'a mut [u64; WORDS],

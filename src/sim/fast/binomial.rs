@@ -32,11 +32,13 @@ pub(super) struct Binomial {
     q: f64,
     /// Their ratio.
     s: f64,
-    /// Half the width of the triangle at these numbers of trials, which have the same.
+    /// Half the width of the triangle for each number of trials in `same`.
     p1: f64,
+    /// Numbers of trials for which the width is `p1`.
     same: Range<f64>,
-    /// Words of the triangle end about here, and those of the tails begin [all words].
+    /// Approximate part of all words below which a draw is from the triangle [1].
     triangle: f64,
+    /// Approximate part of all words above which a draw is from a tail [1].
     tails: f64,
 }
 

@@ -35,7 +35,7 @@ impl Multinomial {
     }
 }
 
-/// A draw, compiled for each kind of processor, because some round by an instruction.
+/// A draw, compiled for each kind of processor: some have an instruction that rounds.
 struct Draw<'a, R> {
     of: &'a Multinomial,
     histogram: &'a mut [u32],
