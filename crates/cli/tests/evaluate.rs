@@ -252,7 +252,17 @@ fn what_is_written_does_not_depend_on_the_folder() {
         fs::copy(format!("{stimuli}/chains/ideal.toml"), home.join("chain.toml")).unwrap();
         let mut all = Vec::new();
         for scenario in ["s.toml", "scenes/far/s.toml"] {
-            let args = ["evaluate", "./net.toml", "--scenario", scenario, "--rows", "51", "--json"];
+            let args = [
+                "evaluate",
+                "./net.toml",
+                "--scenario",
+                scenario,
+                "--rows",
+                "51",
+                "--check",
+                "1",
+                "--json",
+            ];
             all.push(stdout(home, &args));
             all.push(stdout(home, &[&args[..], &["--profile", "./chain.toml"]].concat()));
             fs::write(home.join("h.csv"), csv(&vec![3; 256])).unwrap();

@@ -145,7 +145,10 @@ fn several_images_are_a_first_axis_and_every_file_is_the_same_for_any_number_of_
 fn a_pixel_alone_is_that_of_the_image_at_every_fidelity() {
     let folder = empty();
     let path = folder.path();
-    let crosstalk = &["-s", "spad.crosstalk_probability=0.3"][..];
+    // Each pixel simulates its whole row there.
+    let crosstalk =
+        ["-s", "spad.crosstalk_probability=0.3", "-s", "array.rows=5", "-s", "array.columns=6"];
+    let crosstalk = &crosstalk[..];
     for (fidelity, set) in [
         ("shot", &[][..]),
         ("cycle", &[]),

@@ -56,15 +56,15 @@ fn planted(folder: &Path, (block, old, new): (&str, &str, &str)) -> PathBuf {
 fn blocks_in_vhdl_pass_and_a_fault_is_found_at_the_same_cycle_by_both_ways() {
     for fault @ (block, ..) in FAULTS {
         let folder = common::empty();
-        let args = ["--block", block, "--cycles", "3000"];
+        let args = ["--block", block, "--cycles", "1000"];
         let output = verify(folder.path(), Path::new(THEIRS), &args);
         let error = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(0), "{block}: {error}");
         let file = PathBuf::from(format!("{THEIRS}/{block}.vhd"));
-        let output = bench(folder.path(), block, &file, "3000");
+        let output = bench(folder.path(), block, &file, "1000");
         let text = String::from_utf8(output.stdout).unwrap();
         assert!(output.status.success(), "{block}: {text}");
-        assert!(text.contains(&format!("tb_{block}: PASS, 3000 cycles, 0 mismatches")), "{text}");
+        assert!(text.contains(&format!("tb_{block}: PASS, 1000 cycles, 0 mismatches")), "{text}");
 
         let folder = common::empty();
         let file = planted(folder.path(), fault);
@@ -72,7 +72,7 @@ fn blocks_in_vhdl_pass_and_a_fault_is_found_at_the_same_cycle_by_both_ways() {
         assert_eq!(output.status.code(), Some(1), "{block}");
         let report: Value = serde_json::from_slice(&output.stdout).unwrap();
         let first = &report["blocks"][0]["first"];
-        let output = bench(folder.path(), block, &file, "3000");
+        let output = bench(folder.path(), block, &file, "1000");
         assert!(!output.status.success());
         let text = String::from_utf8(output.stdout).unwrap();
         let begin = format!(
@@ -83,7 +83,7 @@ fn blocks_in_vhdl_pass_and_a_fault_is_found_at_the_same_cycle_by_both_ways() {
         );
         assert!(text.contains(&begin), "{begin} is not in {text}");
         let mismatches = &report["blocks"][0]["mismatches"];
-        let total = format!("tb_{block}: FAIL, 3000 cycles, {mismatches} mismatches");
+        let total = format!("tb_{block}: FAIL, 1000 cycles, {mismatches} mismatches");
         assert!(text.contains(&total), "{total} is not in {text}");
     }
 }

@@ -38,7 +38,7 @@ fn lines(shown: &str) -> Vec<String> {
 #[test]
 fn a_bar_moves_and_fits_80_columns() {
     let folder = empty();
-    let stages = "--with 'stages=[{candidates=4,epochs=20,samples=1005}]'";
+    let stages = "--with 'stages=[{candidates=2,epochs=20,samples=402}]'";
     let end = "--with finish.blocks=0 --with checkpoint_epochs=20";
     let line = format!("train --quick {stages} {end} -o t");
     let shown = on_terminal(folder.path(), &line, &[]);

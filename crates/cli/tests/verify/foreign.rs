@@ -79,7 +79,7 @@ fn a_pipeline_without_reset_has_its_clocks_after_each_reset() {
     let verdict = |more: &str| {
         let text = format!("[block.tdc_decoder]\n{more}");
         fs::write(folder.path().join("map.toml"), text).unwrap();
-        check(folder.path(), "tdc_decoder", &["--map", "map.toml", "--cycles", "3000"])["verdict"]
+        check(folder.path(), "tdc_decoder", &["--map", "map.toml", "--cycles", "1000"])["verdict"]
             .clone()
     };
     let valid = "valid = { tdc_code = \"tdc_valid\" }\n";
@@ -109,7 +109,7 @@ fn a_constant_inside_is_named_with_the_entry_that_leaves_it_out() {
     {
         fs::write(folder.path().join("map.toml"), map).unwrap();
         let report =
-            check(folder.path(), "tdc_decoder", &["--map", "map.toml", "--cycles", "3000"]);
+            check(folder.path(), "tdc_decoder", &["--map", "map.toml", "--cycles", "1000"]);
         assert_eq!(report["verdict"], "pass", "{report}");
     }
 }

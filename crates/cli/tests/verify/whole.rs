@@ -44,14 +44,14 @@ fn faults_that_only_another_configuration_shows_are_found() {
     let narrow = "input wire signed [ActivationBits-1:0] l1_out_15";
     let folder = all("forward2.v", narrow, "input wire signed [ActivationBits-2:0] l1_out_15");
     let both = ["depth_estimator.default", "depth_estimator.neurons_16"];
-    let both = ["--block", both[0], "--block", both[1], "--cycles", "2000"];
+    let both = ["--block", both[0], "--block", both[1], "--cycles", "1000"];
     let list = verdicts(folder.path(), &both);
     assert_eq!(of(&list, "depth_estimator"), "pass");
     assert_eq!(of(&list, "depth_estimator.neurons_16"), "differs");
 
     let started = "algo_start && Centroid)";
     let folder = all("tof_top.v", started, "algo_start || Centroid)");
-    let both = ["--block", "tof_top.default", "--block", "tof_top.centroid", "--cycles", "2000"];
+    let both = ["--block", "tof_top.default", "--block", "tof_top.centroid", "--cycles", "1000"];
     let list = verdicts(folder.path(), &both);
     assert_eq!(of(&list, "tof_top"), "pass");
     assert_eq!(of(&list, "tof_top.centroid"), "differs");

@@ -1,6 +1,5 @@
 //! Lines of bits: what goes into a block, or comes out of it, clock by clock.
 
-use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use bitvec::prelude::*;
@@ -37,8 +36,10 @@ pub struct Table {
     columns: Vec<Column>,
     width: usize,
     rows: usize,
-    bits: BitVec<u64, Lsb0>,
-    line: BitVec<u64, Lsb0>,
+    /// Lines so far, each in whole words, the lowest first.
+    words: Vec<u64>,
+    /// Line under construction.
+    line: Vec<u64>,
 }
 
 impl Table {
@@ -49,8 +50,8 @@ impl Table {
             column.low = width;
             width += column.width;
         }
-        let line = bitvec![u64, Lsb0; 0; width];
-        Table { columns, width, rows: 0, bits: BitVec::new(), line }
+        let line = vec![0; width.div_ceil(64)];
+        Table { columns, width, rows: 0, words: Vec::new(), line }
     }
 
     /// The columns, in order.
@@ -71,24 +72,26 @@ impl Table {
     /// Writes a word into the line under construction.
     pub fn set(&mut self, column: usize, value: u64) {
         let Column { low, width, .. } = self.columns[column];
-        put(self.line.as_raw_mut_slice(), low, width, value);
+        put(&mut self.line, low, width, value);
     }
 
     /// Writes bits into the line under construction, the first one lowest.
     pub fn set_bits(&mut self, column: usize, bits: Bits) {
         let Column { low, width, .. } = self.columns[column];
-        self.line[low..low + width].copy_from_bitslice(&bits.words.view_bits()[..width]);
+        for (place, word) in (0..width).step_by(64).zip(bits.words) {
+            put(&mut self.line, low + place, (width - place).min(64), *word);
+        }
     }
 
     /// Ends the line; the next one begins with its values.
     pub fn push(&mut self) {
-        self.bits.extend_from_bitslice(&self.line);
+        self.words.extend_from_slice(&self.line);
         self.rows += 1;
     }
 
     /// A line.
     pub fn row(&self, row: usize) -> &BitSlice<u64, Lsb0> {
-        &self.bits[row * self.width..(row + 1) * self.width]
+        &self.words_of(row).view_bits()[..self.width]
     }
 
     /// A value in hexadecimal, all digits.
@@ -100,9 +103,14 @@ impl Table {
     /// The lines for `$readmemh`; an empty line is the digit 0.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         for row in 0..self.rows {
-            writeln!(out, "{}", hex(self.row(row)))?;
+            writeln!(out, "{}", digits(self.words_of(row), self.width))?;
         }
         Ok(())
+    }
+
+    /// The words of a line.
+    fn words_of(&self, row: usize) -> &[u64] {
+        &self.words[row * self.line.len()..][..self.line.len()]
     }
 }
 
@@ -125,13 +133,17 @@ fn put(words: &mut [u64], low: usize, width: usize, value: u64) {
 
 /// Bits in hexadecimal, all digits, at least one.
 pub fn hex(bits: &BitSlice<u64, Lsb0>) -> String {
-    let mut text = String::with_capacity(16 * bits.len().div_ceil(64));
-    for word in bits.chunks(64).rev() {
-        let digits = word.len().div_ceil(4);
-        let word: u64 = word.load_le();
-        let _ = write!(text, "{word:0digits$x}");
-    }
-    if text.is_empty() { "0".to_owned() } else { text }
+    let words: Vec<u64> = bits.chunks(64).map(|word| word.load_le()).collect();
+    digits(&words, bits.len())
+}
+
+/// So many bits of words in hexadecimal, the lowest word first; all digits, at least one.
+fn digits(words: &[u64], width: usize) -> String {
+    let digit = |place: usize| {
+        let word = words.get(place / 16).copied().unwrap_or_default();
+        char::from(b"0123456789abcdef"[(word >> (4 * (place % 16)) & 15) as usize])
+    };
+    (0..width.div_ceil(4).max(1)).rev().map(digit).collect()
 }
 
 /// Puts reported signals into the line under construction.
