@@ -39,6 +39,12 @@ impl Inputs {
         self.text(name, lines.collect::<Vec<_>>().join("\n"))
     }
 
+    /// With other inputs.
+    pub fn all(self, name: &str, inputs: &[Inputs]) -> Self {
+        let digests: Vec<_> = inputs.iter().map(Inputs::to_string).collect();
+        self.text(name, digests.join(" "))
+    }
+
     /// With the version of a tool: others may answer otherwise.
     pub fn version(self, program: &str, option: &str) -> Self {
         static VERSIONS: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());

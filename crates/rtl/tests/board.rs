@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::common;
+use crate::record::Inputs;
 
 mod faults;
 mod guard;
 mod pins;
 mod scripts;
+mod sound;
 
 /// Taps of the chain: few and long ones.
 const TAPS: u64 = 64;
@@ -194,13 +196,18 @@ fn difference(found: &str, wanted: &str) -> Option<String> {
 
 #[test]
 fn the_boards_do_in_synthesis_what_is_simulated() {
-    let wanted = trace(None, None);
-    let depths: BTreeSet<_> =
-        wanted.lines().filter_map(|line| between(line, " depth ", " ")).collect();
-    assert!(wanted.lines().count() > 1000 && depths.len() > 2, "{wanted}");
-    for board in Board::ALL {
-        assert_eq!(difference(&trace(Some(board), None), &wanted), None);
-    }
+    let all = [None, Some(Board::Kc705), Some(Board::Ecp5)];
+    let read = all.map(|board| faults::inputs(&Bench { top: "bench", board }, None));
+    let inputs = Inputs::default().rust("checks", include_str!("board.rs")).all("benches", &read);
+    sound::passes("boards in synthesis", &inputs, || {
+        let wanted = trace(None, None);
+        let depths: BTreeSet<_> =
+            wanted.lines().filter_map(|line| between(line, " depth ", " ")).collect();
+        assert!(wanted.lines().count() > 1000 && depths.len() > 2, "{wanted}");
+        for board in Board::ALL {
+            assert_eq!(difference(&trace(Some(board), None), &wanted), None);
+        }
+    });
 }
 
 #[test]

@@ -21,14 +21,14 @@ pub fn difference(board: Board, fault: &Fault, wanted: &str) -> String {
     let (_, file, old, new) = fault;
     let words = format!("{}: {file}: {old} -> {new}", board.options()[0].trim_start_matches("-D"));
     let check: Vec<_> = words.split_whitespace().collect();
-    FOUND.answer(&check.join(" "), &inputs(&bench, fault).text("wanted", wanted), || {
+    FOUND.answer(&check.join(" "), &inputs(&bench, Some(fault)).text("wanted", wanted), || {
         super::difference(&bench.run(Some(fault)), wanted).ok_or(NONE.to_owned())
     })
 }
 
-/// All that Icarus reads.
-fn inputs(bench: &Bench, fault: &Fault) -> Inputs {
-    let (folder, verilog) = sources(Some(fault));
+/// All that Icarus reads; the design may have a fault.
+pub fn inputs(bench: &Bench, fault: Option<&Fault>) -> Inputs {
+    let (folder, verilog) = sources(fault);
     let mut inputs =
         Inputs::default().version("iverilog", "-V").text("options", bench.options().join(" "));
     for path in bench.files().iter().chain(&verilog) {

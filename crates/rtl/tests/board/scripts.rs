@@ -1,10 +1,12 @@
 //! The scripts that make a board's bitstream: they name what is there, and stop at a clock that is too slow.
 
+use std::fs;
 use std::process::{Command, Output};
 
 use crate::common;
+use crate::record::Inputs;
 
-use super::root;
+use super::{root, sound};
 
 /// Runs the script for Vivado with commands that stand for Vivado's, those variables, and a routed design of those slacks
 /// for setup and hold [ns].
@@ -35,18 +37,37 @@ fn make(name: &str, set: &[&str]) -> String {
 
 #[test]
 fn the_script_for_vivado_reads_all_and_writes_a_bitstream() {
-    let (is_done, said) = vivado(0.012, 0.05, &[]);
-    assert!(is_done, "{said}");
-    let order = [
-        "kc705.xdc",
-        "synth_design -top kc705_top -part xc7k325tffg900-2",
-        "kc705_chain.tcl",
-        "route_design",
-        "report_timing_summary",
-        "write_bitstream -force",
-    ];
-    let places = order.map(|text| said.find(text));
-    assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{places:?}: {said}");
+    sound::passes("script for Vivado", &sources(), || {
+        let (is_done, said) = vivado(0.012, 0.05, &[]);
+        assert!(is_done, "{said}");
+        let order = [
+            "kc705.xdc",
+            "synth_design -top kc705_top -part xc7k325tffg900-2",
+            "kc705_chain.tcl",
+            "route_design",
+            "report_timing_summary",
+            "write_bitstream -force",
+        ];
+        let places = order.map(|text| said.find(text));
+        assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{places:?}: {said}");
+    });
+}
+
+/// All that Yosys reads for it.
+fn sources() -> Inputs {
+    let inputs = Inputs::default()
+        .version("yosys", "-V")
+        .rust("checks", include_str!("scripts.rs"))
+        .text("vivado.tcl", include_str!("vivado.tcl"));
+    let rtl = root().join("rtl_ref");
+    common::files(&rtl).iter().fold(inputs, |inputs, name| {
+        let bytes = fs::read(rtl.join(name)).unwrap();
+        if name.ends_with(".v") {
+            inputs.verilog(name, &String::from_utf8(bytes).unwrap())
+        } else {
+            inputs.text(name, bytes)
+        }
+    })
 }
 
 #[test]

@@ -13,9 +13,9 @@ fn recipe() -> Recipe {
     let stage = |candidates, epochs, samples| Stage { candidates, epochs, samples };
     let quick = Recipe::quick();
     Recipe {
-        checkpoint_epochs: 3,
-        stages: vec![stage(3, 4, 402), stage(2, 3, 402)],
-        finish: super::super::recipe::Finish { epochs: 4, samples: 402, ..quick.finish },
+        checkpoint_epochs: 2,
+        stages: vec![stage(3, 2, 402), stage(2, 2, 402)],
+        finish: super::super::recipe::Finish { epochs: 2, samples: 402, ..quick.finish },
         ..quick
     }
 }
