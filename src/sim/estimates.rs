@@ -6,6 +6,7 @@ pub mod likelihood;
 mod network;
 
 use crate::firmware::histogram_builder::Count;
+use crate::firmware::likelihood_estimator::targets::Targets;
 use crate::firmware::tof_top::slot::{EstimateWords, SlotEstimator, SlotIn};
 use crate::kernel::U;
 
@@ -13,6 +14,11 @@ pub use estimate::{EchoDepth, Estimate, Pedestal, digits};
 
 /// An estimator that is computed without its clock, too.
 pub trait Clockless: SlotEstimator {
+    /// Returns the targets that it looks for.
+    fn targets(_: &Self::Params) -> Targets {
+        Targets::One
+    }
+
     /// The estimate of a histogram whose shots were all armed (MODE 0); by the block itself, where the estimator has no
     /// shorter way.
     fn estimate(p: &Self::Params, histogram: &[u32]) -> EstimateWords {

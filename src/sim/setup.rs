@@ -14,6 +14,7 @@ mod pixel_files;
 mod recalibration;
 mod record;
 mod stimulus;
+pub mod truth;
 
 use std::sync::Arc;
 

@@ -6,6 +6,8 @@ use serde_json::Value;
 
 use crate::common::{self, csv, empty, json, output, refused, stdout};
 
+mod two_targets;
+
 const FEW: [&str; 7] = ["evaluate", "--rows", "2040", "--check", "2", "--seed", "3"];
 
 fn with<'a>(more: &[&'a str]) -> Vec<&'a str> {

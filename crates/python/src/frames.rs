@@ -192,6 +192,12 @@ impl Frames {
         self.setup.true_depth_m()
     }
 
+    /// Distance of the second target, if the firmware looks for one and light of it can be seen [m].
+    #[getter]
+    fn second_true_depth_m(&self) -> Option<f64> {
+        self.setup.true_depths()?.second_m
+    }
+
     /// The notes on the depths, each a dictionary.
     #[getter]
     fn notes<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyAny>> {

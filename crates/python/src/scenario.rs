@@ -182,6 +182,12 @@ impl Scenario {
         Ok(self.setup()?.true_depth_m())
     }
 
+    /// Distance of the second target, if the firmware looks for one and light of it can be seen [m].
+    #[getter]
+    fn second_true_depth_m(&self) -> Result<Option<f64>> {
+        Ok(self.setup()?.true_depths().and_then(|truth| truth.second_m))
+    }
+
     /// What its results lie outside of.
     fn notes<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyAny>> {
         Ok(object(py, &json!(self.setup()?.notes()?))?)

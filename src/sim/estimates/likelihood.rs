@@ -16,6 +16,7 @@ mod verdict;
 
 use crate::firmware::likelihood_estimator::LikelihoodEstimator;
 use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::targets::Targets;
 use crate::firmware::likelihood_estimator::words::{GLASS_STEPS, STEPS};
 use crate::firmware::tof_top::slot::EstimateWords;
 
@@ -60,6 +61,10 @@ pub struct Trace<N> {
 }
 
 impl Clockless for LikelihoodEstimator {
+    fn targets(p: &Params) -> Targets {
+        p.targets
+    }
+
     fn estimate(p: &Params, histogram: &[u32]) -> EstimateWords {
         estimate(p, histogram).words()
     }

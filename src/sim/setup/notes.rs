@@ -18,17 +18,6 @@ const GOLDEN: f64 = 0.618_033_988_75;
 const FAINTEST_FRAME: f64 = 1.0;
 
 impl Setup {
-    /// Distance of the target, where a depth can be that of the target: where light and not a list or
-    /// a ROM decides it, the laser's light comes back, and the histogram holds the echo. That of a pixel with a field of
-    /// view of its own is the mean along its lines of sight [m].
-    pub fn true_depth_m(&self) -> Option<f64> {
-        self.no_depth.is_none().then_some(())?;
-        match self.scenario.array.is_rectangular() {
-            true => self.mean_radial_m(),
-            false => Some(self.scenario.target.distance_m),
-        }
-    }
-
     /// Returns the mean distance of what returns the laser's light, along the lines of sight; `None` if nothing does
     /// [m].
     pub fn mean_radial_m(&self) -> Option<f64> {

@@ -60,6 +60,7 @@ pub struct FrameLog {
     pub pairs: Option<PairLog>,
     panel: Panel,
     judge: Judge,
+    second_true_m: Option<f64>,
     outliers: u64,
     tally: Tally,
     second: Opinions,
@@ -96,6 +97,7 @@ impl FrameLog {
             pairs: setup.has_pairs().then(|| PairLog::new(setup)),
             panel,
             judge: Judge { truth_m: setup.true_depth_m(), limit_m },
+            second_true_m: setup.true_depths().and_then(|truth| truth.second_m),
             second: Opinions::new(second),
             json: json.then(|| SpooledTempFile::new(KEPT)),
             glass: setup.glass.clone(),
@@ -105,7 +107,7 @@ impl FrameLog {
 
     /// Takes the frames for those of a board: nobody knows the true distance, nor what is not in its registers.
     pub fn measured(mut self) -> Self {
-        self.judge.truth_m = None;
+        (self.judge.truth_m, self.second_true_m) = (None, None);
         FrameLog { is_measured: true, ..self }
     }
 
@@ -153,6 +155,7 @@ impl FrameLog {
             let summary = FrameSummary {
                 index: frame.index,
                 true_depth_m: self.judge.truth_m,
+                second_true_depth_m: self.second_true_m,
                 estimate: frame.estimate(),
                 shots: frame.shots,
                 hits: frame.hits(),
@@ -235,6 +238,9 @@ struct FrameSummary<'a> {
     index: u64,
     /// Null where no light was simulated, and of a board.
     true_depth_m: Option<f64>,
+    /// Of the second target, where the firmware looks for one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_true_depth_m: Option<f64>,
     /// The estimate of the firmware.
     #[serde(flatten)]
     estimate: Estimate,

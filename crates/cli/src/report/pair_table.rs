@@ -36,7 +36,7 @@ fn one_pair(
         rows.push(("true depth", format!("{truth:.6} m")));
     }
     if let Some(opinion) = opinion {
-        rows.push(("second opinion", statistics::in_words(opinion, setup.true_depth_m())));
+        rows.push(("second opinion", statistics::in_words(opinion, setup.true_depths())));
     }
     rows.extend(readings::rows(setup, readings));
     let both = |of: &dyn Fn(&Frame) -> u64| {

@@ -8,6 +8,7 @@ use tofsim::sim::disagreements::Disagreements;
 use tofsim::sim::estimates::{Estimate, digits};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::second_opinion::{ESTIMATOR, SecondOpinion};
+use tofsim::sim::setup::truth::TrueDepths;
 use tofsim_learn::evaluation::spread::is_outlier;
 
 use crate::text::table::{counted, grouped, signed};
@@ -215,11 +216,15 @@ pub fn second_opinion(
 }
 
 /// An estimate of the only frame: depth, word, error, and what the estimator states beside them.
-pub fn in_words(estimate: &Estimate, truth_m: Option<f64>) -> String {
+pub fn in_words(estimate: &Estimate, truth: Option<TrueDepths>) -> String {
+    let error = |depth_m: f64, truth_m: Option<f64>| {
+        let text = |truth_m| format!("  {} mm", signed(1e3 * (depth_m - truth_m), 2));
+        truth_m.map_or(String::new(), text)
+    };
     let mut text = estimate.depth_m.map_or("none".to_owned(), |m| format!("{m:.6} m"));
     text += &estimate.depth_raw.map_or(String::new(), |word| format!("  {}", digits(word)));
-    if let (Some(depth_m), Some(truth_m)) = (estimate.depth_m, truth_m) {
-        text += &format!("  {} mm", signed(1e3 * (depth_m - truth_m), 2));
+    if let Some(depth_m) = estimate.depth_m {
+        text += &error(depth_m, truth.map(|truth| truth.first_m));
     }
     if let Some(sigma_m) = estimate.sigma_m {
         text += &format!("  {}, sd {sigma_m:.6} m", estimate.estimator);
@@ -228,7 +233,9 @@ pub fn in_words(estimate: &Estimate, truth_m: Option<f64>) -> String {
         text += &format!(", rejected: {}", estimate.status);
     }
     if let Some(second) = &estimate.second {
-        text += &format!(", second target {:.6} m, sd {:.6} m", second.depth_m, second.sigma_m);
+        text += &format!(", second target {:.6} m", second.depth_m);
+        text += &error(second.depth_m, truth.and_then(|truth| truth.second_m));
+        text += &format!(", sd {:.6} m", second.sigma_m);
         if let Some(status) = second.status.filter(|status| !status.is_empty()) {
             text += &format!(", rejected: {status}");
         }

@@ -5,6 +5,7 @@ use std::time::Duration;
 use tofsim::sim::estimates::digits;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::setup::truth::TrueDepths;
 
 use crate::text::table::{facts, grouped, number_or_dash, signed_or_dash, table};
 
@@ -55,12 +56,14 @@ pub fn run(
 
 fn one_frame(setup: &Setup, frame: &Frame, log: &FrameLog) -> String {
     let mut rows = Vec::new();
-    if let Some(truth) = setup.true_depth_m() {
-        rows.push(("true depth", format!("{truth:.6} m")));
+    let truth = setup.true_depths();
+    if let Some(TrueDepths { first_m, second_m }) = truth {
+        let second = second_m.map_or(String::new(), |m| format!(", second target {m:.6} m"));
+        rows.push(("true depth", format!("{first_m:.6} m{second}")));
     }
-    rows.push(("estimated", statistics::in_words(&frame.estimate(), setup.true_depth_m())));
+    rows.push(("estimated", statistics::in_words(&frame.estimate(), truth)));
     if let Some(opinion) = &log.opinions[0] {
-        rows.push(("second opinion", statistics::in_words(opinion, setup.true_depth_m())));
+        rows.push(("second opinion", statistics::in_words(opinion, truth)));
     }
     rows.extend(readings::rows(setup, &log.readings[0]));
     let cycles = grouped(frame.frame_cycles);

@@ -1,5 +1,6 @@
 //! Interface of estimators: the distance of a target from a histogram, or the reason for a failure.
 
+use tofsim::firmware::likelihood_estimator::targets::Targets;
 use tofsim::firmware::tof_top::status::{Status, StatusSet};
 use tofsim::network::Histogram;
 
@@ -21,6 +22,15 @@ impl HistogramPair {
     }
 }
 
+/// How an estimator reports a second target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SecondTarget {
+    /// Name of its distances in results.
+    pub name: &'static str,
+    /// Which of two targets comes first.
+    pub targets: Targets,
+}
+
 /// Finds the distance of a target from the histogram of a frame.
 pub trait Estimator: Send + Sync {
     /// Its name on the command line.
@@ -38,6 +48,11 @@ pub trait Estimator: Send + Sync {
     /// When the histogram does not show one.
     fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
         self.estimate(histogram).map(Found::depth)
+    }
+
+    /// Returns how it reports a second target, if it looks for one.
+    fn second(&self) -> Option<SecondTarget> {
+        None
     }
 
     /// Returns whether the estimator requires a dark histogram too.

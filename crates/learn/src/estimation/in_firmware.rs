@@ -8,7 +8,10 @@ use tofsim::firmware::tof_top::status::StatusSet;
 use tofsim::sim::estimates::Clockless;
 use tofsim::sim::setup::Setup;
 
-use super::estimator::{EchoDepth, Estimator, Failure, Found, hits};
+use super::estimator::{EchoDepth, Estimator, Failure, Found, SecondTarget, hits};
+
+/// Name of the second target's distances, of the only estimator that looks for one.
+const SECOND: &str = "likelihood_estimator-second";
 
 /// An estimator of the firmware for the histograms of one instrument; a depth that it rejects is a failure.
 pub struct InFirmware<E: Clockless> {
@@ -60,6 +63,11 @@ impl<E: Clockless> Estimator for InFirmware<E> {
         let depth_m = words.depth_m().to_num();
         let second = EchoDepth::of_words(&words.second).filter(|second| second.valid == Some(true));
         Ok(Found { sigma_m, second, ..Found::depth(depth_m) })
+    }
+
+    fn second(&self) -> Option<SecondTarget> {
+        let targets = E::targets(&self.params);
+        targets.has_second().then_some(SecondTarget { name: SECOND, targets })
     }
 }
 

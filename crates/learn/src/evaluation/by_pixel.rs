@@ -62,8 +62,8 @@ pub fn by_pixel(
     limit_m: f64,
 ) -> Vec<PixelSpread> {
     let mut errors_m = vec![Vec::new(); rows * columns];
-    for (scene, error_m) in evaluation.known(column) {
-        errors_m[scene.pixel].push((error_m, scene.distance_m));
+    for known in evaluation.known(column) {
+        errors_m[known.scene.pixel].push((known.error_m, known.truth_m));
     }
     let of_pixel = |(pixel, errors_m)| PixelSpread {
         row: pixel / columns,

@@ -23,14 +23,12 @@ pub fn by_scene(
     column: &EstimatorErrors,
     limit_m: f64,
 ) -> Vec<SceneErrors> {
-    let mut rows: BTreeMap<_, (Scene, Vec<Option<f64>>)> = BTreeMap::new();
-    for (scene, error_m) in evaluation.known(column) {
-        rows.entry(scene.key()).or_insert((*scene, Vec::new())).1.push(error_m);
+    let mut rows: BTreeMap<_, (Scene, Vec<_>)> = BTreeMap::new();
+    for known in evaluation.known(column) {
+        let (_, judged) = rows.entry(known.scene.key()).or_insert((*known.scene, Vec::new()));
+        judged.push((known.error_m, known.truth_m));
     }
-    let errors = |(scene, errors_m): (Scene, Vec<Option<f64>>)| {
-        let judged = errors_m.into_iter().map(|error_m| (error_m, scene.distance_m));
-        SceneErrors { scene, spread: Spread::judged(judged, limit_m) }
-    };
+    let errors = |(scene, judged)| SceneErrors { scene, spread: Spread::judged(judged, limit_m) };
     rows.into_values().map(errors).collect()
 }
 

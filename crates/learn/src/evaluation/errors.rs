@@ -5,10 +5,14 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use tofsim::error::{Result, poll_stop};
+use tofsim::firmware::likelihood_estimator::targets::Targets;
 use tofsim::network::Histogram;
+use tofsim::sim::setup::truth::TrueDepths;
 
+use crate::dataset::blocks::{Last, Sample};
+use crate::dataset::source::scaled;
 use crate::dataset::{HistogramSource, Labelled, Pairs, Rows, Scene};
-use crate::estimation::Estimator;
+use crate::estimation::{Estimator, Found};
 
 use super::spread::{self, Group, Spread};
 
@@ -21,18 +25,36 @@ pub struct Evaluation {
     pub columns: Vec<EstimatorErrors>,
 }
 
-/// Errors of one estimator.
+/// A row of an estimator whose true distance is known.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownRow<'a> {
+    /// Its scene.
+    pub scene: &'a Scene,
+    /// Estimated less true distance; none where the estimator failed [m].
+    pub error_m: Option<f64>,
+    /// The true distance [m].
+    pub truth_m: f64,
+}
+
+/// Errors of one estimator, or of the second targets that it finds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EstimatorErrors {
     /// Name on the command line.
     pub name: &'static str,
     /// Estimated less true distance of each row; none where the estimator failed [m].
     pub errors_m: Vec<Option<f64>>,
+    /// True distance of each row, where it is not the scene's; NaN of a row that does not count [m].
+    pub truths_m: Vec<f64>,
     /// Estimated distance of each row, of the pixels of an array: some have no true one [m].
     pub depths_m: Vec<Option<f64>>,
 }
 
 impl EstimatorErrors {
+    /// An estimator without errors yet.
+    fn named(name: &'static str) -> Self {
+        EstimatorErrors { name, ..EstimatorErrors::default() }
+    }
+
     /// Adds the estimates of rows.
     fn extend<'a>(
         &mut self,
@@ -45,6 +67,18 @@ impl EstimatorErrors {
         if is_array {
             self.depths_m.extend(depths_m);
         }
+    }
+
+    /// Adds the estimates of rows with those true distances [m, m].
+    fn extend_beside(&mut self, depths_m: impl Iterator<Item = Option<f64>>, truths_m: &[f64]) {
+        let pairs = depths_m.zip(truths_m);
+        self.errors_m.extend(pairs.map(|(depth_m, truth_m)| Some(depth_m? - truth_m)));
+        self.truths_m.extend(truths_m);
+    }
+
+    /// Returns the true distance of a row [m].
+    fn truth_m(&self, row: usize, scene: &Scene) -> f64 {
+        self.truths_m.get(row).copied().unwrap_or(scene.distance_m)
     }
 }
 
@@ -80,14 +114,13 @@ impl Evaluation {
         mut done: impl FnMut(u64),
     ) -> Result<Self> {
         let first = estimators(&Scene::default());
-        let empty = || Vec::with_capacity(rows.count() as usize);
-        let columns = first.iter();
-        let columns = columns.map(|one| EstimatorErrors {
-            name: one.name(),
-            errors_m: empty(),
-            depths_m: Vec::new(),
-        });
-        let mut columns: Vec<EstimatorErrors> = columns.collect();
+        let mut columns: Vec<_> =
+            first.iter().map(|one| EstimatorErrors::named(one.name())).collect();
+        let of_two = |one: &Box<dyn Estimator + 'a>| one.second().filter(|_| has_two(source));
+        let mut seconds: Vec<_> = first
+            .iter()
+            .map(|one| of_two(one).map(|second| (second, EstimatorErrors::named(second.name))))
+            .collect();
         let mut scenes = Vec::with_capacity(rows.count() as usize);
         let is_array = rows.grid().array.is_some();
         let needs_dark = first.iter().any(|one| one.needs_dark());
@@ -96,22 +129,38 @@ impl Evaluation {
             poll_stop(stop)?;
             let drawn = pairs.map_or(Vec::new(), |pairs| pairs.draw(&block));
             for (place, column) in columns.iter_mut().enumerate() {
-                let depths_m = block.par_iter().enumerate().map(|(k, sample)| {
+                let found = block.par_iter().enumerate().map(|(k, sample)| {
                     let estimator = &estimators(&sample.scene)[place];
                     let found = if estimator.needs_dark() {
-                        estimator.estimate_pair(&drawn[k])
+                        estimator.estimate_pair(&drawn[k]).map(Found::depth)
+                    } else if estimator.second().is_some() {
+                        estimator.find(&sample.histogram)
                     } else {
-                        estimator.estimate(&sample.histogram)
+                        estimator.estimate(&sample.histogram).map(Found::depth)
                     };
                     found.ok()
                 });
-                let (depths_m, scenes) = (depths_m.collect(), block.iter().map(|one| &one.scene));
-                column.extend(scenes, depths_m, is_array);
+                let found: Vec<_> = found.collect();
+                let depths_m = found.iter().map(|found| Some(found.as_ref()?.depth_m));
+                if let Some((of, second)) = &mut seconds[place] {
+                    let [first_m, second_m] = truths_m(source, &block, of.targets);
+                    column.extend_beside(depths_m, &first_m);
+                    let depths_m =
+                        found.iter().map(|found| Some(found.as_ref()?.second.as_ref()?.depth_m));
+                    second.extend_beside(depths_m, &second_m);
+                } else {
+                    let scenes = block.iter().map(|one| &one.scene);
+                    column.extend(scenes, depths_m.collect(), is_array);
+                }
             }
             scenes.extend(block.iter().map(|sample| sample.scene));
             done(block.len() as u64);
         }
-        Ok(Evaluation { scenes, columns })
+        let both = columns.into_iter().zip(seconds);
+        let columns = both
+            .flat_map(|(column, second)| [Some(column), second.map(|(_, column)| column)])
+            .flatten();
+        Ok(Evaluation { scenes, columns: columns.collect() })
     }
 
     /// Lets every estimator see histograms whose scenes are known, on all threads of the current pool;
@@ -126,7 +175,7 @@ impl Evaluation {
                 estimators(scene)[place].estimate(histogram).ok()
             };
             let depths_m = data.histograms.par_iter().zip(&scenes).map(depth).collect();
-            let mut column = EstimatorErrors { name, ..EstimatorErrors::default() };
+            let mut column = EstimatorErrors::named(name);
             column.extend(scenes.iter(), depths_m, data.array.is_some());
             column
         };
@@ -143,13 +192,18 @@ impl Evaluation {
         key: impl Fn(&Scene) -> f64,
         limit_m: f64,
     ) -> Vec<Group> {
-        spread::by(self.known(column).map(|(scene, _)| key(scene)), self.judged(column), limit_m)
+        spread::by(self.known(column).map(|known| key(known.scene)), self.judged(column), limit_m)
     }
 
-    /// Returns the scenes with a true distance, and the errors of a column in them [m].
-    pub fn known(&self, column: &EstimatorErrors) -> impl Iterator<Item = (&Scene, Option<f64>)> {
-        let rows = self.scenes.iter().zip(column.errors_m.iter().copied());
-        rows.filter(|(scene, _)| !scene.distance_m.is_nan())
+    /// Returns the rows of a column with a true distance.
+    pub fn known(&self, column: &EstimatorErrors) -> impl Iterator<Item = KnownRow<'_>> {
+        let rows = self.scenes.iter().zip(&column.errors_m).enumerate();
+        let known = rows.map(|(row, (scene, &error_m))| KnownRow {
+            scene,
+            error_m,
+            truth_m: column.truth_m(row, scene),
+        });
+        known.filter(|known| !known.truth_m.is_nan())
     }
 
     /// All errors of a column; as in [`Evaluation::by`].
@@ -159,8 +213,31 @@ impl Evaluation {
 
     /// Errors of a column and the true distances [m, m].
     fn judged(&self, column: &EstimatorErrors) -> impl Iterator<Item = (Option<f64>, f64)> {
-        self.known(column).map(|(scene, error_m)| (error_m, scene.distance_m))
+        self.known(column).map(|known| (known.error_m, known.truth_m))
     }
+}
+
+/// Returns whether a scene of a source may have two targets.
+fn has_two(source: &HistogramSource) -> bool {
+    source.array().is_none()
+        && source.scenarios().any(|scenario| scenario.target.second_share > 0.0)
+}
+
+/// Returns the true distances of the first and of the second target of the rows, as an estimator reports them; NaN
+/// without a second one [m].
+fn truths_m(source: &HistogramSource, block: &[Sample], targets: Targets) -> [Vec<f64>; 2] {
+    let second_m: Vec<_> =
+        source.scenarios().map(|scenario| scenario.target.second_distance_m).collect();
+    let mut white = Last(None);
+    let truths = block.iter().map(|sample| {
+        let scene = &sample.scene;
+        let white = white.or(scene.surfaces(), |_| source.white(scene));
+        let budget = scaled(white, scene);
+        let depths = TrueDepths::new(targets, scene.distance_m, second_m[scene.setting], &budget);
+        (depths.first_m, depths.second_m.unwrap_or(f64::NAN))
+    });
+    let (first_m, second_m) = truths.unzip();
+    [first_m, second_m]
 }
 
 #[cfg(test)]

@@ -4,15 +4,18 @@
 //! stands out most of what one echo leaves, and, for two that seem to be a wide one, to either side of it.
 
 use crate::estimation::acquisition::{Acquisition, Echo};
-use crate::estimation::estimator::{EchoDepth, Estimator, Failure, Found};
+use crate::estimation::estimator::{EchoDepth, Estimator, Failure, Found, SecondTarget};
 
 use tofsim::error::Input;
+use tofsim::firmware::likelihood_estimator::targets::Targets;
 
 use super::climb::{Top, climb};
 use super::{Fit, Likelihood};
 
 /// Its name on the command line.
 pub const NAME: &str = "two-echoes";
+/// Name of the second target's distances.
+const SECOND: &str = "two-echoes-second";
 
 /// Gain of the log likelihood that chance does not make: with two coordinates more it is exponential, so that
 /// 18 come once in 6e7 at a given place [1].
@@ -67,6 +70,10 @@ impl Estimator for TwoEchoes {
         let second = fits.get(1).map(|second| self.0.depth(second));
         let pedestal = self.0.pedestal(histogram, &fits);
         Ok(Found { depth_m, sigma_m: Some(sigma_m), second, pedestal })
+    }
+
+    fn second(&self) -> Option<SecondTarget> {
+        Some(SecondTarget { name: SECOND, targets: Targets::NearestFirst })
     }
 }
 
