@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use tofsim::error::{Result, poll_stop};
+use tofsim::firmware::likelihood_estimator::targets::Targets;
 use tofsim::network::Histogram;
 use tofsim::note::{Note, NoteCode, merged};
 use tofsim::scenario::Loaded;
@@ -99,7 +100,7 @@ impl<'a> Trial<'a> {
         let plan = self.plan;
         let estimators = Panel::new(&plan.estimators, setup)?.into_estimators();
         let mut taker = Collector {
-            truth_m: truth_m(setup),
+            truths_m: estimators.iter().map(|one| truth_m(setup, one.as_ref())).collect(),
             errors: estimators.iter().map(|_| Vec::new()).collect(),
             estimators,
             tally: Tally {
@@ -131,7 +132,8 @@ impl<'a> Trial<'a> {
             }
         }
         let limit_m = 1e-3 * plan.file.outlier_limit_mm;
-        let errors = taker.errors.iter().map(|errors| Errors::of(errors, taker.truth_m, limit_m));
+        let of_each = taker.errors.iter().zip(&taker.truths_m);
+        let errors = of_each.map(|(errors, truth_m)| Errors::of(errors, *truth_m, limit_m));
         Ok((taker.tally, errors.collect()))
     }
 }
@@ -140,10 +142,11 @@ fn finite(value: Option<f64>) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
-/// Returns the distance of the target, if light reflected by it is simulated [m].
-fn truth_m(setup: &Setup) -> Option<f64> {
+/// Returns the distance of the target that an estimator reports first, if light reflected by it is simulated [m].
+fn truth_m(setup: &Setup, estimator: &dyn Estimator) -> Option<f64> {
     let is_dark = setup.no_depth().is_some_and(|note| note.code == NoteCode::NoLight);
-    (!is_dark).then_some(setup.scenario.target.distance_m)
+    let targets = estimator.second().map_or(Targets::One, |second| second.targets);
+    (!is_dark).then(|| setup.depths_reported_by(targets).first_m)
 }
 
 /// Returns the notes on depths of a scenario.
@@ -164,7 +167,8 @@ fn notes(setup: &Setup, kinds: &[EstimatorKind]) -> Result<Vec<Note>> {
 
 /// Collector of frames.
 struct Collector {
-    truth_m: Option<f64>,
+    /// For each estimator, the distance of the target that it reports first [m].
+    truths_m: Vec<Option<f64>>,
     estimators: Vec<Box<dyn Estimator>>,
     /// For each estimator, the depth error of each frame, if it has a depth [m].
     errors: Vec<Vec<Option<f64>>>,
@@ -183,12 +187,13 @@ impl Collector {
         }
         let pair =
             self.dark.take().map(|dark| HistogramPair { dark, lit: frame.histogram.clone() });
-        for (estimator, errors) in self.estimators.iter().zip(&mut self.errors) {
+        let errors = self.errors.iter_mut().zip(&self.truths_m);
+        for (estimator, (errors, truth_m)) in self.estimators.iter().zip(errors) {
             let found = match &pair {
                 Some(pair) => estimator.estimate_pair(pair),
                 None => estimator.estimate(&frame.histogram),
             };
-            errors.push(found.ok().map(|depth_m| depth_m - self.truth_m.unwrap_or(0.0)));
+            errors.push(found.ok().map(|depth_m| depth_m - truth_m.unwrap_or(0.0)));
         }
     }
 }

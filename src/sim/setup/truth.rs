@@ -41,12 +41,17 @@ impl Setup {
     /// echo. That of a pixel with a field of view of its own is the mean along its lines of sight.
     pub fn true_depths(&self) -> Option<TrueDepths> {
         self.no_depth.is_none().then_some(())?;
-        let target = &self.scenario.target;
         if self.scenario.array.is_rectangular() {
             return Some(TrueDepths { first_m: self.mean_radial_m()?, second_m: None });
         }
-        let (target_m, second_m) = (target.distance_m, target.second_distance_m);
-        Some(TrueDepths::new(self.targets(), target_m, second_m, &self.budget))
+        Some(self.depths_reported_by(self.targets()))
+    }
+
+    /// Returns the distances of the target and a second surface in the order in which an estimator of `targets` reports
+    /// them, of a pixel without a field of view of its own.
+    pub fn depths_reported_by(&self, targets: Targets) -> TrueDepths {
+        let target = &self.scenario.target;
+        TrueDepths::new(targets, target.distance_m, target.second_distance_m, &self.budget)
     }
 
     /// Returns the true distance of the target that the firmware reports first [m].

@@ -87,3 +87,19 @@ fn a_run_states_both_true_distances_in_the_order_of_the_firmware() {
     assert_eq!(frame("estimator.order=strongest"), [Value::from(0.7), Value::from(0.35)]);
     assert_eq!(frame("estimator.kind=network"), [Value::from(0.7), Value::Null]);
 }
+
+#[test]
+fn a_sweep_compares_with_the_target_that_is_reported_first() {
+    let folder = empty();
+    let plan = "scenario = \"net\"\nset = [\"estimator.targets=2\"]\nfidelity = \"shot\"\nframes = 3\n\
+        estimators = [\"likelihood_estimator\", \"two-echoes\"]\noutputs = [\"*.bias_mm\"]\n\
+        [[axis]]\nkey = \"estimator.order\"\nvalues = [\"nearest\", \"strongest\"]\n";
+    std::fs::write(folder.path().join("plan.toml"), plan).unwrap();
+    let found = json(folder.path(), &["sweep", "plan.toml", "--json"]);
+    for row in found["rows"].as_array().unwrap() {
+        for column in ["likelihood_estimator.bias_mm", "two-echoes.bias_mm"] {
+            let bias_mm = row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"));
+            assert!(bias_mm.abs() < 3.0, "{column} of {row}");
+        }
+    }
+}
