@@ -1,6 +1,7 @@
 //! What a pixel has measured in an image, and what it can expect.
 
 use crate::firmware::tof_top::status::StatusSet;
+use crate::sim::estimates::EchoDepth;
 use crate::sim::frames::Frame;
 use crate::sim::setup::Setup;
 
@@ -26,6 +27,8 @@ pub struct PixelFrame {
     pub valid: bool,
     /// Reasons to reject it.
     pub status: StatusSet,
+    /// The second target, where the firmware looks for one and has found it, if both distances are valid.
+    pub second: Option<EchoDepth>,
     /// Hits in the histogram.
     pub hits: u64,
 }
@@ -39,6 +42,7 @@ impl PixelFrame {
             sigma_m: estimate.sigma_m,
             valid: estimate.valid,
             status: estimate.status,
+            second: estimate.second.filter(|second| estimate.valid && second.valid == Some(true)),
             hits: frame.hits(),
         }
     }

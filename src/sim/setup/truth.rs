@@ -40,7 +40,9 @@ impl Setup {
     /// target: where light and not a list or a ROM decides it, the laser's light comes back, and the histogram holds the
     /// echo. That of a pixel with a field of view of its own is the mean along its lines of sight.
     pub fn true_depths(&self) -> Option<TrueDepths> {
-        self.no_depth.is_none().then_some(())?;
+        if self.no_depth.is_some() {
+            return None;
+        }
         if self.scenario.array.is_rectangular() {
             return Some(TrueDepths { first_m: self.mean_radial_m()?, second_m: None });
         }
@@ -60,7 +62,7 @@ impl Setup {
     }
 
     /// Returns the targets that the estimator in the slot looks for.
-    fn targets(&self) -> Targets {
+    pub fn targets(&self) -> Targets {
         let keys = &self.scenario.estimator;
         match self.params.estimator {
             FirmwareEstimator::LikelihoodEstimator => Targets::of(keys.targets, keys.order),

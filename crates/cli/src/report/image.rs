@@ -158,6 +158,15 @@ impl Findings for DepthImages<'_> {
             .column("true_radial_m", Fixed(9), |one| one.pixel.measured.expected.radial_m)
             .column("signal", Fixed(6), |one| one.pixel.measured.expected.signal_hits)
             .column("ambient", Fixed(6), |one| one.pixel.measured.expected.ambient_hits);
+        let sheet = if self.looks_for_two() {
+            sheet.column("second_radial_m", Shortest, |one| one.second_radial_m()).column(
+                "second_sigma_m",
+                Shortest,
+                |one| one.second_sigma_m(),
+            )
+        } else {
+            sheet
+        };
         vec![sheet.file("pixels.csv")]
     }
 

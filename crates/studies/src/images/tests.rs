@@ -16,6 +16,7 @@ fn pixel(true_mm: f64, depths_mm: &[Option<f64>]) -> Pixel {
         sigma_m: Some(0.002),
         valid: depth_mm.is_some(),
         status: StatusSet::default(),
+        second: None,
         hits: 100,
     };
     let expected =

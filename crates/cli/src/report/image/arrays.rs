@@ -17,6 +17,11 @@ const MEASURED: [Measured; 3] = [
     ("depth_perpendicular_m", |one| one.perpendicular_m()),
     ("sigma_m", |one| one.sigma_m()),
 ];
+/// Where the firmware looks for a second target.
+const SECOND: [Measured; 2] = [
+    ("second_radial_m", |one| one.second_radial_m()),
+    ("second_sigma_m", |one| one.second_sigma_m()),
+];
 const EXPECTED: [Expected; 3] = [
     ("true_radial_m", |pixel| pixel.measured.expected.radial_m),
     ("signal", |pixel| pixel.measured.expected.signal_hits),
@@ -57,8 +62,11 @@ impl DepthImages<'_> {
         let floats = |values: Vec<Option<f64>>| {
             ArrayValues::Floats(values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
         };
+        let seconds = SECOND.iter().filter(|_| self.looks_for_two());
         let of_readings = MEASURED
-            .map(|(name, value)| (name, &measured, floats(readings.iter().map(value).collect())));
+            .iter()
+            .chain(seconds)
+            .map(|(name, value)| (*name, &measured, floats(readings.iter().map(value).collect())));
         let of_pixels = EXPECTED
             .map(|(name, value)| (name, &pixel, floats(self.pixels.iter().map(value).collect())));
         let frames = || readings.iter().map(|one| one.frame);
@@ -67,7 +75,7 @@ impl DepthImages<'_> {
         let hits = ArrayValues::Counts(frames().map(|frame| frame.hits).collect());
         let others = [("valid", valid), ("status", status), ("hits", hits)];
         let others = others.into_iter().map(|(name, values)| (name, &measured, values));
-        let all = of_readings.into_iter().chain(of_pixels).chain(others);
+        let all = of_readings.chain(of_pixels).chain(others);
         all.map(|(name, shape, values)| ImageArray { name, shape: shape.clone(), values }).collect()
     }
 }

@@ -69,6 +69,16 @@ impl Reading<'_> {
         self.frame.sigma_m.filter(|_| self.frame.valid)
     }
 
+    /// Distance of a second target along the line of sight, if there is one [m].
+    pub fn second_radial_m(&self) -> Option<f64> {
+        self.frame.second.map(|second| second.depth_m)
+    }
+
+    /// Standard deviation of that [m].
+    pub fn second_sigma_m(&self) -> Option<f64> {
+        self.frame.second.map(|second| second.sigma_m)
+    }
+
     /// Difference from the true distance, if there are both [m].
     pub fn error_m(&self) -> Option<f64> {
         Some(self.radial_m()? - self.pixel.measured.expected.radial_m?)
@@ -86,6 +96,11 @@ impl DepthImages<'_> {
     pub fn is_whole(&self) -> bool {
         let [rows, columns] = self.array.size();
         self.pixels.len() == rows * columns
+    }
+
+    /// Returns whether the firmware looks for a second target.
+    pub fn looks_for_two(&self) -> bool {
+        self.array.common().targets().has_second()
     }
 
     /// Returns the valid depths of all images; those of a single pixel as an array of one.
