@@ -16,6 +16,7 @@ mod simulate;
 mod tests;
 
 pub use design::CountedDesign;
+use measured::Measured;
 use promises::Promise;
 
 use std::path::Path;
@@ -70,20 +71,25 @@ pub fn cycle_counts(
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
-    count(&promises::of(rtl, design), (design, rtl), limits, prove::prove, done)
+    let promises = promises::of(rtl, design);
+    let measure = |folder: &Path| simulate::measure(&promises, rtl, design, folder, limits);
+    count(&promises, (design, rtl), limits, (measure, prove::prove), done)
 }
 
-/// Counts those promises; `prove` says why one may not hold, or `None` if it is proven.
+/// Counts those promises: `measure` in a simulation, and `prove` says why one may not hold, or `None` if it is proven.
 fn count(
     promises: &[Promise],
     (design, rtl): (&CountedDesign, &Rtl),
     limits: &Limits,
-    prove: impl Fn(&Promise, &Rtl, &Path, &Limits) -> Result<Option<String>>,
+    (measure, prove): (
+        impl FnOnce(&Path) -> Result<Measured>,
+        impl Fn(&Promise, &Rtl, &Path, &Limits) -> Result<Option<String>>,
+    ),
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let folder = ScratchFolder::new()?;
     write_program(design, folder.path())?;
-    let simulated = simulate::measure(promises, rtl, design, folder.path(), limits)?;
+    let simulated = measure(folder.path())?;
     let modelled = model::measure(design);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);

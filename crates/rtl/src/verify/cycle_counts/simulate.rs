@@ -29,6 +29,13 @@ const BENCHES: [(&str, &str); 5] = [
     ("bench_likelihood", of_estimator!("bench_likelihood.v")),
 ];
 
+/// Returns the benches that show those promises: name and text.
+pub fn benches(promises: &[Promise]) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let is_needed =
+        |(name, _): &(&str, &str)| promises.iter().any(|it| it.properties.bench == *name);
+    BENCHES.into_iter().filter(is_needed)
+}
+
 /// Counts what is promised of `rtl`, which is to be such a design, in the benches that show it.
 ///
 /// # Errors
@@ -42,9 +49,7 @@ pub fn measure(
     limits: &Limits,
 ) -> Result<Measured> {
     let mut measured = Measured::default();
-    let is_needed =
-        |(name, _): &(&str, &str)| promises.iter().any(|it| it.properties.bench == *name);
-    for (name, text) in BENCHES.into_iter().filter(is_needed) {
+    for (name, text) in benches(promises) {
         let bench = format!("{name}.v");
         write_bytes(&folder.join(&bench), with_defines(name, &design.defines(), text))?;
         let bench = [folder.join(bench)];
