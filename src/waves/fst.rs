@@ -19,10 +19,13 @@ use super::digits::TapDigits;
 
 mod blocks;
 mod changes;
+pub(super) mod dump;
 mod header;
 mod hierarchy;
+mod record;
 mod section;
 mod sections;
+mod signal_stream;
 mod stream;
 mod times;
 
@@ -30,6 +33,7 @@ use blocks::Block;
 use changes::Changes;
 use header::Header;
 use hierarchy::Hierarchy;
+use stream::Stream;
 
 /// An FST file being written.
 pub(super) struct Fst {
@@ -62,12 +66,13 @@ impl Fst {
             ..Header::new(provenance)?
         };
         let mut file = OutputFile::create_seekable(path)?;
+        let streams = hierarchy.widths.iter().map(|&width| Stream::new(width)).collect();
         let begun = header.write(&mut file).and_then(|()| hierarchy.write(&mut file));
         begun.map_err(Error::io(path, "write"))?;
         Ok(Fst {
             path: path.to_owned(),
             provenance: provenance.join("\n"),
-            changes: Changes::new(file, header, &hierarchy.widths),
+            changes: Changes::new(file, header, streams),
             signals: hierarchy.signals,
             taps: TapDigits::new(encoder),
             bytes: Vec::new(),

@@ -2,22 +2,27 @@
 
 use crate::hierarchy::Entry;
 
-/// An element of a header's hierarchy.
-pub(super) enum Element<'a> {
+/// An element of a header's hierarchy, with signals of a type `T`.
+pub(super) enum Element<'a, T> {
     /// Start of a scope within the current one.
     Enter(&'a str),
     /// End of the current scope.
     Leave,
     /// Signal in the current scope.
-    Signal(&'a Entry),
+    Signal(&'a T),
 }
 
 /// Lists the elements of the hierarchy of `entries`, in which the signals of a scope are adjacent.
-pub(super) fn elements(entries: &[Entry]) -> Vec<Element<'_>> {
+pub(super) fn elements(entries: &[Entry]) -> Vec<Element<'_, Entry>> {
+    nested(entries, |entry| &entry.scope)
+}
+
+/// Lists the elements of the hierarchy of any signals, whose scopes are separated by dots.
+pub(super) fn nested<T>(signals: &[T], scope: impl Fn(&T) -> &str) -> Vec<Element<'_, T>> {
     let mut elements = Vec::new();
     let mut open: Vec<&str> = Vec::new();
-    for entry in entries {
-        let scope: Vec<&str> = entry.scope.split('.').collect();
+    for entry in signals {
+        let scope: Vec<&str> = scope(entry).split('.').filter(|name| !name.is_empty()).collect();
         let common = open.iter().zip(&scope).take_while(|(a, b)| a == b).count();
         elements.extend(open[common..].iter().map(|_| Element::Leave));
         elements.extend(scope[common..].iter().map(|name| Element::Enter(name)));

@@ -32,13 +32,14 @@ use std::str::FromStr;
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 
+use crate::choice::SignalChoice;
 use crate::condition::Condition;
 use crate::source::Source;
 
 pub use align::Align;
 pub use align::{Survey, survey};
 pub use map::SignalMap;
-pub use matching::{SignalChoice, Unmatched, UnmatchedReason};
+pub use matching::{Unmatched, UnmatchedReason};
 pub use pair::{MatchedBy, Unknowns};
 pub(crate) use probed::{Probed, pulse};
 pub use result::{

@@ -34,6 +34,7 @@ use tofsim::sim::setup::array::ArraySetup;
 
 use crate::ila::Radix;
 
+pub(crate) use library::is_shortened;
 pub use names::Name;
 pub(crate) use shapes::{flow, known_shape};
 pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat, Words};

@@ -5,16 +5,17 @@ use std::io::{self, Seek, Write};
 use super::header::Header;
 use super::section::Section;
 use super::sections::Sections;
+use super::signal_stream::SignalStream;
 use super::stream::Stream;
 
 /// Amount of changes that are collected before compression [bytes].
 const GATHERED: usize = 1 << 20;
 
 /// Writer of the value changes.
-pub(super) struct Changes<W> {
+pub(super) struct Changes<W, S = Stream> {
     sections: Sections<W>,
     header: Header,
-    streams: Vec<Stream>,
+    pub(super) streams: Vec<S>,
     /// The section that is gathered; the streams have its changes.
     section: Section,
     /// The last time [ps].
@@ -25,13 +26,29 @@ pub(super) struct Changes<W> {
     size: usize,
 }
 
-impl<W: Write + Seek + Send + 'static> Changes<W> {
-    /// Creates a writer that appends to `file`; `widths` are those of the signals, in order.
-    pub(super) fn new(file: W, header: Header, widths: &[usize]) -> Self {
-        let streams = widths.iter().map(|&width| Stream::new(width)).collect();
-        let sections = Sections::new(file, widths.len());
-        let section = Section::new(widths.len());
+impl<W: Write + Seek + Send + 'static, S: SignalStream> Changes<W, S> {
+    /// Creates a writer that appends to `file`; `streams` are those of the signals, in order.
+    pub(super) fn new(file: W, header: Header, streams: Vec<S>) -> Self {
+        let sections = Sections::new(file, streams.len());
+        let section = Section::new(streams.len());
         Changes { sections, header, streams, section, at: 0, start: 0, size: 0 }
+    }
+
+    /// Begins the file at a time, whose values are changes instead of the initial values of the first section.
+    pub(super) fn open(&mut self, at: u64) {
+        self.streams.iter().for_each(|stream| stream.spell(&mut self.section.frame));
+        self.section.times.push(at, 0);
+        (self.at, self.start, self.header.start) = (at, at, at);
+    }
+
+    /// Returns the number of the present time step within its section.
+    pub(super) fn step(&self) -> u64 {
+        self.section.times.last
+    }
+
+    /// Counts the bytes by which a signal's stream has grown.
+    pub(super) fn grown(&mut self, bytes: usize) {
+        self.size += bytes;
     }
 
     /// Begins a time step, not earlier than the previous one [ps].
@@ -50,6 +67,30 @@ impl<W: Write + Seek + Send + 'static> Changes<W> {
         Ok(())
     }
 
+    /// Writes the last section, and the header with the end time [ps].
+    pub(super) fn finish(mut self, at: u64) -> io::Result<W> {
+        self.begin(at)?;
+        self.write_section()?;
+        self.header.end = self.at;
+        let mut file = self.sections.finish()?;
+        self.header.write(&mut file)?;
+        Ok(file)
+    }
+
+    fn write_section(&mut self) -> io::Result<()> {
+        let section = &mut self.section;
+        section.span = [self.start, self.at];
+        for (stream, data) in self.streams.iter_mut().zip(&mut section.streams) {
+            stream.hand_over(data);
+        }
+        self.sections.write(section)?;
+        self.header.sections += 1;
+        (self.size, self.start) = (0, self.at);
+        Ok(())
+    }
+}
+
+impl<W: Write + Seek + Send + 'static> Changes<W> {
     /// Changes a signal of up to 64 bits.
     #[inline]
     pub(super) fn word(&mut self, signal: usize, value: u64) {
@@ -79,27 +120,5 @@ impl<W: Write + Seek + Send + 'static> Changes<W> {
                 self.size += 2 + stream.width;
             }
         }
-    }
-
-    /// Writes the last section, and the header with the end time [ps].
-    pub(super) fn finish(mut self, at: u64) -> io::Result<W> {
-        self.begin(at)?;
-        self.write_section()?;
-        self.header.end = self.at;
-        let mut file = self.sections.finish()?;
-        self.header.write(&mut file)?;
-        Ok(file)
-    }
-
-    fn write_section(&mut self) -> io::Result<()> {
-        let section = &mut self.section;
-        section.span = [self.start, self.at];
-        for (stream, data) in self.streams.iter_mut().zip(&mut section.streams) {
-            stream.hand_over(data);
-        }
-        self.sections.write(section)?;
-        self.header.sections += 1;
-        (self.size, self.start) = (0, self.at);
-        Ok(())
     }
 }

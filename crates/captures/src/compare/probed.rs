@@ -2,12 +2,13 @@
 
 use tofsim::error::Result;
 
+use crate::choice::SignalChoice;
 use crate::source::Source;
 use crate::words::Bits;
 
 use super::find;
 use super::map::SignalMap;
-use super::matching::{Matching, SignalChoice, matching};
+use super::matching::{Matching, matching};
 use super::parts::Slots;
 use super::samples::{Clocking, Sample, SampleClock, Samples};
 

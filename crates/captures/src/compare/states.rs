@@ -5,13 +5,14 @@ use std::collections::{BTreeSet, HashMap};
 
 use tofsim::error::Result;
 
+use crate::choice::SignalChoice;
 use crate::source::{Name, Signal, SignalKind, Source, Translation};
 
 use crate::ila::read::{MOST_STATES, word};
 use crate::words::listed;
 
 use super::map::SignalMap;
-use super::matching::{Matching, SignalChoice, matching};
+use super::matching::{Matching, matching};
 use super::pair::Pair;
 
 /// Number of names listed in a note.

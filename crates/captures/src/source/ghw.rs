@@ -83,8 +83,9 @@ fn signal(variable: &Variable, strings: &[String], id: usize) -> Signal {
     let states = literals
         .map(|(&literal, bits)| NamedValue { name: strings[literal].clone(), bits: Some(bits) });
     let words = Words { width, mixed: false, states: states.collect() };
-    let (name, lsb) = (Name::new(&variable.name), variable.lsb);
-    Signal { name, width, lsb, kind, radix: None, shape: None, words, id }
+    let (name, range) = (Name::new(&variable.name), variable.range);
+    let lsb = range.map_or(0, |[_, lsb]| lsb);
+    Signal { name, width, lsb, range, kind, radix: None, shape: None, words, id }
 }
 
 impl signals::Origin for GhwOrigin {

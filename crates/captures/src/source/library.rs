@@ -25,6 +25,14 @@ pub(super) fn set(bits: &mut Bits, value: SignalValueRef<'_>, words: usize) {
     }
 }
 
+/// Mark of a text that is its beginning and a hash.
+const SHORTENED: &str = "..(hash ";
+
+/// Returns whether a text of a waveform is the beginning of a longer one.
+pub(crate) fn is_shortened(text: &str) -> bool {
+    text.len() > LONGEST_WORD - 30 && text.ends_with(')') && text.contains(SHORTENED)
+}
+
 /// Returns a text that fits a signal's words: a long one is its beginning and a hash of the whole.
 fn shortened(text: &str) -> Cow<'_, str> {
     if text.len() <= LONGEST_WORD {
@@ -32,7 +40,7 @@ fn shortened(text: &str) -> Cow<'_, str> {
     }
     let mut hasher = DefaultHasher::new();
     text.hash(&mut hasher);
-    let hash = format!("..(hash {:016x})", hasher.finish());
+    let hash = format!("{SHORTENED}{:016x})", hasher.finish());
     let begin = &text[..text.floor_char_boundary(LONGEST_WORD - hash.len())];
     (begin.to_owned() + &hash).into()
 }

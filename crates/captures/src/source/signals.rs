@@ -60,6 +60,18 @@ impl Axis {
         self.tick().map(|tick| tick.femtoseconds(at))
     }
 
+    /// Formats a place: a time in nanoseconds, or a sample number.
+    pub fn place_text(self, at: u64) -> String {
+        let Some(fs) = self.femtoseconds(at) else { return format!("sample {at}") };
+        let text = format!("{}.{:06}", fs / 1_000_000, fs % 1_000_000);
+        format!("{} ns", text.trim_end_matches('0').trim_end_matches('.'))
+    }
+
+    /// Returns a place as a number: picoseconds, or a sample number.
+    pub fn place_number(self, at: u64) -> f64 {
+        self.femtoseconds(at).map_or(at as f64, |fs| fs as f64 / 1e3)
+    }
+
     /// Returns the unit of times, if places are times.
     pub(crate) fn tick(self) -> Option<Tick> {
         match self {
@@ -107,6 +119,8 @@ pub struct Signal {
     pub width: u32,
     /// Index of the lowest bit.
     pub lsb: i64,
+    /// Indices of the highest and the lowest bit, if the source states them.
+    pub range: Option<[i64; 2]>,
     /// Type of its values.
     pub kind: SignalKind,
     /// Radix of its values, if the source states it.

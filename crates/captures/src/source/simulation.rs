@@ -46,6 +46,7 @@ pub(super) fn source(setup: Setup, array: Option<ArraySetup>, frames: Option<u64
         name: Name::new(entry.path()),
         width: entry.signal.width,
         lsb: 0,
+        range: (entry.signal.width > 1).then(|| [i64::from(entry.signal.width) - 1, 0]),
         kind: SignalKind::Bits,
         words: Words::default(),
         radix: None,

@@ -25,6 +25,15 @@ impl Tick {
         u64::try_from(at as u128 * self.0 / other.0).unwrap_or(u64::MAX)
     }
 
+    /// Returns the largest power of ten, as an exponent [s], of which this unit is a multiple, and that multiple.
+    pub(crate) fn decimal(self) -> (i8, u64) {
+        let (mut length, mut exponent) = (self.0, -21);
+        while length.is_multiple_of(10) {
+            (length, exponent) = (length / 10, exponent + 1);
+        }
+        (exponent, length as u64)
+    }
+
     /// Converts `at` from this unit [fs].
     pub fn femtoseconds(self, at: u64) -> u128 {
         at as u128 * self.0 / Tick::FEMTOSECOND.0

@@ -143,8 +143,9 @@ fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
     };
     // The library makes scopes of the indices of arrays.
     let name = Name::new(var.full_name(hierarchy).replace(".[", "["));
-    let lsb = var.index().map_or(0, |index| index.lsb());
-    Signal { name, width, lsb, kind, radix: None, shape: None, words: Words::default(), id }
+    let range = var.index().map(|index| [index.msb(), index.lsb()]);
+    let (lsb, words) = (range.map_or(0, |[_, lsb]| lsb), Words::default());
+    Signal { name, width, lsb, range, kind, radix: None, shape: None, words, id }
 }
 
 fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {

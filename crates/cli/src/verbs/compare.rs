@@ -1,6 +1,6 @@
 //! `tofsim compare`: two waveforms, captures or simulations laid over each other.
 
-mod values;
+pub(super) mod values;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -11,9 +11,10 @@ use values::{latency, time, tolerance, valid};
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::kernel::Time;
 use tofsim::{Note, NoteCode, NoteValue};
+use tofsim_captures::choice::SignalChoice;
 use tofsim_captures::compare::map::Rule;
 use tofsim_captures::compare::{
-    Align, Options, SampleClock, SignalChoice, SignalMap, Unknowns, compare,
+    Align, Options, SampleClock, SignalMap, Unknowns, compare,
 };
 use tofsim_captures::condition::Condition;
 use tofsim_captures::ila::{AnalyserSetup, Radix};

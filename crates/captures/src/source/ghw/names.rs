@@ -16,8 +16,8 @@ pub(super) struct Variable {
     /// Numbers of the file's signals, from 1.
     pub(super) signals: Vec<u32>,
     pub(super) scalar: Scalar,
-    /// Index of the lowest bit.
-    pub(super) lsb: i64,
+    /// Indices of the highest and the lowest bit of a vector.
+    pub(super) range: Option<[i64; 2]>,
     /// Strings of the literals of an enumeration.
     pub(super) literals: Vec<usize>,
 }
@@ -119,7 +119,7 @@ impl<'a> Names<'a> {
             Form::Scalar(scalar, literals) => {
                 let signals = vec![self.signal(file, *scalar)?];
                 let literals = literals.clone();
-                self.variables.push(Variable { name, signals, scalar: *scalar, lsb: 0, literals });
+                self.variables.push(Variable { name, signals, scalar: *scalar, range: None, literals });
                 Ok(())
             }
             Form::Array(element, Dimensions::Known(ranges)) => {
@@ -146,9 +146,9 @@ impl<'a> Names<'a> {
                 let length = at_most("width", range.length(), WIDEST.into())?;
                 let signals = (0..length).map(|_| self.signal(file, scalar));
                 let signals: Vec<u32> = signals.collect::<Checked<_>>()?;
-                let (lsb, literals) = (range.right, Vec::new());
+                let (range, literals) = (Some([range.left, range.right]), Vec::new());
                 if !signals.is_empty() {
-                    self.variables.push(Variable { name, signals, scalar, lsb, literals });
+                    self.variables.push(Variable { name, signals, scalar, range, literals });
                 }
                 Ok(())
             }

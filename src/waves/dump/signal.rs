@@ -1,0 +1,142 @@
+//! Signals and values of a waveform of any design.
+
+use std::io;
+
+use crate::error::Result;
+
+/// Type of a signal's values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DumpKind {
+    /// Levels, with their number [bits].
+    Bits(u32),
+    /// Floating-point number.
+    Real,
+    /// Text.
+    Text,
+    /// No value, only events.
+    Event,
+}
+
+/// A signal under one of its names.
+#[derive(Clone, Debug)]
+pub struct DumpSignal {
+    /// Scopes, separated by dots.
+    pub scope: String,
+    /// Name without scopes and range.
+    pub name: String,
+    /// Indices of the highest and the lowest bit, if they are part of the name.
+    pub range: Option<[i64; 2]>,
+    /// Type of its values.
+    pub kind: DumpKind,
+    /// Names of its states, with their values; empty if it has none.
+    pub states: Vec<(String, u64)>,
+    /// Id, which all names of the signal share; ids count from 0.
+    pub id: usize,
+}
+
+impl DumpSignal {
+    /// Formats the range, such as `[7:0]`.
+    pub(in super::super) fn range_text(&self) -> Option<String> {
+        self.range.map(|[high, low]| match self.kind {
+            DumpKind::Bits(1) if high == low => format!("[{high}]"),
+            _ => format!("[{high}:{low}]"),
+        })
+    }
+
+    /// Formats the table of states: a name, their number, their names, and their values in binary.
+    pub(in super::super) fn table(&self, number: u64) -> String {
+        let width = if let DumpKind::Bits(width) = self.kind { width as usize } else { 1 };
+        let mut text = format!("states_{number} {}", self.states.len());
+        self.states.iter().for_each(|(name, _)| text += &format!(" {}", escaped(name)));
+        self.states.iter().for_each(|(_, value)| text += &format!(" {value:0width$b}"));
+        text
+    }
+}
+
+/// A value.
+#[derive(Clone, Copy, Debug)]
+pub enum DumpValue<'a> {
+    /// Levels, least significant word first; unknown ones are 0 for `x` and 1 for `z`.
+    Bits {
+        /// Value.
+        value: &'a [u64],
+        /// Mask of the unknown bits.
+        unknown: &'a [u64],
+    },
+    /// Floating-point number.
+    Real(f64),
+    /// Text.
+    Text(&'a str),
+    /// Event.
+    Event,
+}
+
+impl DumpValue<'_> {
+    /// Returns the digit of a level.
+    pub fn digit(value: &[u64], unknown: &[u64], bit: u32) -> u8 {
+        let of = |words: &[u64]| words[bit as usize / 64] >> (bit % 64) & 1;
+        match (of(unknown), of(value)) {
+            (0, 0) => b'0',
+            (0, _) => b'1',
+            (_, 0) => b'x',
+            _ => b'z',
+        }
+    }
+}
+
+/// A waveform file under construction. If it is dropped before its end, no file remains.
+pub trait Dump {
+    /// Sets the time of the changes that follow, which must not decrease, in units of the file.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    fn begin(&mut self, at: u64) -> io::Result<()>;
+
+    /// Writes a change of a signal, by its id.
+    ///
+    /// # Errors
+    /// If the file cannot be written, or cannot have the value.
+    fn change(&mut self, id: usize, value: DumpValue<'_>) -> io::Result<()>;
+
+    /// Ends the file at a time, and moves it to its path.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    fn finish(self: Box<Self>, at: u64) -> Result<()>;
+}
+
+/// Replaces what cannot be part of a word in a waveform by backslash sequences, as GTKWave's tools do.
+pub fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '\\' | '\'' | '"' | '?' => escaped.extend(['\\', character]),
+            '!'..='~' => escaped.push(character),
+            _ => {
+                let mut bytes = [0; 4];
+                let bytes = character.encode_utf8(&mut bytes).bytes();
+                bytes.for_each(|byte| escaped += &format!("\\{byte:03o}"));
+            }
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_escaped_as_fst2vcd_does() {
+        assert_eq!(escaped("' '"), "\\'\\040\\'");
+        assert_eq!(escaped("a\\b\tµ"), "a\\\\b\\011\\302\\265");
+    }
+
+    #[test]
+    fn a_table_has_names_and_then_values_of_the_signal_s_width() {
+        let states = vec![("idle".to_owned(), 0), ("' '".to_owned(), 2)];
+        let (scope, name, kind) = (String::new(), "s".to_owned(), DumpKind::Bits(2));
+        let signal = DumpSignal { scope, name, range: None, kind, states, id: 0 };
+        assert_eq!(signal.table(3), "states_3 2 idle \\'\\040\\' 00 10");
+    }
+}
