@@ -37,11 +37,12 @@ impl Patterns {
     /// the outermost scope, or of the last part. Of the name `renamed`, it is of the whole name.
     pub(crate) fn has(&self, names: &[&str], renamed: Option<&str>) -> bool {
         let is_in = |set: &GlobSet| {
-            renamed.is_some_and(|name| set.is_match(name)) || names.iter().any(|name| {
-                let below = name.split_once('.').map_or(*name, |(_, below)| below);
-                let last = name.rsplit(['.', '/']).next().unwrap_or(name);
-                [*name, below, last].iter().any(|name| set.is_match(name))
-            })
+            renamed.is_some_and(|name| set.is_match(name))
+                || names.iter().any(|name| {
+                    let below = name.split_once('.').map_or(*name, |(_, below)| below);
+                    let last = name.rsplit(['.', '/']).next().unwrap_or(name);
+                    [*name, below, last].iter().any(|name| set.is_match(name))
+                })
         };
         !is_in(&self.ignored) && self.only.as_ref().is_none_or(is_in)
     }

@@ -136,9 +136,10 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     } else {
         let mut result = by_changes::compare(&plan, &align, &mut differences)?;
         conclude(&plan, &differences, options.all, &mut result);
-        result.findings = diagnose::changes(&result);
+        result.findings = diagnose::changes(&plan, align::shift(&plan, &align)?.0, &result)?;
         result
     };
+    result.skipped.extend(resolved.notes.iter().cloned());
     result.notes.extend(resolved.notes);
     if result.compared == 0 && result.is_same() {
         let expected = "nothing to compare: there is no place that both sides have";
@@ -168,6 +169,7 @@ fn by_beats(
     conclude(&plan, &differences, options.all, &mut result);
     let Comparison { pairs, beats, .. } = &mut result;
     pairs.retain(|pair| beats.as_ref().is_none_or(|found| found.signals.contains(&pair.name)));
+    result.skipped.extend(notes.iter().cloned());
     result.notes.extend(notes);
     Ok(result)
 }

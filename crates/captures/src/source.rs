@@ -20,6 +20,7 @@ mod span;
 mod spliced;
 mod state;
 mod stream;
+mod tables;
 mod tick;
 mod translated;
 mod wave;
@@ -42,7 +43,7 @@ pub use simulation::LONGEST_SIMULATION;
 pub use state::SourceState;
 pub use stream::{Cursor, Disconnected, Feed, Marks};
 pub use tick::Tick;
-pub(crate) use translated::Translation;
+pub(crate) use translated::{Translation, WordValues};
 
 impl Source {
     /// Opens a file, whose contents determine its format. `radix` applies to files that do not state the radix of

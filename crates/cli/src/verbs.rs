@@ -102,6 +102,7 @@ enum Verb {
     Board(board::Args),
     Serve(serve::Args),
     Ila(ila::Args),
+    #[command(visible_alias = "diff")]
     Compare(Box<compare::Args>),
     Wave(wave::Args),
     Dataset(dataset::Args),

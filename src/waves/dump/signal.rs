@@ -1,5 +1,6 @@
 //! Signals and values of a waveform of any design.
 
+use std::borrow::Cow;
 use std::io;
 
 use crate::error::Result;
@@ -122,6 +123,43 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
+/// Replaces the backslash sequences of [`escaped`], and others of C, by what they stand for.
+pub fn unescaped(text: &str) -> Cow<'_, str> {
+    if !text.contains('\\') {
+        return text.into();
+    }
+    let (mut bytes, mut rest) = (Vec::new(), text.as_bytes());
+    while let [first, behind @ ..] = rest {
+        rest = behind;
+        let (byte, length) = match (first, behind) {
+            (b'\\', [b'x', digits @ ..]) => {
+                number(digits, 16, 2).map_or((b'x', 1), |n| (n.0, n.1 + 1))
+            }
+            (b'\\', [b'0'..=b'7', ..]) => number(behind, 8, 3).unwrap_or((b'0', 1)),
+            (b'\\', [b'a', ..]) => (7, 1),
+            (b'\\', [b'b', ..]) => (8, 1),
+            (b'\\', [b't', ..]) => (b'\t', 1),
+            (b'\\', [b'n', ..]) => (b'\n', 1),
+            (b'\\', [b'v', ..]) => (11, 1),
+            (b'\\', [b'f', ..]) => (12, 1),
+            (b'\\', [b'r', ..]) => (b'\r', 1),
+            (b'\\', [other, ..]) => (*other, 1),
+            _ => (*first, 0),
+        };
+        bytes.push(byte);
+        rest = &rest[length..];
+    }
+    String::from_utf8_lossy(&bytes).into_owned().into()
+}
+
+/// Parses at most `most` digits, and returns their byte and number.
+fn number(digits: &[u8], radix: u32, most: usize) -> Option<(u8, usize)> {
+    let is_digit = |byte: &&u8| char::from(**byte).is_digit(radix);
+    let count = digits.iter().take(most).take_while(is_digit).count();
+    let text = std::str::from_utf8(&digits[..count]).ok()?;
+    Some((u32::from_str_radix(text, radix).ok()? as u8, count))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -130,6 +168,14 @@ mod tests {
     fn a_text_is_escaped_as_fst2vcd_does() {
         assert_eq!(escaped("' '"), "\\'\\040\\'");
         assert_eq!(escaped("a\\b\tµ"), "a\\\\b\\011\\302\\265");
+    }
+
+    #[test]
+    fn what_is_escaped_is_unescaped_again() {
+        for text in ["' '", "a\\b\tµ", "\u{1}\u{7f}?\"", "plain", ""] {
+            assert_eq!(unescaped(&escaped(text)), text);
+        }
+        assert_eq!(unescaped("\\x41\\x4g\\101\\n\\q\\"), "A\u{4}gA\nq\\");
     }
 
     #[test]

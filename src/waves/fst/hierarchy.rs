@@ -125,13 +125,7 @@ impl Hierarchy {
     }
 
     /// Adds a variable of a type and a direction; `initial` is the width of the initial value of a new id.
-    fn variable(
-        &mut self,
-        kind: [u8; 2],
-        name: &str,
-        width: u32,
-        (id, initial): (usize, usize),
-    ) {
+    fn variable(&mut self, kind: [u8; 2], name: &str, width: u32, (id, initial): (usize, usize)) {
         self.spelled.extend(kind);
         self.text(name);
         number(&mut self.spelled, width.into());

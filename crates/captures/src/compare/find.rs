@@ -111,7 +111,7 @@ fn bits(
     let signal = &source.signals[found];
     let fault = |expected: String| Err(Input::new(&source.name, expected).field(text).into());
     if signal.kind == SignalKind::Other {
-        return fault("is an event, or text without known values, which is not compared".into());
+        return fault("has words whose values are not known, which are not compared".into());
     }
     let Some((high, low)) = slice else { return Ok((found, Part::whole(slots, signal))) };
     let (high, low) = (i64::from(high), i64::from(low));

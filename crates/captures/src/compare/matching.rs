@@ -52,7 +52,7 @@ pub(super) fn matching(
             let reason = match signal.kind {
                 _ if !chosen.has(&[own], Some(renamed)) => UnmatchedReason::Ignored,
                 SignalKind::Other => UnmatchedReason::Text,
-                SignalKind::Bits | SignalKind::Real | SignalKind::Text => {
+                SignalKind::Bits | SignalKind::Real | SignalKind::Text | SignalKind::Event => {
                     candidates[side].push(k);
                     continue;
                 }
@@ -83,6 +83,9 @@ fn renamed(sides: [&Source; 2], map: &SignalMap, swapped: bool) -> Result<[Vec<N
         let own = if (side == 0) != swapped { Side::A } else { Side::B };
         let rules = rules.iter().filter(|(_, rename)| [own, Side::Both].contains(&rename.side));
         let rename = |signal: &Signal| {
+            if rules.clone().next().is_none() {
+                return signal.name.clone();
+            }
             let mut text = signal.name.text.clone();
             for (regex, rename) in rules.clone() {
                 text = regex.replace(&text, rename.by.as_str()).into_owned();

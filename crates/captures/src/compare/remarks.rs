@@ -30,6 +30,9 @@ pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Com
         let source = &plan.sources[unmatched.side];
         let (name, reason) = (&unmatched.name, &unmatched.reason);
         let text = format!("{}: {name} is not compared: {reason}", source.name);
+        if reason.is_skipped() {
+            result.skipped.push(text.clone());
+        }
         match reason {
             UnmatchedReason::Ignored => {}
             _ if !all && !source.is_capture() => {}

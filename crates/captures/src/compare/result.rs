@@ -34,6 +34,8 @@ pub struct Comparison {
     pub findings: Vec<Finding>,
     /// Result for accepted words, if these are compared.
     pub beats: Option<Beats>,
+    /// Values that could not be compared, each with the reason.
+    pub skipped: Vec<String>,
     /// Notes for the user.
     pub notes: Vec<String>,
 }

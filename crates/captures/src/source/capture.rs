@@ -36,7 +36,7 @@ pub(super) fn source(path: &Path, radix: Option<Radix>, stop: &AtomicBool) -> Re
 
 fn signal(column: &Column, id: usize) -> Signal {
     let kind = if column.text { SignalKind::Text } else { SignalKind::Bits };
-    let (width, mixed, states) = (column.width, column.mixed, column.states.clone());
+    let (width, mixed, states) = (column.width, column.mixed, column.states.clone().into());
     let words = Words { width, mixed, states };
     let (width, radix, lsb) = (column.bits(), column.radix, i64::from(column.lsb));
     let (name, range) = (Name::new(&column.name), Some([lsb + i64::from(width) - 1, lsb]));

@@ -1,8 +1,8 @@
 //! Header of a VCD, rewritten to what the waveform library understands.
 //!
 //! wellen 0.25.7 makes a tab or a line break before a range part of the name, ignores what follows
-//! `$enddefinitions $end` on its line, prints attributes on standard output, and panics on a second `$timescale` and
-//! on words of a signal that is not declared as a string.
+//! `$enddefinitions $end` on its line, prints attributes on standard output, and panics on a second `$timescale`, on
+//! words of a signal that is not declared as a string, and on an enumeration without a table.
 
 use std::collections::{HashMap, HashSet};
 use std::io::{BufRead, Result as IoResult};
@@ -37,6 +37,9 @@ pub(super) enum Values {
     Event,
 }
 
+/// Attribute with the names of an enumeration's values, or with the number of such a table.
+const ENUMERATION: [&[u8]; 2] = [b"misc", b"07"];
+
 /// Header of a VCD.
 #[derive(Debug, Default)]
 pub(super) struct Head {
@@ -48,6 +51,8 @@ pub(super) struct Head {
     pub(super) variables: HashMap<Vec<u8>, Variable>,
     /// Line of the time scale.
     scale: Option<usize>,
+    /// Numbers of the tables of names.
+    tables: HashSet<Vec<u8>>,
 }
 
 impl Head {
@@ -92,7 +97,7 @@ impl Head {
                 "$timescale" => head.scale(line, &body).map_err(|found| found.of(&fault))?,
                 _ => {}
             }
-            if !LEFT_OUT.contains(&&name[..]) {
+            if !LEFT_OUT.contains(&&name[..]) || (name == "$attrbegin" && head.is_table(&body)) {
                 let all = [&[command][..], &body, &[END.to_vec()]].concat();
                 head.text.extend_from_slice(&all.join(&b' '));
                 head.text.push(b'\n');
@@ -143,6 +148,30 @@ impl Head {
         let variable = Variable { name, width: bits, values };
         self.variables.entry(code.clone()).or_insert(variable);
         Ok(())
+    }
+
+    /// Returns whether an attribute is a table of names, or the number of one, as the library understands it.
+    fn is_table(&mut self, body: &[Vec<u8>]) -> bool {
+        let [kind, subtype, name, rest @ ..] = body else { return false };
+        if [&kind[..], &subtype[..]] != ENUMERATION {
+            return false;
+        }
+        match rest {
+            [number] if name == b"\"\"" => self.tables.contains(number),
+            [count, names @ .., number] if name != b"\"\"" => {
+                let parse = |word: &[u8]| std::str::from_utf8(word).ok()?.parse::<u64>().ok();
+                let is_whole = parse(count).and_then(|count| count.checked_mul(2))
+                    == Some(names.len() as u64)
+                    && names.iter().all(|name| std::str::from_utf8(name).is_ok());
+                let is_it =
+                    is_whole && parse(number).is_some() && std::str::from_utf8(name).is_ok();
+                if is_it {
+                    self.tables.insert(number.clone());
+                }
+                is_it
+            }
+            _ => false,
+        }
     }
 
     /// Checks the time scale.

@@ -95,8 +95,22 @@ pub enum SignalKind {
     Real,
     /// Words as bytes, first one lowest, padded with zeros.
     Text,
-    /// Events of a simulator and words of unknown values, which are not compared.
+    /// Events of a simulator; the value is the number of events so far.
+    Event,
+    /// Words of unknown values, which are not compared.
     Other,
+}
+
+impl SignalKind {
+    /// Returns what values of the type are called.
+    pub(crate) fn plural(self) -> &'static str {
+        match self {
+            SignalKind::Bits => "bits",
+            SignalKind::Real => "real numbers",
+            SignalKind::Text | SignalKind::Other => "words",
+            SignalKind::Event => "events",
+        }
+    }
 }
 
 /// Words that represent values of a signal.
@@ -107,7 +121,7 @@ pub struct Words {
     /// Whether the source has numbers among the words.
     pub mixed: bool,
     /// Known words, with their values if the source states them; a waveform's words are known once it is read.
-    pub states: Vec<NamedValue>,
+    pub states: Arc<[NamedValue]>,
 }
 
 /// A signal under one of its names.

@@ -26,7 +26,11 @@ use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, WIDES
 use super::span::Fault;
 use super::spliced::{Piece, Spliced};
 use super::stream::{Cursor, Disconnected, Feed};
+use super::tables::Tables;
 use super::tick::Tick;
+
+/// Width of a number of events [bits].
+const EVENTS: u32 = 32;
 
 /// Path and format of a waveform.
 #[derive(Clone, Debug)]
@@ -108,14 +112,14 @@ fn described(
     let source = path.display().to_string();
     let mut signals = Vec::new();
     let mut references: Vec<SignalRef> = Vec::new();
-    let mut ids = HashMap::new();
+    let (mut ids, mut tables) = (HashMap::new(), Tables::default());
     for var in hierarchy.all_vars().map(|var| &hierarchy[var]) {
         let reference = var.signal_ref();
         let id = *ids.entry(reference).or_insert_with(|| {
             references.push(reference);
             references.len() - 1
         });
-        signals.push(signal(var, hierarchy, id));
+        signals.push(signal(var, hierarchy, &mut tables, id));
     }
     if let Some(wide) = signals.iter().find(|signal| signal.width > WIDEST) {
         let expected = format!("expected {WIDEST} bits at most");
@@ -134,9 +138,9 @@ fn described(
     Ok(Source::new(source, format, axis, signals, origin))
 }
 
-fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
+fn signal(var: &Var, hierarchy: &Hierarchy, tables: &mut Tables, id: usize) -> Signal {
     let (kind, width) = match var.signal_encoding(hierarchy) {
-        SignalEncoding::BitVector(0) => (SignalKind::Other, 0),
+        SignalEncoding::BitVector(0) => (SignalKind::Event, EVENTS),
         SignalEncoding::String => (SignalKind::Text, 8 * LONGEST_WORD as u32),
         SignalEncoding::BitVector(width) => (SignalKind::Bits, width),
         SignalEncoding::Real => (SignalKind::Real, 64),
@@ -144,7 +148,8 @@ fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
     // The library makes scopes of the indices of arrays.
     let name = Name::new(var.full_name(hierarchy).replace(".[", "["));
     let range = var.index().map(|index| [index.msb(), index.lsb()]);
-    let (lsb, words) = (range.map_or(0, |[_, lsb]| lsb), Words::default());
+    let states = if kind == SignalKind::Bits { tables.of(var, hierarchy) } else { Arc::default() };
+    let (lsb, words) = (range.map_or(0, |[_, lsb]| lsb), Words { states, ..Words::default() });
     Signal { name, width, lsb, range, kind, radix: None, shape: None, words, id }
 }
 
@@ -186,6 +191,7 @@ fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Res
         places[reference.index()].push(signal);
     }
     let mut bits = Bits::default();
+    let (is_vcd, mut events) = (origin.format != SourceFormat::Fst, vec![0u32; places.len()]);
     let (mut last, mut is_back) = (0, false);
     let result = wave.stream_changes(Filter::include_signals(&wanted), |at, reference, value| {
         is_back |= at < last;
@@ -199,8 +205,15 @@ fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Res
         {
             marking.change(reference, at, u8::from(level.get_bit(0)) == 1, feed);
         }
+        if let SignalValueRef::Event = value {
+            let count = &mut events[reference.index()];
+            *count = count.wrapping_add(1);
+        }
         for &signal in &places[reference.index()] {
-            set(&mut bits, value, feed.words(signal));
+            set(&mut bits, value, feed.words(signal), is_vcd);
+            if let SignalValueRef::Event = value {
+                bits.value[0] = u64::from(events[reference.index()]);
+            }
             feed.change(signal, &bits.value, &bits.unknown);
         }
         Ok::<(), Disconnected>(())

@@ -61,6 +61,6 @@ impl Columns {
     /// Returns the columns that have a value only at the instants at which they occur.
     pub(super) fn events(&self) -> Vec<usize> {
         let columns = self.signals.iter().enumerate();
-        columns.filter(|(_, signal)| signal.kind == SignalKind::Other).map(|(k, _)| k).collect()
+        columns.filter(|(_, signal)| signal.kind == SignalKind::Event).map(|(k, _)| k).collect()
     }
 }

@@ -51,7 +51,7 @@ impl Contents {
         match signal.kind {
             SignalKind::Real => "real",
             SignalKind::Text => "text",
-            SignalKind::Other => "event",
+            SignalKind::Event | SignalKind::Other => "event",
             SignalKind::Bits if !signal.words.states.is_empty() => "enumeration",
             SignalKind::Bits if signal.width == 1 => "bit",
             SignalKind::Bits => "vector",

@@ -92,9 +92,10 @@ pub fn convert(source: &Source, excerpt: &Excerpt, path: &Path) -> Result<u64> {
         let at = scaled(instant.at)?;
         let begun = dump.begin(at);
         begun.map_err(Error::io(path, "write"))?;
-        instant.changed.iter().try_for_each(|&place| {
-            put(&mut *dump, path, source, firsts[place], place, instant)
-        })
+        instant
+            .changed
+            .iter()
+            .try_for_each(|&place| put(&mut *dump, path, source, firsts[place], place, instant))
     })?;
     dump.finish(scaled(end)?)?;
     Ok(end)
@@ -113,10 +114,10 @@ fn put(
     let text;
     let value = match signal.kind {
         SignalKind::Bits => DumpValue::Bits { value, unknown },
-        SignalKind::Other if instant.has_events => DumpValue::Event,
+        SignalKind::Event if instant.has_events => DumpValue::Event,
         _ if !has_value(signal, unknown) => return Ok(()),
         SignalKind::Real => DumpValue::Real(f64::from_bits(value[0])),
-        SignalKind::Text | SignalKind::Other => {
+        SignalKind::Text | SignalKind::Event | SignalKind::Other => {
             text = word(value);
             if is_shortened(&text) {
                 let expected = format!(
@@ -148,7 +149,7 @@ fn declared(chosen: &Chosen) -> Result<Vec<DumpSignal>> {
             SignalKind::Bits => DumpKind::Bits(firsts[id].width),
             SignalKind::Real => DumpKind::Real,
             SignalKind::Text => DumpKind::Text,
-            SignalKind::Other => DumpKind::Event,
+            SignalKind::Event | SignalKind::Other => DumpKind::Event,
         };
         let states = signal.words.states.iter().filter(|_| signal.kind == SignalKind::Bits);
         let states = states.filter_map(|state| Some((state.name.clone(), state.bits?))).collect();
@@ -163,7 +164,7 @@ fn split(signal: &Signal) -> (String, String) {
     let own = signal.range.and_then(|[high, low]| text.strip_suffix(&format!("[{high}:{low}]")));
     let text = own.unwrap_or(text);
     // An escaped name may have dots.
-    let escaped = text.rfind(".\\").filter(|_| signal.kind != SignalKind::Other);
+    let escaped = text.rfind(".\\").filter(|_| signal.kind != SignalKind::Event);
     match escaped.or_else(|| text.rfind('.')) {
         Some(dot) => (text[..dot].to_owned(), text[dot + 1..].to_owned()),
         None => (String::new(), text.to_owned()),

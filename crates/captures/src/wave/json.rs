@@ -115,7 +115,7 @@ impl Dump for WaveJson {
         let lanes = of.signals.iter().zip(lanes).map(|(signal, Lane { wave, data })| {
             let is_bit = signal.kind == SignalKind::Bits && signal.width == 1;
             let mut lane = json!({ "name": signal.name.text, "wave": wave });
-            if !is_bit && signal.kind != SignalKind::Other {
+            if !is_bit && signal.kind != SignalKind::Event {
                 lane["data"] = json!(data);
             }
             lane

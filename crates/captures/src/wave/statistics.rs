@@ -60,8 +60,8 @@ pub fn statistics<'a>(
         for &place in instant.changed {
             let (value, unknown) = (instant.state.value(place), instant.state.unknown(place));
             match firsts[place].kind {
-                SignalKind::Other if instant.has_events => all[place].count(instant.at),
-                SignalKind::Other => {}
+                SignalKind::Event if instant.has_events => all[place].count(instant.at),
+                SignalKind::Event => {}
                 _ => all[place].change(instant.at, value, unknown),
             }
         }
@@ -94,7 +94,9 @@ impl Activity {
             self.count(at);
             let words = value.iter().zip(unknown).zip(self.value.iter().zip(&self.unknown));
             self.toggles += words
-                .map(|((new, x), (old, was_x))| u64::from(((new ^ old) & !(x | was_x)).count_ones()))
+                .map(|((new, x), (old, was_x))| {
+                    u64::from(((new ^ old) & !(x | was_x)).count_ones())
+                })
                 .sum::<u64>();
         }
         if let Some(edges) = &mut self.edges {

@@ -19,7 +19,7 @@ pub(super) fn has_value(signal: &Signal, unknown: &[u64]) -> bool {
     match signal.kind {
         SignalKind::Bits => true,
         SignalKind::Real | SignalKind::Text => unknown.first() == Some(&0),
-        SignalKind::Other => false,
+        SignalKind::Event | SignalKind::Other => false,
     }
 }
 
@@ -32,12 +32,13 @@ pub(super) fn text(signal: &Signal, value: &[u64], unknown: &[u64]) -> String {
     match signal.kind {
         SignalKind::Real => return format!("{:?}", f64::from_bits(value[0])),
         SignalKind::Text => return word(value),
-        SignalKind::Bits | SignalKind::Other => {}
+        SignalKind::Bits | SignalKind::Event | SignalKind::Other => {}
     }
     let digits = || (0..signal.width).rev().map(|place| level(value, unknown, place));
     if unknown.iter().any(|&word| word != 0) {
         let prefix = if signal.width == 1 { "" } else { "0b" };
-        return digits().fold(prefix.to_owned(), |text, digit| text + digit.encode_utf8(&mut [0; 4]));
+        return digits()
+            .fold(prefix.to_owned(), |text, digit| text + digit.encode_utf8(&mut [0; 4]));
     }
     let state = || signal.words.states.iter().find(|state| state.bits == Some(value[0]));
     match value {

@@ -95,6 +95,21 @@ impl Console {
         Err(Input::new("--strict", expected).field(&first.key).value(&first.value).into())
     }
 
+    /// Checks that no values were skipped in a comparison.
+    ///
+    /// # Errors
+    /// With `--strict`, if some were.
+    pub fn none_skipped(&self, skipped: &[String]) -> Result<()> {
+        let Some(first) = skipped.first().filter(|_| self.strict) else { return Ok(()) };
+        let more = if skipped.len() > 1 {
+            format!(" and {} more", skipped.len() - 1)
+        } else {
+            String::new()
+        };
+        let expected = format!("expected that all values can be compared{more}: {first}");
+        Err(Input::new("--strict", expected).into())
+    }
+
     /// Writes files, given by name and contents, into a folder, which is made if it is not there.
     ///
     /// # Errors

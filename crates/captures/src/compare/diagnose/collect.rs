@@ -44,7 +44,7 @@ pub(super) struct Collected {
 }
 
 /// Returns the value if it has at most 64 bits, all known; otherwise a hash.
-fn key(bits: &Bits) -> u64 {
+pub(super) fn key(bits: &Bits) -> u64 {
     if let ([value], true) = (&bits.value[..], bits.is_known()) {
         return *value;
     }

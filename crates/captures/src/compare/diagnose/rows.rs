@@ -5,8 +5,8 @@ use super::collect::Collected;
 
 /// Largest number of missing or extra samples.
 const STEP: usize = 64;
-/// Largest shift of a window [samples].
-const SHIFT: usize = 4096;
+/// Largest shift of a window or a signal [samples].
+pub(super) const SHIFT: usize = 4096;
 /// Number of samples that must agree for a diagnosis.
 const FEWEST: usize = 16;
 
@@ -47,11 +47,11 @@ pub(super) fn finding(collected: &Collected, rest: &[&Compared]) -> Option<Findi
     None
 }
 
-fn counted(samples: usize) -> &'static str {
+pub(super) fn counted(samples: usize) -> &'static str {
     if samples == 1 { "sample" } else { "samples" }
 }
 
 /// Returns whether two sequences are equal over their common length, which must be long enough.
-fn agree(a: &[u64], b: &[u64]) -> bool {
+pub(super) fn agree(a: &[u64], b: &[u64]) -> bool {
     a.len().min(b.len()) >= FEWEST && a.iter().zip(b).all(|(a, b)| a == b)
 }

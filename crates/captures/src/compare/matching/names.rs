@@ -201,6 +201,7 @@ fn refused(
     }
     let reason = |own: &Signal, other: &Signal| match (own.kind, other.kind) {
         (SignalKind::Text, _) | (_, SignalKind::Text) => UnmatchedReason::Text,
+        (own, other) if own != other => UnmatchedReason::Type(own.plural(), other.plural()),
         _ => UnmatchedReason::Width(own.width, other.width),
     };
     let theirs = mutual.iter().map(|&other| (1, other, reason(b, a)));

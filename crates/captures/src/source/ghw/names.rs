@@ -119,7 +119,13 @@ impl<'a> Names<'a> {
             Form::Scalar(scalar, literals) => {
                 let signals = vec![self.signal(file, *scalar)?];
                 let literals = literals.clone();
-                self.variables.push(Variable { name, signals, scalar: *scalar, range: None, literals });
+                self.variables.push(Variable {
+                    name,
+                    signals,
+                    scalar: *scalar,
+                    range: None,
+                    literals,
+                });
                 Ok(())
             }
             Form::Array(element, Dimensions::Known(ranges)) => {

@@ -28,7 +28,8 @@ pub(super) struct Args {
 /// Runs the command.
 pub(super) fn run(args: &Args, console: &Console) -> Result<()> {
     let source = args.input.open()?;
-    let findings = Info { contents: Contents::of(&source), source: &source, lists: console.verbose };
+    let findings =
+        Info { contents: Contents::of(&source), source: &source, lists: console.verbose };
     Report::without_record(findings).deliver(None, args.json, console)
 }
 
@@ -84,7 +85,8 @@ impl Findings for Info<'_> {
         let types = contents.types.iter();
         let types = types.map(|(name, &count)| format!("{} {name}", grouped(count as u64)));
         let end = source.end.map_or("not stated".to_owned(), |end| source.axis.place_text(end));
-        let resolution = resolution(source.axis).map_or("samples".to_owned(), |ps| format!("{ps} ps"));
+        let resolution =
+            resolution(source.axis).map_or("samples".to_owned(), |ps| format!("{ps} ps"));
         let rows = [
             ("end", end),
             ("resolution", resolution),
