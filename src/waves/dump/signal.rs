@@ -96,7 +96,7 @@ pub trait Dump {
     /// Writes a change of a signal, by its id.
     ///
     /// # Errors
-    /// If the file cannot be written, or cannot have the value.
+    /// If the file cannot be written.
     fn change(&mut self, id: usize, value: DumpValue<'_>) -> io::Result<()>;
 
     /// Ends the file at a time, and moves it to its path.

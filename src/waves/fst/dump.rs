@@ -1,6 +1,6 @@
 //! FST files of any design.
 
-use std::io::{self, Error as IoError, ErrorKind};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
@@ -69,10 +69,7 @@ impl Dump for FstDump {
     fn change(&mut self, id: usize, value: DumpValue<'_>) -> io::Result<()> {
         let Some(place) = self.signals[id] else { return Ok(()) };
         let step = self.changes.step();
-        let Some(bytes) = self.changes.streams[place].note(step, value) else {
-            let expected = "a text has characters beyond ISO 8859-1, which FST cannot have";
-            return Err(IoError::new(ErrorKind::InvalidData, expected));
-        };
+        let bytes = self.changes.streams[place].note(step, value);
         self.changes.grown(bytes);
         Ok(())
     }

@@ -28,6 +28,8 @@ const EVENT: u8 = 0;
 const REAL: u8 = 3;
 /// Type of a variable with text.
 const TEXT: u8 = 21;
+/// Size of a real number, which is its width in the hierarchy [bytes].
+const REAL_BYTES: u32 = 8;
 /// Widths of the initial values of a real number and of a text, as the geometry has them.
 const REAL_WIDTH: usize = 0;
 const TEXT_WIDTH: usize = 0xffff_ffff;
@@ -94,7 +96,7 @@ impl Hierarchy {
     fn signal(&mut self, signal: &DumpSignal) {
         let (variable, width, initial) = match signal.kind {
             DumpKind::Bits(width) => (WIRE, width, width as usize),
-            DumpKind::Real => (REAL, 64, REAL_WIDTH),
+            DumpKind::Real => (REAL, REAL_BYTES, REAL_WIDTH),
             DumpKind::Text => (TEXT, 0, TEXT_WIDTH),
             DumpKind::Event => (EVENT, 1, 1),
         };

@@ -23,12 +23,13 @@ impl Record {
             DumpKind::Real | DumpKind::Event => 1,
             DumpKind::Text => 0,
         };
-        let (value, unknown) = (vec![0; words], vec![u64::MAX; words]);
+        let unknown_value = if kind == DumpKind::Real { f64::NAN.to_bits() } else { 0 };
+        let (value, unknown) = (vec![unknown_value; words], vec![u64::MAX; words]);
         Record { kind, data: Vec::new(), time: 0, value, unknown }
     }
 
-    /// Appends a change at a time step, and returns its size in bytes; `None` if the format cannot have the text.
-    pub(super) fn note(&mut self, time: u64, value: DumpValue<'_>) -> Option<usize> {
+    /// Appends a change at a time step, and returns its size in bytes.
+    pub(super) fn note(&mut self, time: u64, value: DumpValue<'_>) -> usize {
         let before = self.data.len();
         let delta = time - std::mem::replace(&mut self.time, time);
         match value {
@@ -43,16 +44,13 @@ impl Record {
                 self.data.extend_from_slice(&real.to_le_bytes());
             }
             DumpValue::Text(text) => {
-                // Readers take a byte for a character.
-                let bytes: Option<Vec<u8>> = text.chars().map(|c| u8::try_from(c).ok()).collect();
-                let bytes = bytes?;
                 number(&mut self.data, delta << 1);
-                number(&mut self.data, bytes.len() as u64);
-                self.data.extend_from_slice(&bytes);
+                number(&mut self.data, text.len() as u64);
+                self.data.extend_from_slice(text.as_bytes());
             }
             DumpValue::Event => number(&mut self.data, delta << 2 | 2),
         }
-        Some(self.data.len() - before)
+        self.data.len() - before
     }
 
     /// Appends the present levels: as bits if all are known, and otherwise as digits.
@@ -111,21 +109,20 @@ mod tests {
         let mut frame = Vec::new();
         record.spell(&mut frame);
         assert_eq!(frame, b"xxxxxxxxx");
-        record.note(3, DumpValue::Bits { value: &[0b1_0100_0001], unknown: &[0] }).unwrap();
+        record.note(3, DumpValue::Bits { value: &[0b1_0100_0001], unknown: &[0] });
         assert_eq!(record.data, [6, 0b1010_0000, 0b1000_0000]);
-        record.note(4, DumpValue::Bits { value: &[0b11], unknown: &[0b10] }).unwrap();
+        record.note(4, DumpValue::Bits { value: &[0b11], unknown: &[0b10] });
         assert_eq!(&record.data[3..], b"\x030000000z1");
         let mut bit = Record::new(DumpKind::Bits(1));
-        bit.note(1, DumpValue::Bits { value: &[1], unknown: &[0] }).unwrap();
-        bit.note(2, DumpValue::Bits { value: &[1], unknown: &[1] }).unwrap();
+        bit.note(1, DumpValue::Bits { value: &[1], unknown: &[0] });
+        bit.note(2, DumpValue::Bits { value: &[1], unknown: &[1] });
         assert_eq!(bit.data, [0b110, 0b1_0011]);
     }
 
     #[test]
-    fn a_text_has_its_length_and_one_byte_for_a_character() {
+    fn a_text_has_its_length() {
         let mut record = Record::new(DumpKind::Text);
-        record.note(2, DumpValue::Text("aµ")).unwrap();
-        assert_eq!(record.data, [4, 2, b'a', 0xb5]);
-        assert_eq!(record.note(2, DumpValue::Text("→")), None);
+        record.note(2, DumpValue::Text("aµ"));
+        assert_eq!(record.data, [4, 3, b'a', 0xc2, 0xb5]);
     }
 }

@@ -130,13 +130,7 @@ fn put(
             DumpValue::Text(&text)
         }
     };
-    dump.change(place, value).map_err(|error| match error.kind() {
-        std::io::ErrorKind::InvalidData => {
-            let expected = format!("{error} (at {})", source.axis.place_text(instant.at));
-            Input::new(&source.name, expected).field(&signal.name.text).into()
-        }
-        _ => Error::io(path, "write")(error),
-    })
+    dump.change(place, value).map_err(Error::io(path, "write"))
 }
 
 /// Returns the signals as a waveform declares them.

@@ -14,9 +14,9 @@ pub struct Pulses {
 }
 
 impl Pulses {
-    /// Returns the mean width, if there is a pulse.
-    pub fn mean(&self) -> Option<f64> {
-        (self.count > 0).then(|| self.total as f64 / self.count as f64)
+    /// Returns the mean width, if there is a pulse; `unit` is the length of a unit of the source.
+    pub fn mean(&self, unit: f64) -> Option<f64> {
+        (self.count > 0).then(|| self.total as f64 * unit / self.count as f64)
     }
 
     fn add(&mut self, width: u64) {
@@ -88,7 +88,7 @@ mod tests {
         let [lows, highs] = found.pulses;
         assert_eq!(highs, Pulses { count: 2, shortest: 3, longest: 10, total: 13 });
         assert_eq!(lows, Pulses { count: 2, shortest: 7, longest: 20, total: 27 });
-        assert_eq!((highs.mean(), found.period()), (Some(6.5), Some(20.0)));
+        assert_eq!((highs.mean(1.0), found.period()), (Some(6.5), Some(20.0)));
     }
 
     #[test]
@@ -96,7 +96,7 @@ mod tests {
         let (low, high) = (Some(false), Some(true));
         let found = edges(&[(0, low), (10, high), (13, None), (20, low), (30, high), (50, low)]);
         assert_eq!(found.pulses[1], Pulses { count: 1, shortest: 20, longest: 20, total: 20 });
-        assert_eq!((found.pulses[0].mean(), found.period()), (None, None));
+        assert_eq!((found.pulses[0].mean(1.0), found.period()), (None, None));
         assert_eq!(edges(&[(0, high), (5, low), (9, high)]).period(), None);
     }
 }

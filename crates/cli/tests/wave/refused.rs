@@ -21,7 +21,7 @@ fn a_wrong_part_or_name_is_refused_with_what_was_expected() {
             "{error}"
         );
     };
-    told(&["convert", "a.vcd", "-o", "b.txt"], "--output = b.txt: expected a name that ends in");
+    told(&["convert", "a.vcd", "-o", "b.txt"], "--output: b.txt: expected a name that ends in");
     told(&["convert", "a.vcd", "-o", "no/b.vcd"], "no/b.vcd");
     told(&["convert", "none.vcd", "-o", "b.vcd"], "none.vcd");
     let cut = ["cut", "a.vcd", "-o", "b.vcd"];
@@ -35,24 +35,21 @@ fn a_wrong_part_or_name_is_refused_with_what_was_expected() {
         "--until: expected a time after",
     );
     told(&[&cut[..], &["--after", "9"]].concat(), "expected a time, as 10us or 8.5ns");
-    told(&[&cut[..], &["--signals", "["]].concat(), "--signals = [: expected a pattern");
+    told(&[&cut[..], &["--signals", "["]].concat(), "--signals: [: expected a pattern");
 }
 
 #[test]
 fn a_damaged_file_and_a_value_that_a_format_cannot_have_leave_no_output() {
     let folder = common::empty();
     let folder = folder.path();
-    fs::write(folder.join("a.vcd"), format!("{HEAD}#0\n0!\n#9\n1?\n")).unwrap();
+    fs::write(folder.join("a.vcd"), format!("{HEAD}#0\n0!\n#9\nbq !\n")).unwrap();
     for to in ["b.vcd", "b.fst", "b.csv", "b.json"] {
         let error = refused(folder, &["convert", "a.vcd", "-o", to]);
-        assert!(error.contains("a.vcd:9:1: code = ?"), "{error}");
+        assert!(error.contains("a.vcd:10:1: a = bq: expected the digits"), "{error}");
     }
     fs::write(folder.join("long.vcd"), format!("{HEAD}#7\ns{} s\n", "word".repeat(50))).unwrap();
     let error = refused(folder, &["convert", "long.vcd", "-o", "b.fst"]);
     assert!(error.contains("long.vcd: t.s = ") && error.contains("128 bytes"), "{error}");
-    fs::write(folder.join("wide.vcd"), format!("{HEAD}#7\ns→ s\n")).unwrap();
-    let error = refused(folder, &["convert", "wide.vcd", "-o", "b.fst"]);
-    assert!(error.contains("wide.vcd: t.s: ") && error.contains("ISO 8859-1"), "{error}");
     let many: String = (0..5000).map(|at| format!("#{at}\n{}!\n", at % 2)).collect();
     fs::write(folder.join("many.vcd"), format!("{HEAD}{many}")).unwrap();
     let error = refused(folder, &["convert", "many.vcd", "-o", "b.json"]);

@@ -39,8 +39,8 @@ fn changes_pulses_and_frequency_are_counted() {
         json!({ "count": 2, "shortest": 6000.0, "mean": 6000.0, "longest": 6000.0 })
     );
     assert_eq!(clk["frequency_hz"], 1e8);
-    // 0000, 0101, 01x1, 0011: two bits, none that is known, none.
-    assert_eq!((&n["changes"], &n["toggles"], &n["high"]), (&3.into(), &2.into(), &Value::Null));
+    // 0000, 0101, 01x1, 0011: two bits, none that is known, one.
+    assert_eq!((&n["changes"], &n["toggles"], &n["high"]), (&3.into(), &3.into(), &Value::Null));
     assert_eq!(
         (&event["changes"], &event["type"], &event["width"]),
         (&2.into(), &"event".into(), &Value::Null)

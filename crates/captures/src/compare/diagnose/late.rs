@@ -28,8 +28,10 @@ pub(super) fn in_samples(collected: &Collected, rest: &[&Compared]) -> Vec<Findi
             (late || agree(&a[*shift..], b)).then_some(late)
         };
         let most = SHIFT.min(a.len().min(b.len()) / 2);
-        let (samples, late) = (1..=most).find_map(|n| Some((n, shift(&n)?)))?;
-        if changes < FEWEST {
+        // A periodic signal fits in several places.
+        let mut shifts = (1..=most).filter_map(|n| Some((n, shift(&n)?)));
+        let (Some((samples, late)), None) = (shifts.next(), shifts.next()) else { return None };
+        if changes < FEWEST || (late && agree(&a[samples..], b)) {
             return None;
         }
         let (how, sign) = if late { ("later", "") } else { ("earlier", "-") };
@@ -125,8 +127,21 @@ fn delay(a: &[Change], b: &[Change]) -> Option<i128> {
     let late = b.first()?.0 as i128 - a.first()?.0 as i128;
     let is_late = |(a, b): (&Change, &Change)| a.1 == b.1 && b.0 as i128 - a.0 as i128 == late;
     let common = a.len().min(b.len());
-    let whole = late != 0 && common >= FEWEST && a.len().abs_diff(b.len()) <= 1 + common / 4;
+    let whole = late != 0
+        && !is_periodic(a)
+        && common >= FEWEST
+        && a.len().abs_diff(b.len()) <= 1 + common / 4;
     (whole && a.iter().zip(b).all(is_late)).then_some(late)
+}
+
+/// Returns whether changes repeat, so that a delay is as good as another.
+fn is_periodic(changes: &[Change]) -> bool {
+    let is_period = |period: &usize| {
+        let span = changes[*period].0 - changes[0].0;
+        let again = changes[*period..].iter();
+        changes.iter().zip(again).all(|(a, b)| a.1 == b.1 && b.0 - a.0 == span)
+    };
+    (1..=changes.len() / 2).any(|period| is_period(&period))
 }
 
 #[cfg(test)]
@@ -144,5 +159,8 @@ mod tests {
         assert_eq!(delay(&a, &[(0, 0), (14, 1), (33, 0), (39, 1)]), None);
         assert_eq!(delay(&a, &[(0, 0), (14, 1), (34, 2), (39, 1)]), None);
         assert_eq!(delay(&a[..2], &b[..2]), None);
+        let clock =
+            |late: u128| -> Vec<Change> { (0..9).map(|k| (10 * k + late, k as u64 % 2)).collect() };
+        assert_eq!(delay(&clock(0), &clock(3)), None);
     }
 }

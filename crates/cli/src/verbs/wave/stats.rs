@@ -69,7 +69,7 @@ impl Statistics<'_> {
         json!({
             "count": pulses.count,
             "shortest": number(pulses.shortest),
-            "mean": pulses.mean().map(|mean| mean * self.unit()),
+            "mean": pulses.mean(self.unit()),
             "longest": number(pulses.longest),
         })
     }
