@@ -7,7 +7,6 @@ use std::path::Path;
 use wellen::{BitVecRef, FileFormat, SignalValueRef, States, WellenError};
 
 use tofsim::error::{Error, Input};
-use tofsim::waves::dump::unescaped;
 
 use crate::ila::read::{LONGEST_WORD, put_word};
 use crate::words::Bits;
@@ -16,15 +15,11 @@ use super::guard::DAMAGED;
 
 /// Converts a value, with the number of words of its signal; that of an event is left to the caller.
 #[inline]
-pub(super) fn set(bits: &mut Bits, value: SignalValueRef<'_>, words: usize, is_vcd: bool) {
+pub(super) fn set(bits: &mut Bits, value: SignalValueRef<'_>, words: usize) {
     bits.clear(words);
     match value {
         SignalValueRef::BitVec(found) => copy(found, bits),
         SignalValueRef::Real(real) => bits.value[0] = real.to_bits(),
-        // Blanks and others are no part of a VCD's words; GTKWave's tools write them so.
-        SignalValueRef::String(text) if is_vcd => {
-            put_word(shortened(&unescaped(text)).as_bytes(), &mut bits.value);
-        }
         SignalValueRef::String(text) => put_word(shortened(text).as_bytes(), &mut bits.value),
         SignalValueRef::Event => {}
     }

@@ -191,7 +191,7 @@ fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Res
         places[reference.index()].push(signal);
     }
     let mut bits = Bits::default();
-    let (is_vcd, mut events) = (origin.format != SourceFormat::Fst, vec![0u32; places.len()]);
+    let mut events = vec![0u32; places.len()];
     let (mut last, mut is_back) = (0, false);
     let result = wave.stream_changes(Filter::include_signals(&wanted), |at, reference, value| {
         is_back |= at < last;
@@ -210,7 +210,7 @@ fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Res
             *count = count.wrapping_add(1);
         }
         for &signal in &places[reference.index()] {
-            set(&mut bits, value, feed.words(signal), is_vcd);
+            set(&mut bits, value, feed.words(signal));
             if let SignalValueRef::Event = value {
                 bits.value[0] = u64::from(events[reference.index()]);
             }
