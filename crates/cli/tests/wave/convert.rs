@@ -57,7 +57,7 @@ fn all_types(seed: u64, steps: u64) -> String {
 }
 
 fn draws_of(seed: u64) -> u64 {
-    if seed % 2 == 0 { 0 } else { 17 }
+    if seed.is_multiple_of(2) { 0 } else { 17 }
 }
 
 fn without_unknown_starts(mut cells: Cells) -> Cells {
