@@ -1,5 +1,6 @@
 //! The detector and its illumination, as a process of avalanches in time.
 
+mod blocks;
 pub mod front_end;
 pub mod light;
 pub mod optics;

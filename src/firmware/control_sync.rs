@@ -74,31 +74,27 @@ impl Clocked for ControlSync {
     type In = In;
     type Params = Params;
 
+    /// Shifts from the last stage to the first, so that each stage takes the old value of the one before it.
     #[inline(always)]
-    fn next(&self, i: &In, p: &Params) -> Self {
-        let q = self;
-        let mut d = ControlSync {
-            mode_sync: q.mode_meta,
-            laser_freq_sync: q.laser_freq_meta,
-            laser_en_sync: q.laser_en_meta,
-            dsp_en_sync: q.dsp_en_meta,
-            dsp_rst_sync: q.dsp_rst_meta,
-            mode_meta: i.mode,
-            laser_freq_meta: i.laser_freq,
-            laser_en_meta: i.laser_en,
-            dsp_en_meta: i.dsp_en,
-            dsp_rst_meta: i.dsp_rst,
-            ..*q
-        };
-        if p.is_hosted {
-            (d.laser_freq_second, d.laser_freq_third) = (q.laser_freq_meta, q.laser_freq_second);
-            d.laser_freq_sync = if q.laser_freq_second == q.laser_freq_third {
-                q.laser_freq_third
-            } else {
-                q.laser_freq_sync
-            };
+    fn tick(&mut self, i: &In, p: &Params) {
+        if !p.is_hosted {
+            self.laser_freq_sync = self.laser_freq_meta;
+        } else {
+            if self.laser_freq_second == self.laser_freq_third {
+                self.laser_freq_sync = self.laser_freq_third;
+            }
+            self.laser_freq_third = self.laser_freq_second;
+            self.laser_freq_second = self.laser_freq_meta;
         }
-        d
+        self.mode_sync = self.mode_meta;
+        self.laser_en_sync = self.laser_en_meta;
+        self.dsp_en_sync = self.dsp_en_meta;
+        self.dsp_rst_sync = self.dsp_rst_meta;
+        self.mode_meta = i.mode;
+        self.laser_freq_meta = i.laser_freq;
+        self.laser_en_meta = i.laser_en;
+        self.dsp_en_meta = i.dsp_en;
+        self.dsp_rst_meta = i.dsp_rst;
     }
 
     #[inline(always)]

@@ -130,9 +130,11 @@ impl Clocked for TdcDecoder {
         if !(i.rst | i.hit | self.has_hit()) {
             return;
         }
-        let code = p.code_of(self.t).filter(|_| self.t_valid);
+        let code = if self.t_valid { p.code_of(self.t) } else { None };
         self.tdc_valid = code.is_some();
-        self.tdc_code = code.unwrap_or(self.tdc_code);
+        if let Some(code) = code {
+            self.tdc_code = code;
+        }
         self.t_valid = self.age_valid;
         if self.age_valid {
             let age = if p.calibrated.is_some() { i.calibrated_age } else { self.age };
@@ -142,13 +144,17 @@ impl Clocked for TdcDecoder {
         if self.n_valid {
             (self.age, self.age_coarse) = (p.cal[self.n.index()], self.n_coarse);
         }
-        let (taps, counted, coarse) = match p.count_stages {
-            2 => (&self.sixteens.0, self.sixteens_valid, self.sixteens_coarse),
-            _ => (&self.hundreds.0, self.hundreds_valid, self.hundreds_coarse),
-        };
-        self.n_valid = counted;
-        if counted {
-            (self.n, self.n_coarse) = (U::new(p.number(taps) as u64), coarse);
+        let number = |taps: &Taps| U::new(p.number(taps) as u64);
+        if p.count_stages == 2 {
+            self.n_valid = self.sixteens_valid;
+            if self.sixteens_valid {
+                (self.n, self.n_coarse) = (number(&self.sixteens.0), self.sixteens_coarse);
+            }
+        } else {
+            self.n_valid = self.hundreds_valid;
+            if self.hundreds_valid {
+                (self.n, self.n_coarse) = (number(&self.hundreds.0), self.hundreds_coarse);
+            }
         }
         self.hundreds_valid = self.sixteens_valid;
         if self.sixteens_valid {

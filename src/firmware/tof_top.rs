@@ -272,34 +272,33 @@ impl TofTop {
     /// nothing.
     #[inline(always)]
     pub fn rise(&mut self, p: &Params, taps: Taps) {
+        let estimator = self.slot_inputs(p);
         let reset_sync_sys = Wires::reset_sync_sys(self);
         let reset_sync_laser = Wires::reset_sync_laser(self);
         let control_sync = Wires::control_sync(self);
         let frame_ctrl = Wires::frame_ctrl(self);
         let vcsel_driver = Wires::vcsel_driver(self);
         let spad_control = Wires::spad_control(self);
-        let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let tdc_calibration = p.tdc_calibration.as_ref().map(|p| (Wires::tdc_calibration(self), p));
+        let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let histogram_builder = Wires::histogram_builder(self);
-        let has_one_histogram = p.frame_ctrl.scan.has_one_histogram();
-        if !has_one_histogram {
+
+        // First, because `scan` reads the inputs of an array by itself.
+        if p.frame_ctrl.scan.has_one_histogram() {
+            self.histogram_builder.tick(&histogram_builder, &p.histogram);
+        } else {
             self.scan(p);
         }
-        let estimator = self.slot_inputs(p);
-
-        self.reset_sync_sys.tick(&reset_sync_sys, &());
-        self.reset_sync_laser.tick(&reset_sync_laser, &());
-        self.control_sync.tick(&control_sync, &p.control_sync());
-        self.frame_ctrl.tick(&frame_ctrl, &p.frame_ctrl);
-        self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
-        self.spad_control.tick(&spad_control, &());
         self.convert(p, &tdc, &code_preload, taps);
         if let Some((inputs, p)) = tdc_calibration {
             self.tdc_calibration.tick(&inputs, p);
         }
-        if has_one_histogram {
-            self.histogram_builder.tick(&histogram_builder, &p.histogram);
-        }
+        self.spad_control.tick(&spad_control, &());
+        self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
+        self.frame_ctrl.tick(&frame_ctrl, &p.frame_ctrl);
+        self.control_sync.tick(&control_sync, &p.control_sync());
+        self.reset_sync_laser.tick(&reset_sync_laser, &());
+        self.reset_sync_sys.tick(&reset_sync_sys, &());
         if let Some(inputs) = estimator {
             self.estimate(p, inputs);
         }

@@ -177,7 +177,7 @@ impl LaserRegisters {
     #[inline(always)]
     fn has_pulse(&self) -> bool {
         let drives = self.laser_pulse != 0 || self.stretch != 0;
-        self.fire_last | self.pulse[0] | self.pulse[1] | drives
+        self.fire_last | (self.pulse != [false; 2]) | drives
     }
 
     /// Takes the enables for either half of the coming cycle, where a pulse `begins` or goes on.

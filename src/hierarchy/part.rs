@@ -185,10 +185,10 @@ impl<K: Sink> Visitor for Look<'_, K> {
         let ids = self.id..self.id + S::COUNT;
         self.id = ids.end;
         match then {
-            None => now.changes(None, ids.start, self.sink),
+            None => report_all(now, ids.start, self.sink),
             Some(then) if then != now => {
                 if self.wanted.is_none_or(|(wanted, _)| wanted[ids.clone()].contains(&true)) {
-                    now.changes(Some(&*then), ids.start, self.sink);
+                    report_changes(now, then, ids.start, self.sink);
                 }
                 *then = *now;
             }
@@ -206,6 +206,19 @@ impl<K: Sink> Visitor for Look<'_, K> {
             _ => now.visit(then, self),
         }
     }
+}
+
+/// Reports all signals of a struct.
+#[cold]
+#[inline(never)]
+fn report_all<S: Signals>(now: &S, id: usize, sink: &mut impl Sink) {
+    now.changes(None, id, sink);
+}
+
+/// Reports the signals that differ from `before`.
+#[inline(never)]
+fn report_changes<S: Signals>(now: &S, before: &S, id: usize, sink: &mut impl Sink) {
+    now.changes(Some(before), id, sink);
 }
 
 /// Visitor that finds modules without a signal in the subset, and in a second table the estimators too.

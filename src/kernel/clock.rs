@@ -42,21 +42,23 @@ impl Clock {
     /// Instant of rising edge `n`, counted from 0.
     #[inline(always)]
     pub fn rise(&self, n: u64) -> Time {
-        self.phase + self.half_periods(2 * n)
+        self.edge(2 * n)
     }
 
     /// Instant of the falling edge that follows rising edge `n`.
     #[inline(always)]
     pub fn fall(&self, n: u64) -> Time {
-        self.phase + self.half_periods(2 * n + 1)
+        self.edge(2 * n + 1)
     }
 
+    /// Instant of edge `n`, rising and falling counted from 0.
     #[inline(always)]
-    fn half_periods(&self, count: u64) -> Time {
-        Time::from_fs(match self.half {
-            Half::Whole(half) => count * half,
-            Half::Of(hz) => (count as u128 * SECOND_FS as u128 / (2 * hz as u128)) as u64,
-        })
+    pub fn edge(&self, n: u64) -> Time {
+        let half_periods = match self.half {
+            Half::Whole(half) => n * half,
+            Half::Of(hz) => (n as u128 * SECOND_FS as u128 / (2 * hz as u128)) as u64,
+        };
+        self.phase + Time::from_fs(half_periods)
     }
 }
 
@@ -77,5 +79,6 @@ mod tests {
         assert_eq!(clk.rise(7), Clock::new(125_000_000, Time::from_ns(10)).rise(7));
         assert_eq!(clk.rise(2), Time::from_ns(26));
         assert_eq!(clk.fall(2), Time::from_ns(30));
+        assert_eq!([4, 5].map(|n| clk.edge(n)), [26, 30].map(Time::from_ns));
     }
 }

@@ -37,7 +37,7 @@ impl Scan {
     /// Returns whether there is one histogram only, whose turn it always is.
     #[inline(always)]
     pub fn has_one_histogram(&self) -> bool {
-        self.columns == 1 && self.banks == 1
+        self.columns * self.banks == 1
     }
 
     /// Returns whether one bank is read while the other one is filled.

@@ -77,7 +77,7 @@ macro_rules! signals {
                 list
             }
 
-            #[inline]
+            #[inline(always)]
             #[allow(unused_variables, reason = "a module may have no signals of one kind")]
             fn changes(
                 &self,

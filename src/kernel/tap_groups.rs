@@ -37,19 +37,25 @@ fn of_groups(
 ) {
     let (chunk, width) = (group.max(64), ones_width(group));
     let (groups, all) = (chunk / group, u128::MAX >> (128 - group));
-    let codes = |taps: u128, groups: usize| {
-        let codes = (0..groups).map(|k| u64::from(code(taps >> (group * k) & all)) << (width * k));
+    // A group whose taps are all low or all high needs no count.
+    let code = |taps: u128| match taps {
+        0 => 0,
+        taps if taps == all => group as u64,
+        taps => code(taps).into(),
+    };
+    let codes = |taps: u128| {
+        let codes = (0..groups).map(|k| code(taps >> (group * k) & all) << (width * k));
         codes.fold(0, |codes, code| codes | code)
     };
-    let (high, all_high) = (u128::MAX >> (128 - chunk), codes(u128::MAX, groups));
+    let (high, all_high) = (u128::MAX >> (128 - chunk), codes(u128::MAX));
+    let end = out.len() + (width * count.div_ceil(group)).div_ceil(64);
     let (mut word, mut filled) = (0, 0);
-    for first in (0..count).step_by(chunk) {
-        let above = if chunk > 64 { taps.get(first / 64 + 1).copied().unwrap_or(0) } else { 0 };
-        let groups = groups.min((count - first).div_ceil(group));
-        let codes = match u128::from(above) << 64 | u128::from(taps[first / 64]) {
+    for words in taps.chunks(chunk / 64) {
+        let above = words.get(1).copied().unwrap_or(0);
+        let codes = match u128::from(above) << 64 | u128::from(words[0]) {
             0 => 0,
             taps if taps == high => all_high,
-            taps => codes(taps, groups),
+            taps => codes(taps),
         };
         word |= codes << filled;
         filled += width * groups;
@@ -59,9 +65,9 @@ fn of_groups(
             word = codes.unbounded_shr((width * groups - filled) as u32);
         }
     }
-    if filled > 0 {
-        out.push(word);
-    }
+    out.push(word);
+    // Past the last group there are zeros only.
+    out.truncate(end);
 }
 
 #[cfg(test)]

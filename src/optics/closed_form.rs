@@ -195,20 +195,29 @@ impl BinProbabilities {
         &self.0
     }
 
+    /// Returns the codes that occur, each with its probability in a shot that has none of the codes before, and
+    /// the probability of such a shot.
+    pub fn shares(&self) -> impl Iterator<Item = (usize, f64, f64)> {
+        let occur = self.0.iter().enumerate().filter(|(_, probability)| **probability != 0.0);
+        occur.scan(1.0, |left, (code, &probability)| {
+            let before = *left;
+            *left -= probability;
+            let share = if probability < before { probability / before } else { 1.0 };
+            Some((code, share, before))
+        })
+    }
+
     /// Draws a histogram of `shots` shots: a multinomial draw, as one binomial draw per code from the remaining
     /// shots.
     pub fn draw(&self, shots: u64, rng: &mut impl Rng) -> Vec<u64> {
-        let mut histogram = vec![0; self.0.len()];
-        let (mut shots_left, mut probability_left) = (shots, 1.0);
-        for (count, &probability) in histogram.iter_mut().zip(&self.0) {
-            if shots_left == 0 || probability == 0.0 {
-                continue;
+        let (mut histogram, mut shots_left) = (vec![0; self.0.len()], shots);
+        for (code, share, _) in self.shares() {
+            if shots_left == 0 {
+                break;
             }
-            let share =
-                if probability < probability_left { probability / probability_left } else { 1.0 };
-            *count = Binomial::new(shots_left, share).map_or(0, |binomial| binomial.sample(rng));
-            shots_left -= *count;
-            probability_left -= probability;
+            let count = Binomial::new(shots_left, share).map_or(0, |binomial| binomial.sample(rng));
+            histogram[code] = count;
+            shots_left -= count;
         }
         histogram
     }

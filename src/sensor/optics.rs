@@ -14,6 +14,7 @@ use crate::kernel::Time;
 use crate::optics::hazard::varied::Varied;
 use crate::optics::hazard::{Cause, Hazard};
 
+use super::blocks::{BLOCK, Blocks, WORDS};
 use super::streams::{Seeds, Source, exponential, normal, seek, stream, uniform};
 
 /// Light simulated from the link budget.
@@ -104,18 +105,31 @@ impl Optics {
         &self.hazards[lit as usize]
     }
 
-    /// Skips `shots` shots that have at most one avalanche each, and passes their random words to `take`, many at once:
-    /// a word by itself asks whether the block of random numbers is used up.
+    /// Skips `shots` shots that have at most one avalanche each, and passes their random words to `take`, many at once
+    /// and in any order.
     #[inline]
     pub fn pass(&mut self, shots: u64, mut take: impl FnMut(&[u64])) {
-        let (mut words, mut left) = ([0; 64], shots);
-        while left > 0 {
-            let count = left.min(words.len() as u64);
-            let some = &mut words[..count as usize];
-            self.first.fill(some);
-            take(some);
-            left -= count;
+        let in_order = |stream: &mut ChaCha8Rng, count: u64, take: &mut dyn FnMut(&[u64])| {
+            let mut words = [0; WORDS];
+            let words = &mut words[..count as usize];
+            stream.fill(words);
+            take(words);
+        };
+        // The rest of a block, whole blocks, the begin of another one.
+        let rest = self.first.get_word_pos().wrapping_neg() % BLOCK / 2;
+        let before = shots.min(rest as u64);
+        in_order(&mut self.first, before, &mut take);
+        let (groups, after) = ((shots - before) / WORDS as u64, (shots - before) % WORDS as u64);
+        if groups > 0 {
+            let (mut blocks, mut words) = (Blocks::of(&self.first), [0; WORDS]);
+            for _ in 0..groups {
+                blocks.fill(&mut words);
+                take(&words);
+            }
+            let passed = u128::from(groups) * 2 * WORDS as u128;
+            self.first.set_word_pos(self.first.get_word_pos() + passed);
         }
+        in_order(&mut self.first, after, &mut take);
         self.shot += shots;
     }
 

@@ -136,7 +136,7 @@ impl Device {
         probe: &mut T,
         listener: &mut R,
     ) {
-        let [now, middle] = [0, 1].map(|half| self.rise_laser_at(2 * self.cycle + half));
+        let [now, middle] = self.rises_laser();
         self.before_edge(Edge::Both, now, probe, listener);
         self.settle(now, probe, listener);
         let lit = self.top.nets.laser_on;
@@ -234,6 +234,18 @@ impl Device {
 
     fn clocks(&mut self, clk_sys: bool, clk_laser: bool) {
         (self.top.clocks.clk_sys, self.top.clocks.clk_laser) = (clk_sys, clk_laser);
+    }
+
+    /// Returns the instants of both rising edges of `clk_laser` in the coming cycle of `clk_sys`.
+    #[inline(always)]
+    fn rises_laser(&mut self) -> [Time; 2] {
+        let n = 2 * self.cycle;
+        let (clock, [first, second]) = (&self.pll.clk_laser, [n, n + 1]);
+        let [now, middle] = [clock.rise(first), clock.rise(second)];
+        match &mut self.jitter {
+            None => [now, middle],
+            Some(jitter) => [jitter.shift(now, first), jitter.shift(middle, second)],
+        }
     }
 
     /// Returns the instant of rising edge `n` of `clk_laser`.

@@ -6,6 +6,7 @@
 //! [`stepping`](super::stepping), which chooses among them.
 
 mod acquisition;
+mod binomial;
 mod draws;
 mod frame_end;
 mod halves;
@@ -13,6 +14,7 @@ pub mod histogram;
 mod hits;
 mod idle;
 mod many;
+mod multinomial;
 mod outcomes;
 mod pulse;
 mod shots;

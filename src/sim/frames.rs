@@ -79,7 +79,7 @@ impl Frames {
         let ctrl = &top.frame_ctrl;
         self.count_shot(top);
         self.count_hit(top);
-        if ctrl.clear || ctrl.algo_start || top.slot.algo_done {
+        if ctrl.clear | ctrl.algo_start | top.slot.algo_done {
             return self.turn(cycle, top, p);
         }
         None

@@ -34,10 +34,10 @@ impl Oscillator {
     pub fn seek(&mut self, now: Time) -> bool {
         // The first edge is half a period after power-up.
         let mut next = now.fs() / self.clock.rise(0).fs();
-        while next > 0 && self.instant(next - 1) > now {
+        while next > 0 && self.clock.edge(next - 1) > now {
             next -= 1;
         }
-        while self.instant(next) <= now {
+        while self.clock.edge(next) <= now {
             next += 1;
         }
         self.go_to(next)
@@ -45,13 +45,7 @@ impl Oscillator {
 
     #[inline(always)]
     fn go_to(&mut self, next: u64) -> bool {
-        (self.next, self.at) = (next, self.instant(next));
+        (self.next, self.at) = (next, self.clock.edge(next));
         next % 2 == 1
-    }
-
-    /// Returns the instant of edge `n`, rising and falling counted.
-    #[inline(always)]
-    fn instant(&self, n: u64) -> Time {
-        if n.is_multiple_of(2) { self.clock.rise(n / 2) } else { self.clock.fall(n / 2) }
     }
 }

@@ -48,17 +48,24 @@ impl FastForward {
     pub(super) fn go(&mut self, device: &mut Device, p: &Params, frames: &mut Frames, limit: u64) {
         match self.stepping {
             Stepping::EveryCycle => {}
-            Stepping::SkipIdle => {
-                acquire(device, p, frames, limit, |_, _, _| {});
-                skip_idle(device, p, limit);
-            }
-            Stepping::LeapShots => {
-                acquire(device, p, frames, limit, |device, frames, hits| {
-                    leap_shots(device, p, &mut self.tables, frames, hits);
-                });
-                skip_idle(device, p, limit);
-                leap_frame_end(device, p);
-            }
+            Stepping::SkipIdle => skip(device, p, frames, limit),
+            Stepping::LeapShots => self.leap(device, p, frames, limit),
         }
     }
+
+    #[inline(never)]
+    fn leap(&mut self, device: &mut Device, p: &Params, frames: &mut Frames, limit: u64) {
+        acquire(device, p, frames, limit, |device, frames, hits| {
+            leap_shots(device, p, &mut self.tables, frames, hits);
+        });
+        skip_idle(device, p, limit);
+        leap_frame_end(device, p);
+    }
+}
+
+// A function of its own, as `leap` is, so that the loop around the plain step keeps its registers.
+#[inline(never)]
+fn skip(device: &mut Device, p: &Params, frames: &mut Frames, limit: u64) {
+    acquire(device, p, frames, limit, |_, _, _| {});
+    skip_idle(device, p, limit);
 }

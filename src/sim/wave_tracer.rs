@@ -126,6 +126,7 @@ impl WaveTracer {
     ///
     /// # Errors
     /// When the waveform could not be written.
+    #[inline(always)]
     pub(super) fn turn(
         &mut self,
         cycle: (Time, Time),
@@ -137,6 +138,18 @@ impl WaveTracer {
         if cycle.1 <= self.wanting_until {
             return Ok(Turn { wanted: self.wanting > 0, opens: false });
         }
+        Ok(self.look_at_windows(cycle, top, shots, p))
+    }
+
+    /// Takes a cycle for which the windows have not decided yet.
+    #[inline(never)]
+    fn look_at_windows(
+        &mut self,
+        cycle: (Time, Time),
+        top: &TofTop,
+        shots: u64,
+        p: &frame_ctrl::Params,
+    ) -> Turn {
         self.follow_shot(top, shots);
         let estimating = is_estimating(&top.frame_ctrl, p);
         let moment = Moment { cycle, shot: self.shot, estimating };
@@ -158,7 +171,7 @@ impl WaveTracer {
             }
             _ => {}
         }
-        Ok(Turn { wanted, opens })
+        Turn { wanted, opens }
     }
 
     /// Returns whether no window has the cycle that begins at `now` or a later one.

@@ -72,6 +72,11 @@ impl Sink for Vcd {
         }
     }
 
+    #[inline(always)]
+    fn bit(&mut self, id: usize, value: bool) {
+        self.text.bit(value.into(), self.signals[id].tail);
+    }
+
     fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
         let signal = &self.signals[id];
         if signal.width == 0 {

@@ -141,9 +141,16 @@ impl Waves {
     /// The first write error.
     #[inline]
     pub(crate) fn check(&self) -> Result<()> {
-        let Some(error) = &self.failed else { return Ok(()) };
+        match &self.failed {
+            None => Ok(()),
+            Some(error) => Err(self.fault(error)),
+        }
+    }
+
+    #[cold]
+    fn fault(&self, error: &io::Error) -> Error {
         let error = io::Error::new(error.kind(), error.to_string());
-        Err(Error::io(&self.path, "write")(error))
+        Error::io(&self.path, "write")(error)
     }
 
     /// Ends the file at the end of the run, and moves it to its final path.

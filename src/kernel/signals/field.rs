@@ -9,6 +9,11 @@ use super::signal::{Signal, SignalFormat};
 pub trait Sink {
     /// A word of up to 64 bits.
     fn word(&mut self, id: usize, value: u64);
+    /// A signal that is one bit wide in every design.
+    #[inline(always)]
+    fn bit(&mut self, id: usize, value: bool) {
+        self.word(id, value.into());
+    }
     /// The taps of a delay line, or with a `group` above 1 the ones among so many taps each (see
     /// [`partial_ones`](super::partial_ones)).
     fn taps(&mut self, id: usize, value: &Thermometer, group: usize);
@@ -90,8 +95,12 @@ impl<T: Word> Field for T {
     }
     #[inline(always)]
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
-        if before != Some(self) {
-            sink.word(id, self.bits());
+        if before == Some(self) {
+            return;
+        }
+        match T::WIDTH {
+            1 => sink.bit(id, self.bits() == 1),
+            _ => sink.word(id, self.bits()),
         }
     }
     fn given(id: usize, source: &mut impl Source) -> Self {

@@ -125,13 +125,16 @@ impl Device {
                 self.draw(now);
             }
         }
-        if hold && !self.spads.is_off() {
+        if hold == self.spads.is_off() {
+            return;
+        }
+        if hold {
             let output = self.spads.output();
             self.spads.hold();
             if output {
                 self.drive_stop(now);
             }
-        } else if !hold && self.spads.is_off() {
+        } else {
             self.spads.arm_all(self.light.next_avalanche(now, 1.0));
         }
     }

@@ -19,7 +19,7 @@ const CELL_BITS: u32 = 12;
 /// Number of outcomes, rounded up to a power of two.
 pub const COUNTS: usize = OUTCOMES.next_power_of_two();
 
-/// Stands for an outcome that has to be computed.
+/// Stands for an outcome that has to be computed; it is not below [`COUNTS`].
 const EXACTLY: ShotOutcome = ShotOutcome::MAX;
 
 /// Bits of a word below those of a place within a cell.
@@ -28,11 +28,12 @@ const REST_BITS: u32 = u64::BITS - CELL_BITS - u32::BITS;
 /// A part of all words.
 #[derive(Clone, Copy, Debug)]
 struct Cell {
-    /// Place within the cell of the first word of `above`; 0 in a cell with one outcome.
-    split: u32,
+    /// Place within the cell of the first word that has to be computed, because the outcome changes nearby; 0 in a
+    /// cell with one outcome.
+    near: u32,
     /// Outcome of the cell's words before that.
     below: ShotOutcome,
-    /// Outcome of the others.
+    /// Outcome of those that follow the computed ones.
     above: ShotOutcome,
 }
 
@@ -40,8 +41,8 @@ struct Cell {
 #[derive(Clone, Debug)]
 pub struct Draws {
     cells: Box<[Cell; 1 << CELL_BITS]>,
-    /// Distance from a split within which words are computed [places].
-    guard: u32,
+    /// Distance from the first to the last word that has to be computed in a cell [places].
+    width: u32,
     outcomes: ShotOutcomes,
     hazard: Hazard,
 }
@@ -50,7 +51,9 @@ impl Draws {
     /// A table for shots with that hazard.
     pub fn new(outcomes: ShotOutcomes, hazard: Hazard) -> Self {
         let guard = guard(&hazard);
-        let one = |outcome| Cell { split: 0, below: outcome, above: outcome };
+        // Both ends of the distance are rounded.
+        let places_of_guard = u32::try_from((guard >> REST_BITS) + 2).unwrap_or(u32::MAX);
+        let one = |outcome| Cell { near: 0, below: outcome, above: outcome };
         let (mut cells, mut places) = (Box::new([one(EXACTLY); 1 << CELL_BITS]), Vec::new());
         for step in outcomes.steps().windows(2).rev() {
             // The later step has the smaller words.
@@ -73,27 +76,28 @@ impl Draws {
                     one(outcome.unwrap_or(outcomes.of(Time::ZERO)))
                 }
                 [&(split, below, above)] if (first..=last).contains(&split) => {
-                    Cell { split: place(split), below, above }
+                    Cell { near: place(split).saturating_sub(places_of_guard), below, above }
                 }
                 _ => one(EXACTLY),
             };
         }
-        // Both ends of the distance are rounded.
-        let guard = u32::try_from((guard >> REST_BITS) + 2).unwrap_or(u32::MAX);
-        Draws { cells, guard, outcomes, hazard }
+        let width = places_of_guard.saturating_mul(2);
+        Draws { cells, width, outcomes, hazard }
     }
 
     /// Counts the outcomes of shots whose first avalanches are drawn by `words`.
     pub fn count(&self, words: &[u64], counts: &mut [u32; COUNTS]) {
-        let (cells, guard) = (&*self.cells, self.guard);
+        let (cells, width) = (&*self.cells, self.width);
         for &word in words {
             let cell = cells[(word >> (u64::BITS - CELL_BITS)) as usize];
-            let place = place(word);
-            let outcome = if place < cell.split { cell.below } else { cell.above };
-            let near = place.abs_diff(cell.split) <= guard;
-            let outcome = if near | (outcome == EXACTLY) { self.exactly(word) } else { outcome };
-            // The remainder is the outcome; it shows the compiler that it is within bounds.
-            counts[outcome as usize % COUNTS] += 1;
+            // Words before `near` wrap around.
+            let (beyond, is_before) = place(word).overflowing_sub(cell.near);
+            let outcome = if is_before { cell.below } else { cell.above };
+            // One comparison keeps the index within bounds and finds an outcome that has to be computed.
+            match counts.get_mut(outcome as usize) {
+                Some(count) if beyond > width => *count += 1,
+                _ => counts[self.exactly(word) as usize] += 1,
+            }
         }
     }
 
@@ -159,13 +163,13 @@ mod tests {
                 let cells = draws.cells.iter().enumerate();
                 let near = cells.flat_map(|(cell, of)| {
                     let first = (cell as u64) << (u64::BITS - CELL_BITS);
-                    let guard = u64::from(draws.guard) << REST_BITS;
-                    let around = [0, 1, 4097, guard, guard + 1, guard + 4097, guard + (1 << 21)];
+                    let width = u64::from(draws.width) << REST_BITS;
+                    let around = [0, 1, 4097, width / 2, width, width + 1, width + (1 << 21)];
                     around.into_iter().flat_map(move |by| {
-                        let split = first + (u64::from(of.split) << REST_BITS);
+                        let near = first + (u64::from(of.near) << REST_BITS);
                         [first.wrapping_sub(by), first.wrapping_add(by)]
                             .into_iter()
-                            .chain([split.wrapping_sub(by), split.wrapping_add(by)])
+                            .chain([near.wrapping_sub(by), near.wrapping_add(by)])
                     })
                 });
                 let anywhere: Vec<_> = (0..20_000).map(|_| random.next_u64()).collect();
@@ -183,6 +187,6 @@ mod tests {
         let draws = draws(&[], 3, true);
         let crowded = draws.cells.iter().filter(|cell| cell.below == EXACTLY).count();
         assert!(crowded < draws.cells.len() / 50, "{crowded} cells");
-        assert!(draws.guard < 1 << 20, "{:x}", draws.guard);
+        assert!(draws.width < 1 << 21, "{:x}", draws.width);
     }
 }

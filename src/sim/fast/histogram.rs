@@ -10,7 +10,6 @@ use rand_distr::{Binomial, Distribution};
 
 use crate::error::{Input, Result};
 use crate::kernel::Time;
-use crate::network::Histogram;
 use crate::optics::BinProbabilities;
 use crate::scenario::effects::Method;
 use crate::sensor::light::{Light, Optics};
@@ -21,6 +20,7 @@ use crate::sim::setup::Setup;
 use crate::waves::Marks;
 
 use super::many::deliver;
+use super::multinomial::Multinomial;
 use super::outcomes::ShotOutcomes;
 
 /// Returns the light of a setup and the outcomes of its shots, where a frame is one draw; `user` names what needs them
@@ -66,7 +66,7 @@ pub struct FrameDistribution {
 #[derive(Clone, Debug)]
 struct Kind {
     lit: bool,
-    codes: BinProbabilities,
+    codes: Multinomial,
     /// Chance that a shot without a code has a hit, and that the last one of a frame does.
     no_code: [f64; 2],
 }
@@ -79,7 +79,7 @@ impl FrameDistribution {
     pub fn new(setup: &Setup) -> Result<Self> {
         let (optics, outcomes) = independent_shots(setup, "--fidelity histogram")?;
         let firmware = &setup.scenario.firmware;
-        let bins = setup.bins();
+        let (bins, shots) = (setup.bins(), setup.shots(1));
         let kind = |lit| {
             let hazard = optics.hazard(lit);
             let codes = BinProbabilities::new(hazard, &bins);
@@ -88,13 +88,13 @@ impl FrameDistribution {
                 let missed = hazard.none_before(end);
                 if missed < uncoded { 1.0 - missed / uncoded } else { 0.0 }
             });
-            Kind { lit, codes, no_code }
+            Kind { lit, codes: Multinomial::new(&codes, shots), no_code }
         };
         let dark = setup.has_pairs().then(|| kind(false));
         Ok(FrameDistribution {
             seed: setup.seed(),
             kinds: dark.into_iter().chain([kind(firmware.laser_en)]).collect(),
-            shots: setup.shots(1),
+            shots,
             frame_cycles: setup.frame_cycles(setup.laser_period()),
         })
     }
@@ -103,10 +103,8 @@ impl FrameDistribution {
     pub fn frame(&self, setup: &Setup, index: u64) -> Frame {
         let mut random = stream(self.seed, Source::Histogram, index);
         let kind = &self.kinds[index as usize % self.kinds.len()];
-        let counts = kind.codes.draw(self.shots, &mut random);
-        let coded: u64 = counts.iter().sum();
-        let tdc_hits = coded + self.hits_without_code(kind, self.shots - coded, &mut random);
-        let histogram: Histogram = counts.into_iter().map(|count| count as u32).collect();
+        let (histogram, uncoded) = kind.codes.draw(&mut random);
+        let tdc_hits = self.shots - uncoded + self.hits_without_code(kind, uncoded, &mut random);
         Frame {
             index,
             laser_en: kind.lit,

@@ -33,6 +33,8 @@ pub(super) struct Tail {
     line: u64,
     /// Length without the digit [bytes].
     len: u8,
+    /// Length with it, or 0 if the tail is empty [bytes].
+    line_len: u8,
 }
 
 impl Tail {
@@ -40,7 +42,9 @@ impl Tail {
     pub(super) fn new(text: &str) -> Self {
         let mut line = [0; 8];
         line[1..].iter_mut().zip(text.bytes()).for_each(|(byte, text)| *byte = text);
-        Tail { line: u64::from_le_bytes(line), len: text.len().min(7) as u8 }
+        let len = text.len().min(7) as u8;
+        let line_len = if len > 0 { len + 1 } else { 0 };
+        Tail { line: u64::from_le_bytes(line), len, line_len }
     }
 
     /// Returns the length [bytes].
@@ -113,7 +117,7 @@ impl Text {
     pub(super) fn bit(&mut self, value: u64, tail: Tail) {
         let line = tail.line | u64::from(b'0') | (value & 1);
         put(&mut self.bytes, self.len, &line.to_le_bytes());
-        self.len += tail.len() + usize::from(tail.len > 0);
+        self.len += usize::from(tail.line_len);
     }
 
     /// Appends an unknown value.

@@ -112,7 +112,7 @@ fn simulators_of_a_killed_run_go_with_the_next_run() {
         };
         processes.filter(is_one).count()
     };
-    let mut child = verify(&["depth_estimator.default", "--cycles", "300000"]).spawn().unwrap();
+    let mut child = verify(&["depth_estimator.default", "--cycles", "40000"]).spawn().unwrap();
     wait_for(|| simulators() > 0);
     child.kill().unwrap();
     child.wait().unwrap();

@@ -269,8 +269,25 @@ impl Model {
         matrix
     }
 
-    /// H and its derivatives at the end of a stretch.
+    /// H at the end of a stretch.
     fn hazard<const N: usize>(
+        &self,
+        at: &[f64; N],
+        signals: &[f64; N],
+        (t_ps, glass): (f64, f64),
+    ) -> f64 {
+        let mut h = at[N - 1] * (t_ps / self.end_ps);
+        if let Some(k) = pedestal::<N>() {
+            h += at[k] * glass;
+        }
+        for k in (0..2 * echoes::<N>()).step_by(2) {
+            h += signals[k + 1] * self.pulse.part(t_ps - at[k] * self.sigma_ps);
+        }
+        h
+    }
+
+    /// H and its derivatives at the end of a stretch.
+    fn hazard_and_slope<const N: usize>(
         &self,
         at: &[f64; N],
         signals: &[f64; N],
@@ -292,12 +309,36 @@ impl Model {
         (h, by)
     }
 
+    /// The probabilities that a shot's first avalanche is in each stretch, and that there is none.
+    fn first<const N: usize>(&self, at: &[f64; N]) -> (Vec<f64>, f64) {
+        let (signals, mut h, mut none_yet) = (signals(at), 0.0, 1.0);
+        let stretches = self.stretches.iter().enumerate();
+        let first = stretches.map(|(k, stretch)| {
+            let next = self.hazard(at, &signals, (stretch.until_ps, self.glass_until(k)));
+            // In this form a small difference keeps its digits.
+            let p = -none_yet * libm::expm1(h - next);
+            (h, none_yet) = (next, libm::exp(-next));
+            p
+        });
+        (first.collect(), none_yet)
+    }
+
+    /// Hazard of the template from the laser edge to the end of a stretch.
+    fn glass_until(&self, stretch: usize) -> f64 {
+        self.glass.as_ref().map_or(0.0, |glass| glass[stretch])
+    }
+
     /// The probability of each cell.
     fn chances<const N: usize>(&self, at: &[f64; N]) -> Vec<f64> {
-        match &self.free_running {
-            None => self.cells(at).of,
-            Some(free) => self.free_chances(free, at),
+        if let Some(free) = &self.free_running {
+            return self.free_chances(free, at);
         }
+        let ((first, none), mut of) = (self.first(at), vec![0.0; self.cell_count()]);
+        for (stretch, p) in self.stretches.iter().zip(first) {
+            stretch.cells.iter().for_each(|&(cell, part)| of[cell] += p * part);
+        }
+        of[self.known.len()] += none;
+        of
     }
 
     fn cells<const N: usize>(&self, at: &[f64; N]) -> Cells<N> {
@@ -307,37 +348,29 @@ impl Model {
         let mut cells =
             Cells { of: vec![0.0; self.cell_count()], by: vec![[0.0; N]; self.cell_count()] };
         let signals = signals(at);
-        let (mut h, mut by) = (0.0, [0.0; N]);
+        // The probability of no avalanche so far is exp(-h).
+        let (mut h, mut none_yet, mut by) = (0.0, 1.0, [0.0; N]);
         for (k, stretch) in self.stretches.iter().enumerate() {
-            let glass = self.glass.as_ref().map_or(0.0, |glass| glass[k]);
-            let (next, next_by) = self.hazard(at, &signals, (stretch.until_ps, glass));
+            let end = (stretch.until_ps, self.glass_until(k));
+            let (next, next_by) = self.hazard_and_slope(at, &signals, end);
+            let none_after = libm::exp(-next);
             // In this form a small difference keeps its digits.
-            let (none_yet, none_after) = (libm::exp(-h), libm::exp(-next));
             let p = -none_yet * libm::expm1(h - next);
             let grown: [f64; N] = array::from_fn(|k| (next_by[k] - by[k]) * none_after - by[k] * p);
             for &(cell, part) in &stretch.cells {
                 cells.add(cell, p * part, grown.map(|by| by * part));
             }
-            (h, by) = (next, next_by);
+            (h, none_yet, by) = (next, none_after, next_by);
         }
-        let none = libm::exp(-h);
-        cells.add(self.known.len(), none, by.map(|by| -by * none));
+        cells.add(self.known.len(), none_yet, by.map(|by| -by * none_yet));
         cells
     }
 
     /// The probabilities in MODE 1, where the scene decides how often the diode is armed too: one echo alone.
     fn free_chances<const N: usize>(&self, free: &FreeRunning, at: &[f64; N]) -> Vec<f64> {
-        let (signals, mut h) = (signals(at), 0.0);
-        let first = self.stretches.iter().map(|stretch| {
-            let next = self.hazard(at, &signals, (stretch.until_ps, 0.0)).0;
-            let p = -libm::exp(-h) * libm::expm1(h - next);
-            h = next;
-            p
-        });
-        let first: Vec<_> = first.collect();
         let arming = Arming::new(free, &self.pulse, self.step_ps, &self.echo(at, 0));
         let (last, mut of) = (self.known.len(), vec![0.0; self.cell_count()]);
-        for (stretch, p) in self.stretches.iter().zip(arming.show(&first)) {
+        for (stretch, p) in self.stretches.iter().zip(arming.show(&self.first(at).0)) {
             stretch.cells.iter().for_each(|&(cell, part)| of[cell] += p * part);
         }
         of[last] = (1.0 - of[..last].iter().sum::<f64>()).max(0.0);
