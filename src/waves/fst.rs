@@ -1,8 +1,9 @@
 //! FST files, as described in GTKWave's `block_format.txt`.
 //!
-//! The format has no comments, so the provenance is in the version string as far as it fits, and in full in a block
-//! at the end of the file that readers skip. It has no state names either; a separate file next to the waveform holds
-//! them (see [`super::write_views`]).
+//! In a waveform of a simulation ([`Fst`]) the provenance is in the version string as far as it fits, and in full in a
+//! block at the end of the file that readers skip; names of states are in a separate file next to it (see
+//! [`super::write_views`]). A file of any design ([`FstDump`](dump::FstDump)) has tables of state names in its
+//! hierarchy.
 
 use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};

@@ -14,15 +14,18 @@ pub(super) enum Element<'a, T> {
 
 /// Lists the elements of the hierarchy of `entries`, in which the signals of a scope are adjacent.
 pub(super) fn elements(entries: &[Entry]) -> Vec<Element<'_, Entry>> {
-    nested(entries, |entry| &entry.scope)
+    nested(entries, |entry| entry.scope.split('.').collect())
 }
 
-/// Lists the elements of the hierarchy of any signals, whose scopes are separated by dots.
-pub(super) fn nested<T>(signals: &[T], scope: impl Fn(&T) -> &str) -> Vec<Element<'_, T>> {
+/// Lists the elements of the hierarchy of any signals, given each one's scopes, outermost first.
+pub(super) fn nested<'a, T>(
+    signals: &'a [T],
+    scopes: impl Fn(&'a T) -> Vec<&'a str>,
+) -> Vec<Element<'a, T>> {
     let mut elements = Vec::new();
     let mut open: Vec<&str> = Vec::new();
     for entry in signals {
-        let scope: Vec<&str> = scope(entry).split('.').filter(|name| !name.is_empty()).collect();
+        let scope = scopes(entry);
         let common = open.iter().zip(&scope).take_while(|(a, b)| a == b).count();
         elements.extend(open[common..].iter().map(|_| Element::Leave));
         elements.extend(scope[common..].iter().map(|name| Element::Enter(name)));

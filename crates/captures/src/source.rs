@@ -23,6 +23,7 @@ mod stream;
 mod tables;
 mod tick;
 mod translated;
+mod variables;
 mod wave;
 
 use std::path::Path;

@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 use std::io;
+use std::sync::Arc;
 
 use crate::error::Result;
 
 /// Type of a signal's values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DumpKind {
     /// Levels, with their number [bits].
     Bits(u32),
@@ -18,24 +19,32 @@ pub enum DumpKind {
     Event,
 }
 
+/// Name of a state, and its value.
+pub type DumpState = (String, u64);
+
 /// A signal under one of its names.
 #[derive(Clone, Debug)]
 pub struct DumpSignal {
-    /// Scopes, separated by dots.
-    pub scope: String,
+    /// Scopes, outermost first.
+    pub scopes: Arc<[String]>,
     /// Name without scopes and range.
     pub name: String,
     /// Indices of the highest and the lowest bit, if they are part of the name.
     pub range: Option<[i64; 2]>,
     /// Type of its values.
     pub kind: DumpKind,
-    /// Names of its states, with their values; empty if it has none.
-    pub states: Vec<(String, u64)>,
+    /// Its states; empty if it has none.
+    pub states: Arc<[DumpState]>,
     /// Id, which all names of the signal share; ids count from 0.
     pub id: usize,
 }
 
 impl DumpSignal {
+    /// Returns its scopes, outermost first.
+    pub(in super::super) fn scopes(&self) -> Vec<&str> {
+        self.scopes.iter().map(String::as_str).collect()
+    }
+
     /// Formats the range, such as `[7:0]`.
     pub(in super::super) fn range_text(&self) -> Option<String> {
         self.range.map(|[high, low]| match self.kind {
@@ -180,9 +189,9 @@ mod tests {
 
     #[test]
     fn a_table_has_names_and_then_values_of_the_signal_s_width() {
-        let states = vec![("idle".to_owned(), 0), ("' '".to_owned(), 2)];
-        let (scope, name, kind) = (String::new(), "s".to_owned(), DumpKind::Bits(2));
-        let signal = DumpSignal { scope, name, range: None, kind, states, id: 0 };
+        let states = Arc::new([("idle".to_owned(), 0), ("' '".to_owned(), 2)]);
+        let (scopes, name, kind) = (Arc::default(), "s".to_owned(), DumpKind::Bits(2));
+        let signal = DumpSignal { scopes, name, range: None, kind, states, id: 0 };
         assert_eq!(signal.table(3), "states_3 2 idle \\'\\040\\' 00 10");
     }
 }

@@ -1,6 +1,5 @@
 //! VCD files of any design.
 
-use std::collections::HashMap;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -12,9 +11,8 @@ use crate::files::output::OutputFile;
 
 use super::super::scopes::{Element, nested};
 use super::signal::{Dump, DumpKind, DumpSignal, DumpValue, escaped};
-
-/// Units of time, by their exponents in steps of 1000.
-const UNITS: [&str; 6] = ["s", "ms", "us", "ns", "ps", "fs"];
+use super::tables::Tables;
+use super::units::unit;
 
 /// A VCD file of any signals.
 pub struct VcdDump {
@@ -70,12 +68,11 @@ fn header(
     }
     vcd.version(concat!("tofsim ", env!("CARGO_PKG_VERSION")))?;
     vcd.comment(&comment.replace("$end", "$ end"))?;
-    let steps = exponent.min(0).unsigned_abs().div_ceil(3);
-    let factor = 10u32.pow((3 * i32::from(steps) + i32::from(exponent)) as u32);
-    writeln!(vcd.writer(), "$timescale {factor} {} $end", UNITS[usize::from(steps)])?;
-    let mut tables: HashMap<&[(String, u64)], u64> = HashMap::new();
+    let (factor, unit) = unit(exponent);
+    writeln!(vcd.writer(), "$timescale {factor} {unit} $end")?;
+    let mut tables = Tables::default();
     let mut next = IdCode::FIRST;
-    for element in nested(signals, |signal| &signal.scope) {
+    for element in nested(signals, DumpSignal::scopes) {
         let signal = match element {
             Element::Enter(name) => {
                 vcd.add_module(&word(name))?;
@@ -87,11 +84,8 @@ fn header(
             }
             Element::Signal(signal) => signal,
         };
-        if !signal.states.is_empty() {
-            let number = tables.len() as u64 + 1;
-            let table = *tables.entry(&signal.states).or_insert(number);
-            if table == number {
-                let text = signal.table(table);
+        if let Some((table, text)) = tables.of(signal) {
+            if let Some(text) = text {
                 writeln!(vcd.writer(), "$attrbegin misc 07 {text} {table} $end")?;
             }
             writeln!(vcd.writer(), "$attrbegin misc 07 \"\" {table} $end")?;
@@ -151,6 +145,10 @@ impl Dump for VcdDump {
                 }
                 line.extend((0..digits).rev().map(digit));
                 line.push(b' ');
+            }
+            // Rust leaves out the sign of what is no number.
+            DumpValue::Real(number) if number.is_nan() && number.is_sign_negative() => {
+                line.extend_from_slice(b"r-NaN ");
             }
             DumpValue::Real(number) => write!(line, "r{number:?} ")?,
             DumpValue::Text(text) => write!(line, "s{} ", escaped(text))?,

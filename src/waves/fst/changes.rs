@@ -8,8 +8,10 @@ use super::sections::Sections;
 use super::signal_stream::SignalStream;
 use super::stream::Stream;
 
-/// Amount of changes that are collected before compression [bytes].
+/// Least amount of changes that are collected before compression [bytes].
 const GATHERED: usize = 1 << 20;
+/// Least amount of changes per byte of the initial values, which each section has.
+const PER_FRAME: usize = 4;
 
 /// Writer of the value changes.
 pub(super) struct Changes<W, S = Stream> {
@@ -18,12 +20,14 @@ pub(super) struct Changes<W, S = Stream> {
     pub(super) streams: Vec<S>,
     /// The section that is gathered; the streams have its changes.
     section: Section,
-    /// The last time [ps].
+    /// The last time, in units of the file.
     at: u64,
-    /// Start of the section [ps].
+    /// Start of the section, in units of the file.
     start: u64,
     /// Approximate size of all streams [bytes].
     size: usize,
+    /// Size from which a section is written [bytes].
+    most: usize,
 }
 
 impl<W: Write + Seek + Send + 'static, S: SignalStream> Changes<W, S> {
@@ -31,12 +35,12 @@ impl<W: Write + Seek + Send + 'static, S: SignalStream> Changes<W, S> {
     pub(super) fn new(file: W, header: Header, streams: Vec<S>) -> Self {
         let sections = Sections::new(file, streams.len());
         let section = Section::new(streams.len());
-        Changes { sections, header, streams, section, at: 0, start: 0, size: 0 }
+        Changes { sections, header, streams, section, at: 0, start: 0, size: 0, most: GATHERED }
     }
 
     /// Begins the file at a time, whose values are changes instead of the initial values of the first section.
     pub(super) fn open(&mut self, at: u64) {
-        self.streams.iter().for_each(|stream| stream.spell(&mut self.section.frame));
+        self.spell();
         self.section.times.push(at, 0);
         (self.at, self.start, self.header.start) = (at, at, at);
     }
@@ -51,23 +55,23 @@ impl<W: Write + Seek + Send + 'static, S: SignalStream> Changes<W, S> {
         self.size += bytes;
     }
 
-    /// Begins a time step, not earlier than the previous one [ps].
+    /// Begins a time step, not earlier than the previous one, in units of the file.
     pub(super) fn begin(&mut self, at: u64) -> io::Result<()> {
         if at <= self.at {
             return Ok(());
         }
-        if self.size + self.section.times.steps.len() > GATHERED {
+        if self.size + self.section.times.steps.len() > self.most {
             self.write_section()?;
         }
         if self.section.times.steps.is_empty() {
-            self.streams.iter().for_each(|stream| stream.spell(&mut self.section.frame));
+            self.spell();
         }
         self.section.times.push(at, self.at);
         self.at = at;
         Ok(())
     }
 
-    /// Writes the last section, and the header with the end time [ps].
+    /// Writes the last section, and the header with the end time, in units of the file.
     pub(super) fn finish(mut self, at: u64) -> io::Result<W> {
         self.begin(at)?;
         self.write_section()?;
@@ -75,6 +79,12 @@ impl<W: Write + Seek + Send + 'static, S: SignalStream> Changes<W, S> {
         let mut file = self.sections.finish()?;
         self.header.write(&mut file)?;
         Ok(file)
+    }
+
+    /// Sets the initial values of a section.
+    fn spell(&mut self) {
+        self.streams.iter().for_each(|stream| stream.spell(&mut self.section.frame));
+        self.most = GATHERED.max(PER_FRAME * self.section.frame.len());
     }
 
     fn write_section(&mut self) -> io::Result<()> {

@@ -1,11 +1,11 @@
 //! Scopes, names and widths of an FST file.
 
-use std::collections::HashMap;
 use std::io::{self, Write};
 
 use crate::hierarchy::{Entry, IDS, Kind};
 
 use super::super::dump::signal::{DumpKind, DumpSignal};
+use super::super::dump::tables::Tables;
 use super::super::scopes::{Element, elements, nested};
 use super::blocks::{Block, long, number};
 
@@ -65,17 +65,15 @@ impl Hierarchy {
     /// Creates the hierarchy of any signals, whose ids are below `ids`.
     pub(super) fn of(signals: &[DumpSignal], ids: usize) -> Self {
         let mut hierarchy = Hierarchy { signals: vec![None; ids], ..Hierarchy::default() };
-        let mut tables: HashMap<&[(String, u64)], u64> = HashMap::new();
-        for element in nested(signals, |signal| &signal.scope) {
+        let mut tables = Tables::default();
+        for element in nested(signals, DumpSignal::scopes) {
             match element {
                 Element::Enter(name) => hierarchy.enter(name),
                 Element::Leave => hierarchy.spelled.push(UP),
                 Element::Signal(signal) => {
-                    if !signal.states.is_empty() {
-                        let next = tables.len() as u64 + 1;
-                        let table = *tables.entry(&signal.states).or_insert(next);
-                        if table == next {
-                            hierarchy.attribute(&signal.table(table), table);
+                    if let Some((table, text)) = tables.of(signal) {
+                        if let Some(text) = text {
+                            hierarchy.attribute(&text, table);
                         }
                         hierarchy.attribute("", table);
                     }

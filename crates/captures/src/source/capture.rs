@@ -1,6 +1,7 @@
 //! A logic analyser's CSV files and archives as sources.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use tofsim::error::Result;
@@ -41,7 +42,8 @@ fn signal(column: &Column, id: usize) -> Signal {
     let (width, radix, lsb) = (column.bits(), column.radix, i64::from(column.lsb));
     let (name, range) = (Name::new(&column.name), Some([lsb + i64::from(width) - 1, lsb]));
     let range = range.filter(|_| !column.text && width > 1);
-    Signal { name, width, lsb, range, kind, radix, shape: None, words, id }
+    let (scopes, own) = (Arc::default(), column.name.clone());
+    Signal { name, scopes, own, width, lsb, range, kind, radix, shape: None, words, id }
 }
 
 impl signals::Origin for CaptureOrigin {

@@ -100,9 +100,10 @@ fn signal(variable: &Variable, states: Arc<[NamedValue]>, id: usize) -> Signal {
         _ => (SignalKind::Bits, variable.signals.len() as u32),
     };
     let words = Words { width, mixed: false, states };
-    let (name, range) = (Name::new(&variable.name), variable.range);
-    let lsb = range.map_or(0, |[_, lsb]| lsb);
-    Signal { name, width, lsb, range, kind, radix: None, shape: None, words, id }
+    let (scopes, own, range) = (Arc::clone(&variable.scopes), variable.own.clone(), variable.range);
+    let path: Vec<&str> = scopes.iter().chain([&own]).map(String::as_str).collect();
+    let (name, lsb) = (Name::new(path.join(".")), range.map_or(0, |[_, lsb]| lsb));
+    Signal { name, scopes, own, width, lsb, range, kind, radix: None, shape: None, words, id }
 }
 
 impl signals::Origin for GhwOrigin {

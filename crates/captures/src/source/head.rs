@@ -9,6 +9,7 @@ use std::io::{BufRead, Result as IoResult};
 use std::path::Path;
 
 use tofsim::error::{Error, Input, Result};
+use tofsim::waves::dump::UNITS;
 
 use super::spliced::Piece;
 use super::tick::Tick;
@@ -185,7 +186,7 @@ impl Head {
         let unit = text.trim_start_matches(|digit: char| digit.is_ascii_digit());
         let factor = text[..text.len() - unit.len()].parse().ok();
         let exponent =
-            UNITS.iter().find(|(known, _)| *known == unit).map(|(_, exponent)| *exponent);
+            UNITS.iter().find(|(_, known)| *known == unit).map(|(exponent, _)| *exponent);
         let tick = factor.zip(exponent).and_then(|(factor, exponent)| Tick::new(factor, exponent));
         if tick.is_none() {
             let expected = "expected a number and one of zs, as, fs, ps, ns, us, ms, s";
@@ -194,18 +195,6 @@ impl Head {
         Ok(())
     }
 }
-
-/// Units of time, with their powers of ten.
-const UNITS: [(&str, i8); 8] = [
-    ("s", 0),
-    ("ms", -3),
-    ("us", -6),
-    ("ns", -9),
-    ("ps", -12),
-    ("fs", -15),
-    ("as", -18),
-    ("zs", -21),
-];
 
 /// Invalid field of a command, and what was expected.
 struct Wrong {

@@ -62,14 +62,15 @@ impl Axis {
 
     /// Formats a place: a time in nanoseconds, or a sample number.
     pub fn place_text(self, at: u64) -> String {
-        let Some(fs) = self.femtoseconds(at) else { return format!("sample {at}") };
-        let text = format!("{}.{:06}", fs / 1_000_000, fs % 1_000_000);
+        let Some(tick) = self.tick() else { return format!("sample {at}") };
+        let [whole, rest] = tick.nanoseconds(at);
+        let text = format!("{whole}.{rest:012}");
         format!("{} ns", text.trim_end_matches('0').trim_end_matches('.'))
     }
 
     /// Returns a place as a number: picoseconds, or a sample number.
     pub fn place_number(self, at: u64) -> f64 {
-        self.femtoseconds(at).map_or(at as f64, |fs| fs as f64 / 1e3)
+        self.tick().map_or(at as f64, |tick| tick.picoseconds(at))
     }
 
     /// Returns the unit of times, if places are times.
@@ -129,6 +130,10 @@ pub struct Words {
 pub struct Signal {
     /// Name with all scopes.
     pub name: Name,
+    /// Its scopes, outermost first.
+    pub scopes: Arc<[String]>,
+    /// Name in its scope, without range.
+    pub own: String,
     /// Width [bits].
     pub width: u32,
     /// Index of the lowest bit.
@@ -240,7 +245,7 @@ impl Source {
         self.axis == Axis::Samples
     }
 
-    /// Adds ranges to names that several signals would otherwise share.
+    /// Adds ranges to names that several signals would otherwise share: the source's, or else that of the bits.
     pub(super) fn distinguish(mut self) -> Self {
         let mut ids: HashMap<String, HashSet<usize>> = HashMap::new();
         for signal in &self.signals {
@@ -248,10 +253,10 @@ impl Source {
         }
         for signal in &mut self.signals {
             let shared = ids.get(&signal.name.text).is_some_and(|ids| ids.len() > 1);
-            if shared && signal.kind == SignalKind::Bits {
-                let top = signal.lsb + i64::from(signal.width) - 1;
-                let text = format!("{}[{top}:{}]", signal.name.text, signal.lsb);
-                signal.name = Name::new(text);
+            let top = signal.lsb + i64::from(signal.width) - 1;
+            let of_bits = (signal.kind == SignalKind::Bits).then_some([top, signal.lsb]);
+            if let Some([high, low]) = signal.range.or(of_bits).filter(|_| shared) {
+                signal.name = Name::new(format!("{}[{high}:{low}]", signal.name.text));
             }
         }
         self

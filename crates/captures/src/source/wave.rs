@@ -28,6 +28,7 @@ use super::spliced::{Piece, Spliced};
 use super::stream::{Cursor, Disconnected, Feed};
 use super::tables::Tables;
 use super::tick::Tick;
+use super::variables::{joined, variables};
 
 /// Width of a number of events [bits].
 const EVENTS: u32 = 32;
@@ -113,13 +114,13 @@ fn described(
     let mut signals = Vec::new();
     let mut references: Vec<SignalRef> = Vec::new();
     let (mut ids, mut tables) = (HashMap::new(), Tables::default());
-    for var in hierarchy.all_vars().map(|var| &hierarchy[var]) {
+    for (var, scopes) in variables(hierarchy) {
         let reference = var.signal_ref();
         let id = *ids.entry(reference).or_insert_with(|| {
             references.push(reference);
             references.len() - 1
         });
-        signals.push(signal(var, hierarchy, &mut tables, id));
+        signals.push(signal(var, scopes, hierarchy, &mut tables, id));
     }
     if let Some(wide) = signals.iter().find(|signal| signal.width > WIDEST) {
         let expected = format!("expected {WIDEST} bits at most");
@@ -138,7 +139,13 @@ fn described(
     Ok(Source::new(source, format, axis, signals, origin))
 }
 
-fn signal(var: &Var, hierarchy: &Hierarchy, tables: &mut Tables, id: usize) -> Signal {
+fn signal(
+    var: &Var,
+    scopes: Arc<[String]>,
+    hierarchy: &Hierarchy,
+    tables: &mut Tables,
+    id: usize,
+) -> Signal {
     let (kind, width) = match var.signal_encoding(hierarchy) {
         SignalEncoding::BitVector(0) => (SignalKind::Event, EVENTS),
         SignalEncoding::String => (SignalKind::Text, 8 * LONGEST_WORD as u32),
@@ -146,11 +153,12 @@ fn signal(var: &Var, hierarchy: &Hierarchy, tables: &mut Tables, id: usize) -> S
         SignalEncoding::Real => (SignalKind::Real, 64),
     };
     // The library makes scopes of the indices of arrays.
+    let (scopes, own) = joined(scopes, var.name(hierarchy));
     let name = Name::new(var.full_name(hierarchy).replace(".[", "["));
     let range = var.index().map(|index| [index.msb(), index.lsb()]);
     let states = if kind == SignalKind::Bits { tables.of(var, hierarchy) } else { Arc::default() };
     let (lsb, words) = (range.map_or(0, |[_, lsb]| lsb), Words { states, ..Words::default() });
-    Signal { name, width, lsb, range, kind, radix: None, shape: None, words, id }
+    Signal { name, scopes, own, width, lsb, range, kind, radix: None, shape: None, words, id }
 }
 
 fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {
@@ -210,7 +218,7 @@ fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Res
             *count = count.wrapping_add(1);
         }
         for &signal in &places[reference.index()] {
-            set(&mut bits, value, feed.words(signal));
+            set(&mut bits, value, feed.words(signal), origin.format);
             if let SignalValueRef::Event = value {
                 bits.value[0] = u64::from(events[reference.index()]);
             }

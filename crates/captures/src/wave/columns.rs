@@ -1,23 +1,11 @@
 //! Signals and times of a table.
 
-use tofsim::waves::dump::DumpValue;
+use tofsim::waves::dump::{DumpValue, unit};
 
 use crate::source::{Axis, Signal, SignalKind, Source};
 
 use super::excerpt::Chosen;
 use super::values;
-
-/// Units of time by exponent, in steps of 1000 from femtoseconds down to zeptoseconds.
-const UNITS: [(i8, &str); 8] = [
-    (0, "s"),
-    (-3, "ms"),
-    (-6, "us"),
-    (-9, "ns"),
-    (-12, "ps"),
-    (-15, "fs"),
-    (-18, "as"),
-    (-21, "zs"),
-];
 
 /// Columns of a table with a row for each instant.
 pub(super) struct Columns {
@@ -35,10 +23,8 @@ impl Columns {
         let Axis::Time(tick) = source.axis else {
             return Columns { signals, unit: None, factor: 1 };
         };
-        let (exponent, _) = tick.decimal();
-        let unit = UNITS.iter().find(|(unit, _)| *unit <= exponent).unwrap_or(&UNITS[7]);
-        let factor = 10u64.pow((exponent - unit.0).unsigned_abs().into());
-        Columns { signals, unit: Some(unit.1), factor }
+        let (factor, unit) = unit(tick.decimal().0);
+        Columns { signals, unit: Some(unit), factor }
     }
 
     /// Returns a time as a number of the unit.

@@ -26,13 +26,9 @@ impl Contents {
         let mut ids = HashSet::new();
         let mut contents = Contents { names: source.signals.len(), ..Contents::default() };
         for signal in &source.signals {
-            let mut scope = signal.name.text.as_str();
-            while let Some(dot) = scope.rfind('.') {
-                scope = &scope[..dot];
-                if !scopes.insert(scope) {
-                    break;
-                }
-            }
+            let all = (1..=signal.scopes.len()).rev().map(|depth| &signal.scopes[..depth]);
+            // What is outside of a known scope is known.
+            all.take_while(|scope| scopes.insert(*scope)).for_each(drop);
             if !ids.insert(signal.id) {
                 continue;
             }

@@ -1,11 +1,13 @@
 //! Conversion of a waveform to VCD, FST, CSV and WaveJSON.
 
+use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::waves::dump::{Dump, DumpKind, DumpSignal, DumpValue, FstDump, VcdDump};
+use tofsim::waves::dump::{Dump, DumpKind, DumpSignal, DumpState, DumpValue, FstDump, VcdDump};
 
-use crate::ila::read::word;
+use crate::ila::read::{NamedValue, word};
 use crate::source::{Axis, Signal, SignalKind, Source, is_shortened};
 
 use super::columns::Columns;
@@ -73,11 +75,11 @@ pub fn convert(source: &Source, excerpt: &Excerpt, path: &Path) -> Result<u64> {
     let origin = format!("converted from {}", source.name);
     let mut dump: Box<dyn Dump> = match format {
         OutputFormat::Vcd => {
-            let signals = declared(&chosen)?;
+            let signals = declared(&chosen);
             Box::new(VcdDump::create(path, exponent, &signals, chosen.len(), &origin)?)
         }
         OutputFormat::Fst => {
-            let signals = declared(&chosen)?;
+            let signals = declared(&chosen);
             Box::new(FstDump::create(path, exponent, &signals, chosen.len(), &origin)?)
         }
         OutputFormat::Csv => Box::new(CsvDump::create(path, Columns::new(&chosen, source))?),
@@ -114,14 +116,15 @@ fn put(
     let text;
     let value = match signal.kind {
         SignalKind::Bits => DumpValue::Bits { value, unknown },
-        SignalKind::Event if instant.has_events => DumpValue::Event,
+        SignalKind::Event => DumpValue::Event,
         _ if !has_value(signal, unknown) => return Ok(()),
         SignalKind::Real => DumpValue::Real(f64::from_bits(value[0])),
-        SignalKind::Text | SignalKind::Event | SignalKind::Other => {
+        SignalKind::Text | SignalKind::Other => {
             text = word(value);
             if is_shortened(&text) {
                 let expected = format!(
-                    "expected a text of 128 bytes at most at {}; --ignore leaves the signal out",
+                    "expected a text of 128 bytes at most at {}; `tofsim wave cut --ignore` leaves \
+                     the signal out",
                     source.axis.place_text(instant.at)
                 );
                 let fault = Input::new(&source.name, expected).field(&signal.name.text);
@@ -133,11 +136,16 @@ fn put(
     dump.change(place, value).map_err(Error::io(path, "write"))
 }
 
-/// Returns the signals as a waveform declares them.
-fn declared(chosen: &Chosen) -> Result<Vec<DumpSignal>> {
+/// Returns the signals as a waveform declares them. Those that share their states do so in the output, too.
+fn declared(chosen: &Chosen) -> Vec<DumpSignal> {
     let firsts = chosen.firsts();
+    let mut tables: HashMap<*const NamedValue, Arc<[DumpState]>> = HashMap::new();
+    let mut of = |signal: &Signal| {
+        let named = signal.words.states.iter().filter(|_| signal.kind == SignalKind::Bits);
+        let states = || named.filter_map(|state| Some((state.name.clone(), state.bits?))).collect();
+        Arc::clone(tables.entry(signal.words.states.as_ptr()).or_insert_with(states))
+    };
     let declare = |&(signal, id): &(&Signal, usize)| {
-        let (scope, name) = split(signal);
         // All names of a signal are of one type: that of the first.
         let kind = match firsts[id].kind {
             SignalKind::Bits => DumpKind::Bits(firsts[id].width),
@@ -145,22 +153,8 @@ fn declared(chosen: &Chosen) -> Result<Vec<DumpSignal>> {
             SignalKind::Text => DumpKind::Text,
             SignalKind::Event | SignalKind::Other => DumpKind::Event,
         };
-        let states = signal.words.states.iter().filter(|_| signal.kind == SignalKind::Bits);
-        let states = states.filter_map(|state| Some((state.name.clone(), state.bits?))).collect();
-        DumpSignal { scope, name, range: signal.range, kind, states, id }
+        let (scopes, name, range) = (Arc::clone(&signal.scopes), signal.own.clone(), signal.range);
+        DumpSignal { scopes, name, range, kind, states: of(signal), id }
     };
-    Ok(chosen.names.iter().map(declare).collect())
-}
-
-/// Splits a signal's name into its scopes and its own name, without the range that tells it from others.
-fn split(signal: &Signal) -> (String, String) {
-    let text = &signal.name.text;
-    let own = signal.range.and_then(|[high, low]| text.strip_suffix(&format!("[{high}:{low}]")));
-    let text = own.unwrap_or(text);
-    // An escaped name may have dots.
-    let escaped = text.rfind(".\\").filter(|_| signal.kind != SignalKind::Event);
-    match escaped.or_else(|| text.rfind('.')) {
-        Some(dot) => (text[..dot].to_owned(), text[dot + 1..].to_owned()),
-        None => (String::new(), text.to_owned()),
-    }
+    chosen.names.iter().map(declare).collect()
 }

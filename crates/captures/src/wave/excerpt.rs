@@ -6,7 +6,7 @@ use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 
 use crate::choice::SignalChoice;
-use crate::source::{Axis, Signal, Source, SourceState};
+use crate::source::{Axis, Signal, SignalKind, Source, SourceState};
 
 /// Which part of a waveform is read.
 #[derive(Clone, Debug, Default)]
@@ -36,10 +36,8 @@ pub(super) struct Instant<'a> {
     pub(super) at: u64,
     /// Values.
     pub(super) state: &'a SourceState,
-    /// Signals with a change, in ascending order; at the start of an excerpt, all that have a value.
+    /// Signals with a change or an event, in ascending order; at the start of an excerpt, also all that have a value.
     pub(super) changed: &'a [usize],
-    /// Whether events at this instant are of it: not of those before the start of an excerpt.
-    pub(super) has_events: bool,
 }
 
 impl Excerpt {
@@ -79,6 +77,7 @@ impl Excerpt {
         if names.is_empty() {
             let expected = match source.signals.len() {
                 0 => "has no signals".to_owned(),
+                1 => "its signal is not chosen (--signals, --ignore)".to_owned(),
                 count => format!("none of its {count} signals is chosen (--signals, --ignore)"),
             };
             return Err(Input::new(&source.name, expected).into());
@@ -110,19 +109,20 @@ impl<'a> Chosen<'a> {
         let mut cursor = self.source.read(&self.ids)?;
         let mut changed: Vec<usize> = Vec::new();
         let mut known = vec![false; self.ids.len()];
+        let firsts = self.firsts();
+        let has_value = |signal: usize| firsts[signal].kind != SignalKind::Event;
         let mut last = 0;
         while let Some(at) = cursor.peek()?.filter(|&at| at < self.from) {
-            cursor.take(|signal| known[signal] = true);
+            cursor.take(|signal| known[signal] = has_value(signal));
             last = at;
         }
         if self.from > 0 {
-            let has_events = cursor.peek()? == Some(self.from);
-            if has_events {
+            if cursor.peek()? == Some(self.from) {
                 cursor.take(|signal| known[signal] = true);
             }
             changed.extend((0..known.len()).filter(|&signal| known[signal]));
             let (state, changed) = (&cursor.state, &changed[..]);
-            each(&Instant { at: self.from, state, changed, has_events })?;
+            each(&Instant { at: self.from, state, changed })?;
             last = self.from;
         }
         while let Some(at) = cursor.peek()?.filter(|&at| at < self.until) {
@@ -130,7 +130,7 @@ impl<'a> Chosen<'a> {
             cursor.take(|signal| changed.push(signal));
             changed.sort_unstable();
             changed.dedup();
-            each(&Instant { at, state: &cursor.state, changed: &changed, has_events: true })?;
+            each(&Instant { at, state: &cursor.state, changed: &changed })?;
             last = at;
         }
         Ok(self.source.end.unwrap_or(0).max(last).min(self.until))

@@ -60,8 +60,7 @@ pub fn statistics<'a>(
         for &place in instant.changed {
             let (value, unknown) = (instant.state.value(place), instant.state.unknown(place));
             match firsts[place].kind {
-                SignalKind::Event if instant.has_events => all[place].count(instant.at),
-                SignalKind::Event => {}
+                SignalKind::Event => all[place].count(instant.at),
                 _ => all[place].change(instant.at, value, unknown),
             }
         }

@@ -1,18 +1,10 @@
 //! Values as text.
 
+use tofsim::waves::dump::DumpValue;
+
 use crate::ila::read::word;
 use crate::source::{Signal, SignalKind};
-use crate::words::{bit, lowest};
-
-/// Digit of a level.
-pub(super) fn level(value: &[u64], unknown: &[u64], place: u32) -> char {
-    match (bit(unknown, place), bit(value, place)) {
-        (0, 0) => '0',
-        (0, _) => '1',
-        (_, 0) => 'x',
-        _ => 'z',
-    }
-}
+use crate::words::lowest;
 
 /// Returns whether a signal has a value; numbers and texts have none at first.
 pub(super) fn has_value(signal: &Signal, unknown: &[u64]) -> bool {
@@ -34,11 +26,10 @@ pub(super) fn text(signal: &Signal, value: &[u64], unknown: &[u64]) -> String {
         SignalKind::Text => return word(value),
         SignalKind::Bits | SignalKind::Event | SignalKind::Other => {}
     }
-    let digits = || (0..signal.width).rev().map(|place| level(value, unknown, place));
     if unknown.iter().any(|&word| word != 0) {
         let prefix = if signal.width == 1 { "" } else { "0b" };
-        return digits()
-            .fold(prefix.to_owned(), |text, digit| text + digit.encode_utf8(&mut [0; 4]));
+        let digits = (0..signal.width).rev().map(|place| DumpValue::digit(value, unknown, place));
+        return prefix.chars().chain(digits.map(char::from)).collect();
     }
     let state = || signal.words.states.iter().find(|state| state.bits == Some(value[0]));
     match value {
