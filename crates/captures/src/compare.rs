@@ -34,7 +34,7 @@ use tofsim::kernel::Time;
 
 use crate::choice::SignalChoice;
 use crate::condition::Condition;
-use crate::source::Source;
+use crate::source::{Signal, Source};
 
 pub use align::Align;
 pub use align::{Survey, survey};
@@ -96,7 +96,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     let nothing = |expected: &str| {
         Input::new("compare", expected).value(format_args!("{} and {}", a.name, b.name))
     };
-    let mut matching = matching(sources, &options.map, &options.choice)?;
+    let mut matching = matching(sources, &options.map, &options.choice, Signal::fits)?;
     resolved.mark(&mut matching);
     if matching.pairs.is_empty() {
         let expected = "no signal of one has a partner in the other; give a map (--map)";
@@ -136,7 +136,9 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     } else {
         let mut result = by_changes::compare(&plan, &align, &mut differences)?;
         conclude(&plan, &differences, options.all, &mut result);
-        result.findings = diagnose::changes(&plan, align::shift(&plan, &align)?.0, &result)?;
+        if !result.is_same() {
+            result.findings = diagnose::changes(&plan, align::shift(&plan, &align)?.0, &result)?;
+        }
         result
     };
     result.skipped.extend(resolved.notes.iter().cloned());

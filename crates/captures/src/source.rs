@@ -44,7 +44,7 @@ pub use simulation::LONGEST_SIMULATION;
 pub use state::SourceState;
 pub use stream::{Cursor, Disconnected, Feed, Marks};
 pub use tick::Tick;
-pub(crate) use translated::{Translation, WordValues};
+pub(crate) use translated::{Translation, WordValues, untranslated};
 
 impl Source {
     /// Opens a file, whose contents determine its format. `radix` applies to files that do not state the radix of

@@ -2,6 +2,7 @@
 //! renamed probe, two swapped probes, or a wrong radix.
 
 mod collect;
+mod delay;
 mod late;
 mod radix;
 mod rows;

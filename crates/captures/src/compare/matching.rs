@@ -24,6 +24,9 @@ use names::by_name;
 use rules::{by_rule, is_swapped};
 use slices::by_slice;
 
+/// Test of whether the values of two signals can be compared.
+pub(super) type Fits = fn(&Signal, &Signal) -> bool;
+
 /// Matches the signals of two sources.
 ///
 /// # Errors
@@ -32,11 +35,12 @@ pub(super) fn matching(
     sides: [&Source; 2],
     map: &SignalMap,
     choice: &SignalChoice,
+    fits: Fits,
 ) -> Result<Matching> {
     let mut matching = Matching { swapped: is_swapped(sides, map), ..Matching::default() };
     let mut used = [HashSet::new(), HashSet::new()];
     for rule in map.signal.iter().filter(|rule| !rule.b.is_empty()) {
-        let pair = by_rule(sides, rule, &mut matching, &mut used)?;
+        let pair = by_rule(sides, rule, &mut matching, &mut used, fits)?;
         matching.pairs.push(pair);
     }
     let names = renamed(sides, map, matching.swapped)?;
@@ -61,7 +65,7 @@ pub(super) fn matching(
             matching.unmatched.push(Unmatched { side, name, signal: k, reason });
         }
     }
-    by_name(sides, &names, &candidates, &mut matching);
+    by_name(sides, &names, &candidates, &mut matching, fits);
     by_slice(sides, &mut matching);
     for rule in map.signal.iter().filter(|rule| rule.b.is_empty()) {
         let pair = matching.pair(&rule.a[0])?;

@@ -10,7 +10,7 @@ use tofsim::error::Result;
 use crate::choice::SignalChoice;
 use crate::source::{Name, Signal, SignalKind, Source, Translation, WordValues};
 
-use crate::ila::read::{MOST_STATES, word};
+use crate::ila::read::{MOST_STATES, NamedValue, word};
 use crate::words::listed;
 
 use super::map::SignalMap;
@@ -48,9 +48,13 @@ pub(super) fn resolve(
     }
     let bare = sides.map(as_bits);
     let known = sides.map(by_ids);
-    let found = matching([&bare[0], &bare[1]], map, choice)?;
+    let found = matching([&bare[0], &bare[1]], map, choice, fits_by_name)?;
     let mut sources = sides.map(Source::clone);
     let mut translations: [HashMap<usize, Translation>; 2] = Default::default();
+    // A signal of several pairs has the same values in all of them.
+    let mut uses: HashMap<usize, usize> = HashMap::new();
+    let of_pairs = found.pairs.iter().flat_map(|pair| ids(&found, pair, 1));
+    of_pairs.for_each(|id| *uses.entry(id).or_default() += 1);
     for pair in &found.pairs {
         let ids = [0, 1].map(|side| ids(&found, pair, side));
         let texts = [0, 1].map(|side| text(&known[side], &ids[side]));
@@ -63,6 +67,8 @@ pub(super) fn resolve(
                     _ => None,
                 };
                 if let [Some(a), Some(b)] = [whole(0), whole(1)]
+                    && uses[&b.id] == 1
+                    && !pair.invert
                     && let Some(codes) = codes(a, b)
                 {
                     translations[1].insert(b.id, Translation::Codes(a.width, codes));
@@ -124,8 +130,13 @@ fn is_named(signal: &Signal) -> bool {
     signal.kind == SignalKind::Bits && !signal.words.states.is_empty()
 }
 
+/// Returns whether the values of two signals can be compared, those of enumerations by name.
+fn fits_by_name(a: &Signal, b: &Signal) -> bool {
+    a.fits(b) || (is_named(a) && is_named(b))
+}
+
 /// Returns the first signal's value for each value of the second with the same name, if both have such names and
-/// their values differ.
+/// some of these values differ.
 fn codes(a: &Signal, b: &Signal) -> Option<HashMap<u64, u64>> {
     if !is_named(a)
         || !is_named(b)
@@ -133,18 +144,32 @@ fn codes(a: &Signal, b: &Signal) -> Option<HashMap<u64, u64>> {
     {
         return None;
     }
-    let own: HashMap<String, u64> = values(a).collect();
-    let codes = values(b).filter_map(|(name, bits)| Some((bits, *own.get(&name)?)));
-    let codes: HashMap<u64, u64> = codes.collect();
-    let differs =
-        a.width != b.width || codes.iter().any(|(b, a)| a != b) || codes.len() < values(b).count();
+    let states = a.words.states.iter();
+    let exact: HashMap<&str, u64> =
+        states.filter_map(|state| Some((state.name.as_str(), state.bits?))).collect();
+    let [folded_a, folded_b] = [a, b].map(|signal| folded(&signal.words.states));
+    let by_fold = |name: &str| {
+        let name = name.to_lowercase();
+        folded_b.get(&name).copied().flatten()?;
+        folded_a.get(&name).copied().flatten()
+    };
+    let value = |name: &str| exact.get(name).copied().or_else(|| by_fold(name));
+    let codes = b.words.states.iter();
+    let codes: HashMap<u64, u64> =
+        codes.filter_map(|state| Some((state.bits?, value(&state.name)?))).collect();
+    let differs = a.width != b.width || codes.iter().any(|(b, a)| a != b);
     (differs && !codes.is_empty()).then_some(codes)
 }
 
-/// Returns the names of a signal's values, as VHDL and Verilog have them in common: in lower case.
-fn values(signal: &Signal) -> impl Iterator<Item = (String, u64)> {
-    let states = signal.words.states.iter();
-    states.filter_map(|state| Some((state.name.to_lowercase(), state.bits?)))
+/// Returns values by their names in lower case, as VHDL and Verilog have them in common; none for a name that several
+/// share. VHDL tells 'Z' from 'z', and \Run\ from \run\.
+fn folded(states: &[NamedValue]) -> HashMap<String, Option<u64>> {
+    let mut folded = HashMap::new();
+    for state in states.iter().filter(|state| !state.name.starts_with(['\'', '\\'])) {
+        let name = folded.entry(state.name.to_lowercase());
+        name.and_modify(|bits| *bits = None).or_insert(state.bits);
+    }
+    folded
 }
 
 fn leave_out(signal: &mut Signal) {
@@ -155,13 +180,8 @@ fn leave_out(signal: &mut Signal) {
 fn as_bits(source: &Source) -> Source {
     let mut source = source.clone();
     for signal in source.signals.iter_mut() {
-        match signal.kind {
-            SignalKind::Text => {
-                (signal.kind, signal.width) = (SignalKind::Bits, signal.words.width)
-            }
-            // The other side may have another encoding.
-            _ if is_named(signal) => signal.width = 0,
-            _ => {}
+        if is_text(signal) {
+            (signal.kind, signal.width) = (SignalKind::Bits, signal.words.width);
         }
     }
     source

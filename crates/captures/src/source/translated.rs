@@ -17,7 +17,8 @@ use super::stream::Cursor;
 pub(crate) enum Translation {
     /// Words become values.
     Words(WordValues),
-    /// Values become other values of a width [bits]; those that have none become unknown.
+    /// Values become other values of a width [bits]. Those that have none become unknown, with the value beyond the
+    /// width, so that they equal no other ([`untranslated`]).
     Codes(u32, HashMap<u64, u64>),
 }
 
@@ -49,13 +50,27 @@ impl Translation {
         };
         let mut bits = Bits::zero(width);
         let is_known = unknown.iter().all(|&word| word == 0);
-        let code = value.first().filter(|_| is_known).and_then(|value| codes.get(value));
-        match (code, bits.value.first_mut()) {
-            (Some(&code), Some(word)) => *word = code,
-            _ => fill(&mut bits.unknown, width),
+        let known = value.first().copied().filter(|_| is_known);
+        if let Some(code) = known.and_then(|value| codes.get(&value)) {
+            bits.value[0] = *code;
+            return bits;
         }
+        fill(&mut bits.unknown, width);
+        bits.value[0] = known.and_then(|value| beyond(value, width)).unwrap_or(0);
         bits
     }
+}
+
+/// Returns a word that has a value above its lowest `width` bits, if there is room.
+fn beyond(value: u64, width: u32) -> Option<u64> {
+    let above = value.checked_add(1)?;
+    (width < above.leading_zeros()).then(|| above << width)
+}
+
+/// Returns the value of a signal of `width` bits that has no translation.
+pub(crate) fn untranslated(bits: &Bits, width: u32) -> Option<u64> {
+    let word = bits.value.first().filter(|_| bits.value.len() == 1)?;
+    word.checked_shr(width).filter(|&above| above > 0).map(|above| above - 1)
 }
 
 impl WordValues {

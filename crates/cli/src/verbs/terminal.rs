@@ -101,12 +101,12 @@ impl Console {
     /// With `--strict`, if some were.
     pub fn none_skipped(&self, skipped: &[String]) -> Result<()> {
         let Some(first) = skipped.first().filter(|_| self.strict) else { return Ok(()) };
-        let more = if skipped.len() > 1 {
-            format!(" and {} more", skipped.len() - 1)
-        } else {
-            String::new()
+        let more = match skipped.len() - 1 {
+            0 => String::new(),
+            1 => "; 1 other is skipped, too".to_owned(),
+            more => format!("; {more} others are skipped, too"),
         };
-        let expected = format!("expected that all values can be compared{more}: {first}");
+        let expected = format!("expected that all values can be compared: {first}{more}");
         Err(Input::new("--strict", expected).into())
     }
 

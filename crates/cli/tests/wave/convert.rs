@@ -30,7 +30,7 @@ fn all_types(seed: u64, steps: u64) -> String {
         $var real 64 r real $end\n$var string 1 s text $end\n$var event 1 e event $end\n\
         $upscope $end\n$enddefinitions $end\n";
     const REALS: [&str; 7] = ["0.1", "-1e300", "5e-324", "inf", "-inf", "3", "0.30000000000000004"];
-    const TEXTS: [&str; 5] = ["idle", "Run", "\\040", "a\\\\b", ""];
+    const TEXTS: [&str; 7] = ["idle", "Run", "\\040", "a\\\\b", "", "→", "\\303\\251"];
     let (mut draws, mut at) = (Draws(seed), draws_of(seed));
     for _ in 0..steps {
         writeln!(text, "#{at}").unwrap();
@@ -47,7 +47,7 @@ fn all_types(seed: u64, steps: u64) -> String {
         }
         writeln!(text, "b{:04b} up\n{}i5", draws.below(16), draws.below(2)).unwrap();
         writeln!(text, "r{} r", REALS[draws.below(7) as usize]).unwrap();
-        writeln!(text, "s{} s", TEXTS[draws.below(5) as usize]).unwrap();
+        writeln!(text, "s{} s", TEXTS[draws.below(7) as usize]).unwrap();
         if draws.below(2) == 0 {
             text += "1e\n";
         }

@@ -124,7 +124,7 @@ fn push(plan: &Plan, side: usize, state: &SourceState, collected: &mut Collected
         column.values.push(key(&bits));
     }
     let mut row = DefaultHasher::new();
-    for pair in &plan.matching.pairs {
+    for pair in plan.matching.pairs.iter().filter(|pair| !pair.is_event) {
         pair.gather(side, state, &mut bits);
         bits.hash(&mut row);
     }

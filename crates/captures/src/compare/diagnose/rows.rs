@@ -52,6 +52,6 @@ pub(super) fn counted(samples: usize) -> &'static str {
 }
 
 /// Returns whether two sequences are equal over their common length, which must be long enough.
-pub(super) fn agree(a: &[u64], b: &[u64]) -> bool {
+fn agree(a: &[u64], b: &[u64]) -> bool {
     a.len().min(b.len()) >= FEWEST && a.iter().zip(b).all(|(a, b)| a == b)
 }

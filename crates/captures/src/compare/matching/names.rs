@@ -6,6 +6,7 @@ use crate::source::{Name, Signal, SignalKind, Source};
 
 use super::super::pair::{MatchedBy, Pair};
 use super::super::parts::ordered;
+use super::Fits;
 use super::matched::{Matching, Unmatched, UnmatchedReason};
 use super::tails::{by_tail, ends};
 
@@ -125,6 +126,7 @@ pub(super) fn by_name(
     own: &[Vec<Name>; 2],
     candidates: &[Vec<usize>; 2],
     matching: &mut Matching,
+    fits: Fits,
 ) {
     let hung = scopes(own, candidates).map(|scopes| below(own, &scopes));
     let names = hung.as_ref().unwrap_or(own);
@@ -139,7 +141,7 @@ pub(super) fn by_name(
         let mutual: Vec<usize> = found.found.iter().copied().filter(is_mutual).collect();
         let Some(&first) = mutual.first() else { continue };
         let b = &sides[1].signals[first];
-        let refused = refused(sides, k, &mutual, &best[1][first]);
+        let refused = refused(sides, k, &mutual, &best[1][first], fits);
         if !refused.is_empty() {
             for (side, signal, reason) in refused {
                 reasons[side].entry(signal).or_insert(reason);
@@ -188,6 +190,7 @@ fn refused(
     own: usize,
     mutual: &[usize],
     back: &Best,
+    fits: Fits,
 ) -> Vec<(usize, usize, UnmatchedReason)> {
     let (a, b) = (&sides[0].signals[own], &sides[1].signals[mutual[0]]);
     if let Some(others) = several(sides[1], mutual) {
@@ -196,7 +199,7 @@ fn refused(
     if let Some(others) = &back.several {
         return vec![(1, mutual[0], UnmatchedReason::Ambiguous(others.clone()))];
     }
-    if a.fits(b) {
+    if fits(a, b) {
         return Vec::new();
     }
     let reason = |own: &Signal, other: &Signal| match (own.kind, other.kind) {

@@ -47,14 +47,14 @@ pub(super) struct CutArgs {
 
 /// Converts a whole waveform.
 pub(super) fn run(args: &Args, console: &Console) -> Result<()> {
-    convert(&args.input.open()?, &Excerpt::default(), &args.output)?;
+    convert(&args.input.open(console)?, &Excerpt::default(), &args.output)?;
     console.wrote(&args.output);
     Ok(())
 }
 
 /// Writes a part of a waveform.
 pub(super) fn cut(args: &CutArgs, console: &Console) -> Result<()> {
-    convert(&args.input.open()?, &args.signals.excerpt(&args.range), &args.output)?;
+    convert(&args.input.open(console)?, &args.signals.excerpt(&args.range), &args.output)?;
     console.wrote(&args.output);
     Ok(())
 }

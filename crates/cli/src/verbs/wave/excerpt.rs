@@ -5,11 +5,15 @@ use std::path::PathBuf;
 use tofsim::error::Result;
 use tofsim::kernel::Time;
 use tofsim_captures::choice::SignalChoice;
+use tofsim_captures::ila::Radix;
 use tofsim_captures::source::Source;
 use tofsim_captures::wave::Excerpt;
 
+use crate::choice::{self, words};
+
 use super::super::compare::values::time;
 use super::super::host::host;
+use super::super::terminal::Console;
 
 /// A waveform.
 #[derive(Debug, clap::Args)]
@@ -17,6 +21,9 @@ pub(super) struct InputArgs {
     /// VCD, FST or GHW, or a logic analyser's CSV, VCD or .ila archive; its contents decide
     #[arg(value_name = "FILE")]
     file: PathBuf,
+    /// Radix of the values in a CSV without radices
+    #[arg(long, value_parser = words(choice::RADIX))]
+    radix: Option<Radix>,
 }
 
 /// Signals.
@@ -42,10 +49,12 @@ pub(super) struct RangeArgs {
 }
 
 impl InputArgs {
-    /// Opens the file.
-    pub(super) fn open(&self) -> Result<Source> {
+    /// Opens the file, and prints what is unusual about it.
+    pub(super) fn open(&self, console: &Console) -> Result<Source> {
         let stop = host().map(|host| host.stop).unwrap_or_default();
-        Source::file_stopped_by(&self.file, None, stop)
+        let source = Source::file_stopped_by(&self.file, self.radix, stop)?;
+        source.notes.iter().for_each(|note| console.note(format_args!("note: {note}")));
+        Ok(source)
     }
 }
 

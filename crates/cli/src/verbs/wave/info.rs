@@ -27,7 +27,7 @@ pub(super) struct Args {
 
 /// Runs the command.
 pub(super) fn run(args: &Args, console: &Console) -> Result<()> {
-    let source = args.input.open()?;
+    let source = args.input.open(console)?;
     let findings =
         Info { contents: Contents::of(&source), source: &source, lists: console.verbose };
     Report::without_record(findings).deliver(None, args.json, console)
@@ -107,7 +107,6 @@ impl Findings for Info<'_> {
             let rows = source.signals.iter().map(row);
             text += &format!("\n{}\n", table(["signal", "width", "type"], rows, 1..2));
         }
-        source.notes.iter().for_each(|note| text += &format!("note      {note}\n"));
         text
     }
 }

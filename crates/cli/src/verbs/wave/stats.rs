@@ -35,7 +35,7 @@ pub(super) struct Args {
 
 /// Runs the command.
 pub(super) fn run(args: &Args, console: &Console) -> Result<()> {
-    let source = args.input.open()?;
+    let source = args.input.open(console)?;
     let (signals, end) = statistics(&source, &args.signals.excerpt(&args.range))?;
     let findings = Statistics { source: &source, signals, end };
     Report::without_record(findings).deliver(None, args.json, console)
