@@ -3,6 +3,7 @@
 mod cells;
 mod convert;
 mod cut;
+mod names;
 mod other_tools;
 mod refused;
 mod stats;

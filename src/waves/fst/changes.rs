@@ -132,3 +132,29 @@ impl<W: Write + Seek + Send + 'static> Changes<W> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+
+    /// Number of sections of a file with a signal of this width, all of whose bits change 64 times.
+    fn sections(width: usize) -> u64 {
+        let file = Cursor::new(Vec::new());
+        let mut changes = Changes::new(file, Header::default(), vec![Stream::new(width)]);
+        let value = vec![0x5a; width / 8];
+        for at in 1..=64 {
+            changes.begin(at).unwrap();
+            changes.change(0, &value);
+        }
+        changes.write_section().unwrap();
+        changes.header.sections
+    }
+
+    #[test]
+    fn a_section_has_several_times_as_many_changes_as_initial_values() {
+        // Digits of the initial values take eight times as much as the bits of a change.
+        assert_eq!((sections(1 << 10), sections(1 << 20), sections(1 << 21)), (1, 2, 2));
+    }
+}

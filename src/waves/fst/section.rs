@@ -111,3 +111,28 @@ fn skip(places: &mut Vec<u8>, signals: &mut u64) {
         number(places, 2 * std::mem::take(signals));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_initial_values_are_packed_and_few_are_as_they_are() {
+        let body = |length: usize| {
+            let mut section = Section::new(3);
+            section.frame.resize(length, b'x');
+            let mut body = Vec::new();
+            section.take_frame(&mut body);
+            assert!(section.frame.is_empty());
+            body
+        };
+        assert_eq!(body(4), [4, 4, 3, b'x', b'x', b'x', b'x']);
+        let packed = body(LARGE);
+        let mut lengths = Vec::new();
+        number(&mut lengths, LARGE as u64);
+        assert!(packed.starts_with(&lengths) && packed.len() < LARGE / 50, "{}", packed.len());
+        let from = packed.len() - usize::from(packed[lengths.len()]);
+        let frame = miniz_oxide::inflate::decompress_to_vec_zlib(&packed[from..]).unwrap();
+        assert_eq!(frame, [b'x'; LARGE]);
+    }
+}

@@ -81,7 +81,8 @@ impl Both {
             unit: tick,
             widths: pairs.iter().map(|pair| pair.width).collect(),
             is_event: pairs.iter().map(|pair| pair.is_event).collect(),
-            raised: Vec::new(),
+            // All are low at first.
+            raised: (0..pairs.len()).filter(|&pair| pairs[pair].is_event).collect(),
             wrong: vec![false; pairs.len()],
             count: 0,
             shown: None,

@@ -47,7 +47,7 @@ pub fn cells(text: &str) -> Cells {
         for (name, width) in &names[code] {
             let value = match kind {
                 "r" => format!("{:x}", value.parse::<f64>().unwrap().to_bits()),
-                "s" => value.to_owned(),
+                "s" => escaped(value),
                 _ => levels(value, *width),
             };
             let changes = cells.entry(name.clone()).or_default();
@@ -60,6 +60,15 @@ pub fn cells(text: &str) -> Cells {
         }
     }
     cells
+}
+
+/// A text with backslash sequences for the bytes of what is not ASCII.
+fn escaped(text: &str) -> String {
+    let escaped = |byte: u8| match byte {
+        0..128 => char::from(byte).to_string(),
+        _ => format!("\\{byte:03o}"),
+    };
+    text.bytes().map(escaped).collect()
 }
 
 /// Levels of nine values as four, extended to the width.

@@ -29,7 +29,8 @@ fn all_types(seed: u64, steps: u64) -> String {
         $var reg 4 up ascends [0:3] $end\n$var wire 1 i5 single [5] $end\n\
         $var real 64 r real $end\n$var string 1 s text $end\n$var event 1 e event $end\n\
         $upscope $end\n$enddefinitions $end\n";
-    const REALS: [&str; 7] = ["0.1", "-1e300", "5e-324", "inf", "-inf", "3", "0.30000000000000004"];
+    const REALS: [&str; 9] =
+        ["0.1", "-1e300", "5e-324", "inf", "-inf", "3", "0.30000000000000004", "nan", "-nan"];
     const TEXTS: [&str; 7] = ["idle", "Run", "\\040", "a\\\\b", "", "→", "\\303\\251"];
     let (mut draws, mut at) = (Draws(seed), draws_of(seed));
     for _ in 0..steps {
@@ -46,7 +47,7 @@ fn all_types(seed: u64, steps: u64) -> String {
             }
         }
         writeln!(text, "b{:04b} up\n{}i5", draws.below(16), draws.below(2)).unwrap();
-        writeln!(text, "r{} r", REALS[draws.below(7) as usize]).unwrap();
+        writeln!(text, "r{} r", REALS[draws.below(9) as usize]).unwrap();
         writeln!(text, "s{} s", TEXTS[draws.below(7) as usize]).unwrap();
         if draws.below(2) == 0 {
             text += "1e\n";
@@ -63,7 +64,9 @@ fn draws_of(seed: u64) -> u64 {
 fn without_unknown_starts(mut cells: Cells) -> Cells {
     // GTKWave's tools write an x for what has no value yet.
     for changes in cells.values_mut() {
-        while changes.first().is_some_and(|(_, value)| value.chars().all(|level| level == 'x')) {
+        let is_unknown =
+            |value: &str| value.starts_with('x') && value.chars().all(|level| level == 'x');
+        while changes.first().is_some_and(|(_, value)| is_unknown(value)) {
             changes.remove(0);
         }
     }
@@ -81,7 +84,7 @@ fn values_of_all_types_are_the_same_there_and_back() {
         convert(folder, "b.fst", "c.vcd");
         convert(folder, "c.vcd", "d.fst");
         let original = without_unknown_starts(read(folder, "a.vcd"));
-        assert_eq!(original.len(), 18, "{:?}", original.keys());
+        assert!(steps < 9 || original.len() == 18, "{:?}", original.keys());
         assert_eq!(without_unknown_starts(read(folder, "c.vcd")), original, "seed {seed}");
         for (text, fst) in [("a.vcd", "b.fst"), ("c.vcd", "d.fst")] {
             let ours = without_unknown_starts(of_fst(folder, fst));
@@ -144,7 +147,7 @@ fn wavejson_has_a_brick_for_each_instant() {
             "data": ["0", "5", "9", "10", "11", "12"] }),
         serde_json::json!({ "name": "t.clk", "wave": "010..." }),
         serde_json::json!({ "name": "t.n", "wave": "x=x==.", "data": ["5", "3", "4"] }),
-        serde_json::json!({ "name": "t.e", "wave": "x10..." }),
+        serde_json::json!({ "name": "t.e", "wave": "010..." }),
     ];
     assert_eq!(json["signal"], serde_json::Value::from(lanes.to_vec()));
 }

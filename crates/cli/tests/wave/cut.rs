@@ -42,6 +42,25 @@ fn a_part_begins_with_the_values_at_its_start_and_ends_before_its_end() {
 }
 
 #[test]
+fn events_before_the_start_are_no_part_of_it() {
+    let none = cut("b.vcd", &["--after", "35ns", "--signals", "e", "--signals", "a"]);
+    assert_eq!(none, changes(&[("a", &[(35, "1")])]));
+    let first = cut("b.vcd", &["--after", "30ns", "--signals", "e"]);
+    assert_eq!(first, changes(&[("e", &[(30, "1")])]));
+    // Another signal has a change at the start, but no event occurs there.
+    let other = cut("b.vcd", &["--after", "40ns", "--signals", "e", "--signals", "n"]);
+    assert_eq!(other, changes(&[("n", &[(40, "xxxx")])]));
+    let folder = common::empty();
+    fs::write(folder.path().join("a.vcd"), WAVE).unwrap();
+    let count = |args: &[&str]| {
+        let args = [&["wave", "stats", "a.vcd", "--json", "--signals", "e"], args].concat();
+        common::json(folder.path(), &args)["signals"][0]["changes"].as_u64()
+    };
+    assert_eq!(count(&[]), Some(3));
+    assert_eq!((count(&["--after", "20ns"]), count(&["--after", "21ns"])), (Some(2), Some(1)));
+}
+
+#[test]
 fn a_part_that_begins_at_a_change_has_the_new_value() {
     let found = cut("b.vcd", &["--after", "20ns", "--signals", "t.[ne]"]);
     let expected = changes(&[("n", &[(20, "0010"), (40, "xxxx")]), ("e", &[(20, "1")])]);

@@ -50,10 +50,11 @@ fn a_damaged_file_and_a_value_that_a_format_cannot_have_leave_no_output() {
     fs::write(folder.join("long.vcd"), format!("{HEAD}#7\ns{} s\n", "word".repeat(50))).unwrap();
     let error = refused(folder, &["convert", "long.vcd", "-o", "b.fst"]);
     assert!(error.contains("long.vcd: t.s = ") && error.contains("128 bytes"), "{error}");
+    assert!(error.contains("tofsim wave cut --ignore"), "{error}");
     let many: String = (0..5000).map(|at| format!("#{at}\n{}!\n", at % 2)).collect();
     fs::write(folder.join("many.vcd"), format!("{HEAD}{many}")).unwrap();
     let error = refused(folder, &["convert", "many.vcd", "-o", "b.json"]);
-    assert!(error.contains("4096 instants at most"), "{error}");
+    assert!(error.contains("4096 instants at most") && error.contains("wave cut"), "{error}");
 }
 
 #[test]
@@ -70,4 +71,20 @@ fn a_capture_has_no_times_for_a_waveform() {
     common::stdout(folder, &["wave", "convert", "a.csv", "-o", "b.csv"]);
     let csv = fs::read_to_string(folder.join("b.csv")).unwrap();
     assert_eq!(csv, "sample,n\n0,10\n1,11\n2,11\n");
+}
+
+#[test]
+fn a_capture_without_radices_is_read_in_the_radix_given() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let capture = "Sample in Buffer,Sample in Window,TRIGGER,n[7:0]\n0,0,1,10\n1,1,0,11\n";
+    fs::write(folder.join("a.csv"), capture).unwrap();
+    let values = |radix: &str| {
+        common::stdout(folder, &["wave", "convert", "a.csv", "-o", "b.csv", "--radix", radix]);
+        let csv = fs::read_to_string(folder.join("b.csv")).unwrap();
+        csv.lines().skip(1).map(|row| row.split_once(',').unwrap().1.to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(values("hex"), ["16", "17"]);
+    assert_eq!(values("unsigned"), ["10", "11"]);
+    assert_eq!(values("binary"), ["2", "3"]);
 }
