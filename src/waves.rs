@@ -6,6 +6,7 @@
 
 mod body;
 mod digits;
+pub mod dump;
 mod fst;
 mod gtkwave;
 mod layout;

@@ -1,8 +1,9 @@
 //! FST files, as described in GTKWave's `block_format.txt`.
 //!
-//! The format has no comments, so the provenance is in the version string as far as it fits, and in full in a block
-//! at the end of the file that readers skip. It has no state names either; a separate file next to the waveform holds
-//! them (see [`super::write_views`]).
+//! In a waveform of a simulation ([`Fst`]) the provenance is in the version string as far as it fits, and in full in a
+//! block at the end of the file that readers skip; names of states are in a separate file next to it (see
+//! [`super::write_views`]). A file of any design ([`FstDump`](dump::FstDump)) has tables of state names in its
+//! hierarchy.
 
 use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -19,10 +20,13 @@ use super::digits::TapDigits;
 
 mod blocks;
 mod changes;
+pub(super) mod dump;
 mod header;
 mod hierarchy;
+mod record;
 mod section;
 mod sections;
+mod signal_stream;
 mod stream;
 mod times;
 
@@ -30,6 +34,7 @@ use blocks::Block;
 use changes::Changes;
 use header::Header;
 use hierarchy::Hierarchy;
+use stream::Stream;
 
 /// An FST file being written.
 pub(super) struct Fst {
@@ -62,12 +67,13 @@ impl Fst {
             ..Header::new(provenance)?
         };
         let mut file = OutputFile::create_seekable(path)?;
+        let streams = hierarchy.widths.iter().map(|&width| Stream::new(width)).collect();
         let begun = header.write(&mut file).and_then(|()| hierarchy.write(&mut file));
         begun.map_err(Error::io(path, "write"))?;
         Ok(Fst {
             path: path.to_owned(),
             provenance: provenance.join("\n"),
-            changes: Changes::new(file, header, &hierarchy.widths),
+            changes: Changes::new(file, header, streams),
             signals: hierarchy.signals,
             taps: TapDigits::new(encoder),
             bytes: Vec::new(),

@@ -2,22 +2,30 @@
 
 use crate::hierarchy::Entry;
 
-/// An element of a header's hierarchy.
-pub(super) enum Element<'a> {
+/// An element of a header's hierarchy, with signals of a type `T`.
+pub(super) enum Element<'a, T> {
     /// Start of a scope within the current one.
     Enter(&'a str),
     /// End of the current scope.
     Leave,
     /// Signal in the current scope.
-    Signal(&'a Entry),
+    Signal(&'a T),
 }
 
 /// Lists the elements of the hierarchy of `entries`, in which the signals of a scope are adjacent.
-pub(super) fn elements(entries: &[Entry]) -> Vec<Element<'_>> {
+pub(super) fn elements(entries: &[Entry]) -> Vec<Element<'_, Entry>> {
+    nested(entries, |entry| entry.scope.split('.').collect())
+}
+
+/// Lists the elements of the hierarchy of any signals, given each one's scopes, outermost first.
+pub(super) fn nested<'a, T>(
+    signals: &'a [T],
+    scopes: impl Fn(&'a T) -> Vec<&'a str>,
+) -> Vec<Element<'a, T>> {
     let mut elements = Vec::new();
     let mut open: Vec<&str> = Vec::new();
-    for entry in entries {
-        let scope: Vec<&str> = entry.scope.split('.').collect();
+    for entry in signals {
+        let scope = scopes(entry);
         let common = open.iter().zip(&scope).take_while(|(a, b)| a == b).count();
         elements.extend(open[common..].iter().map(|_| Element::Leave));
         elements.extend(scope[common..].iter().map(|name| Element::Enter(name)));

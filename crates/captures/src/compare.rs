@@ -32,13 +32,14 @@ use std::str::FromStr;
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 
+use crate::choice::SignalChoice;
 use crate::condition::Condition;
-use crate::source::Source;
+use crate::source::{Signal, Source};
 
 pub use align::Align;
 pub use align::{Survey, survey};
 pub use map::SignalMap;
-pub use matching::{SignalChoice, Unmatched, UnmatchedReason};
+pub use matching::{Unmatched, UnmatchedReason};
 pub use pair::{MatchedBy, Unknowns};
 pub(crate) use probed::{Probed, pulse};
 pub use result::{
@@ -95,7 +96,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     let nothing = |expected: &str| {
         Input::new("compare", expected).value(format_args!("{} and {}", a.name, b.name))
     };
-    let mut matching = matching(sources, &options.map, &options.choice)?;
+    let mut matching = matching(sources, &options.map, &options.choice, Signal::fits)?;
     resolved.mark(&mut matching);
     if matching.pairs.is_empty() {
         let expected = "no signal of one has a partner in the other; give a map (--map)";
@@ -135,9 +136,12 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     } else {
         let mut result = by_changes::compare(&plan, &align, &mut differences)?;
         conclude(&plan, &differences, options.all, &mut result);
-        result.findings = diagnose::changes(&result);
+        if !result.is_same() {
+            result.findings = diagnose::changes(&plan, align::shift(&plan, &align)?.0, &result)?;
+        }
         result
     };
+    result.skipped.extend(resolved.notes.iter().cloned());
     result.notes.extend(resolved.notes);
     if result.compared == 0 && result.is_same() {
         let expected = "nothing to compare: there is no place that both sides have";
@@ -167,6 +171,7 @@ fn by_beats(
     conclude(&plan, &differences, options.all, &mut result);
     let Comparison { pairs, beats, .. } = &mut result;
     pairs.retain(|pair| beats.as_ref().is_none_or(|found| found.signals.contains(&pair.name)));
+    result.skipped.extend(notes.iter().cloned());
     result.notes.extend(notes);
     Ok(result)
 }

@@ -20,8 +20,10 @@ mod span;
 mod spliced;
 mod state;
 mod stream;
+mod tables;
 mod tick;
 mod translated;
+mod variables;
 mod wave;
 
 use std::path::Path;
@@ -34,6 +36,7 @@ use tofsim::sim::setup::array::ArraySetup;
 
 use crate::ila::Radix;
 
+pub(crate) use library::is_shortened;
 pub use names::Name;
 pub(crate) use shapes::{flow, known_shape};
 pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat, Words};
@@ -41,7 +44,7 @@ pub use simulation::LONGEST_SIMULATION;
 pub use state::SourceState;
 pub use stream::{Cursor, Disconnected, Feed, Marks};
 pub use tick::Tick;
-pub(crate) use translated::Translation;
+pub(crate) use translated::{Translation, WordValues, untranslated};
 
 impl Source {
     /// Opens a file, whose contents determine its format. `radix` applies to files that do not state the radix of

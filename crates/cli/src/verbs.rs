@@ -41,6 +41,7 @@ pub mod train;
 mod usage;
 pub mod vectors;
 pub mod verify;
+pub mod wave;
 mod wave_plan;
 
 use std::ffi::OsString;
@@ -101,7 +102,9 @@ enum Verb {
     Board(board::Args),
     Serve(serve::Args),
     Ila(ila::Args),
+    #[command(visible_alias = "diff")]
     Compare(Box<compare::Args>),
+    Wave(wave::Args),
     Dataset(dataset::Args),
     Train(Box<train::Args>),
     Scenario(scenario::Args),
@@ -194,6 +197,7 @@ impl Cli {
             Verb::Serve(args) => return serve::run(args, console),
             Verb::Ila(args) => ila::run(args, console),
             Verb::Compare(args) => return compare::run(args, console),
+            Verb::Wave(args) => return wave::run(args, console),
             Verb::Dataset(args) => dataset::run(args, console),
             Verb::Train(args) => train::run(args, console),
             Verb::Scenario(args) => scenario::run(args, console),

@@ -11,6 +11,7 @@ mod odd;
 mod offsets;
 mod simulated;
 mod times;
+mod types;
 mod verilog;
 mod waveforms;
 mod which;

@@ -66,4 +66,5 @@ mod train;
 mod vectors;
 mod verify;
 mod vhdl;
+mod wave;
 mod waveform;

@@ -23,7 +23,7 @@ pub fn wave_signals(py: Python<'_>, path: PathBuf) -> Result<BTreeMap<String, u3
     let terms = Terms { threads: Some(1), progress: None };
     running::run(py, terms, move |watch| {
         let source = Source::file_stopped_by(&path, None, Arc::clone(&watch.stop))?;
-        let readable = source.signals.into_iter().filter(|one| one.kind != SignalKind::Other);
+        let readable = source.signals.into_iter().filter(|one| one.kind != SignalKind::Event);
         Ok(readable.map(|signal| (signal.name.text, signal.width)).collect())
     })
 }

@@ -12,15 +12,19 @@ use super::blocks::{Block, long};
 const VERSION: usize = 128;
 /// Size of the date field [bytes].
 const DATE: usize = 119;
-/// Exponent of the time unit: picoseconds.
-const TIMESCALE: i8 = -12;
+/// Exponent of the time unit of tofsim's own files: picoseconds.
+const PICOSECOND: i8 = -12;
 /// File type of a Verilog simulator.
 const VERILOG: u8 = 0;
 
 /// Contents of the header.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Header {
-    /// End time [ps].
+    /// Exponent of the time unit, a power of ten [s].
+    pub(super) exponent: i8,
+    /// Start time, in units.
+    pub(super) start: u64,
+    /// End time, in units.
     pub(super) end: u64,
     pub(super) scopes: u64,
     /// Number of names, including aliases.
@@ -39,13 +43,14 @@ impl Header {
     /// Creates a header with the program, its version and the provenance.
     pub(super) fn new(provenance: &[String]) -> Result<Self> {
         let date = date::fixed()?.unwrap_or_default();
-        Ok(Header { version: version(provenance), date, ..Header::default() })
+        let (exponent, version) = (PICOSECOND, version(provenance));
+        Ok(Header { exponent, version, date, ..Header::default() })
     }
 
     /// Writes the header at the start of a file.
     pub(super) fn write(&self, file: &mut (impl Write + Seek)) -> io::Result<()> {
         let mut contents = Vec::new();
-        for time in [0, self.end] {
+        for time in [self.start, self.end] {
             long(&mut contents, time);
         }
         // By this number a reader sees in which order the bytes of floating point are.
@@ -54,7 +59,7 @@ impl Header {
         for count in [memory_of_writer, self.scopes, self.names, self.signals, self.sections] {
             long(&mut contents, count);
         }
-        contents.extend_from_slice(&TIMESCALE.to_be_bytes());
+        contents.extend_from_slice(&self.exponent.to_be_bytes());
         text(&mut contents, &self.version, VERSION);
         text(&mut contents, &self.date, DATE);
         contents.push(VERILOG);

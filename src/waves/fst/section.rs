@@ -3,6 +3,8 @@
 
 use std::io::{self, Write};
 
+use miniz_oxide::deflate::compress_to_vec_zlib;
+
 use super::blocks::{Block, long, number, signed};
 use super::times::Times;
 
@@ -10,10 +12,14 @@ use super::times::Times;
 const LZ4: u8 = b'4';
 /// Length from which a stream is compressed [bytes].
 const SHORT: usize = 32;
+/// Length from which initial values are compressed [bytes].
+const LARGE: usize = 1 << 14;
+/// Compression level of zlib for initial values, most of which are alike.
+const ZLIB: u8 = 1;
 
 /// A section, until it is written.
 pub(super) struct Section {
-    /// Start and end [ps].
+    /// Start and end, in units of the file.
     pub(super) span: [u64; 2],
     /// Values at the start, one digit per bit.
     pub(super) frame: Vec<u8>,
@@ -45,13 +51,16 @@ impl Section {
         Block::Changes.write(file, &[&head, &body])
     }
 
-    /// Appends the initial values. Their length is written twice, because they are not compressed.
+    /// Appends the initial values, compressed if there are many. Two equal lengths say that they are not.
     fn take_frame(&mut self, body: &mut Vec<u8>) {
-        let length = self.frame.len() as u64;
-        for count in [length, length, self.streams.len() as u64] {
-            number(body, count);
+        let packed = (self.frame.len() >= LARGE).then(|| compress_to_vec_zlib(&self.frame, ZLIB));
+        let packed = packed.filter(|packed| packed.len() < self.frame.len());
+        let written = packed.as_ref().unwrap_or(&self.frame);
+        for count in [self.frame.len(), written.len(), self.streams.len()] {
+            number(body, count as u64);
         }
-        body.append(&mut self.frame);
+        body.extend_from_slice(written);
+        self.frame.clear();
     }
 
     /// Appends all streams and their offsets, and returns their uncompressed size [bytes].
@@ -100,5 +109,30 @@ fn pack(stream: &[u8], body: &mut Vec<u8>) {
 fn skip(places: &mut Vec<u8>, signals: &mut u64) {
     if *signals > 0 {
         number(places, 2 * std::mem::take(signals));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_initial_values_are_packed_and_few_are_as_they_are() {
+        let body = |length: usize| {
+            let mut section = Section::new(3);
+            section.frame.resize(length, b'x');
+            let mut body = Vec::new();
+            section.take_frame(&mut body);
+            assert!(section.frame.is_empty());
+            body
+        };
+        assert_eq!(body(4), [4, 4, 3, b'x', b'x', b'x', b'x']);
+        let packed = body(LARGE);
+        let mut lengths = Vec::new();
+        number(&mut lengths, LARGE as u64);
+        assert!(packed.starts_with(&lengths) && packed.len() < LARGE / 50, "{}", packed.len());
+        let from = packed.len() - usize::from(packed[lengths.len()]);
+        let frame = miniz_oxide::inflate::decompress_to_vec_zlib(&packed[from..]).unwrap();
+        assert_eq!(frame, [b'x'; LARGE]);
     }
 }

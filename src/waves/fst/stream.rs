@@ -4,6 +4,7 @@
 //! single bit, and after it otherwise.
 
 use super::blocks::number;
+use super::signal_stream::SignalStream;
 
 /// Stream of one signal.
 pub(super) struct Stream {
@@ -60,9 +61,11 @@ impl Stream {
     fn since(&mut self, time: u64) -> u64 {
         time - std::mem::replace(&mut self.time, time)
     }
+}
 
-    /// Appends the value to a text, one digit per bit.
-    pub(super) fn spell(&self, text: &mut Vec<u8>) {
+impl SignalStream for Stream {
+    /// Appends one digit per bit.
+    fn spell(&self, text: &mut Vec<u8>) {
         match &self.value {
             None => text.resize(text.len() + self.width, b'x'),
             Some(value) => text.extend(
@@ -71,8 +74,7 @@ impl Stream {
         }
     }
 
-    /// Exchanges the changes for an empty buffer, at the end of a section.
-    pub(super) fn hand_over(&mut self, buffer: &mut Vec<u8>) {
+    fn hand_over(&mut self, buffer: &mut Vec<u8>) {
         std::mem::swap(&mut self.data, buffer);
         self.time = 0;
     }

@@ -15,7 +15,7 @@ pub(super) struct Times {
 }
 
 impl Times {
-    /// Adds the next time, given the previous one [ps].
+    /// Adds the next time, given the previous one, in units of the file.
     pub(super) fn push(&mut self, at: u64, before: u64) {
         if self.steps.is_empty() {
             number(&mut self.steps, at);

@@ -32,8 +32,10 @@ fn word<'a>(plan: &'a Plan, condition: &Condition, only: &[String]) -> Result<Ve
         condition.names().filter_map(|name| plan.matching.pair(name).ok()).collect();
     let pairs = plan.matching.pairs.iter().enumerate();
     let chosen = pairs.filter(|(k, _)| !only.is_empty() || !named.contains(k));
-    let pairs: Vec<&Pair> =
-        chosen.map(|(_, pair)| pair).filter(|pair| !plan.is_clock(pair)).collect();
+    let pairs: Vec<&Pair> = chosen
+        .map(|(_, pair)| pair)
+        .filter(|pair| !plan.is_clock(pair) && !pair.is_event)
+        .collect();
     if pairs.is_empty() {
         let expected = "no signal is compared but those of the condition; choose some (--signals)";
         return Err(Input::new("--beats", expected).into());

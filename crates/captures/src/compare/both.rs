@@ -3,6 +3,8 @@
 use std::io;
 use std::path::Path;
 
+use vcd::Value;
+
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::{OutputFile, write_bytes};
 use tofsim::waves::side_by_side::{
@@ -35,6 +37,9 @@ pub(super) struct Both {
     /// Unit of the times.
     unit: Tick,
     widths: Vec<u32>,
+    is_event: Vec<bool>,
+    /// Pairs whose event is shown at the last time.
+    raised: Vec<usize>,
     wrong: Vec<bool>,
     /// Number of pairs that differ, and the last written level of the bit that shows it.
     count: usize,
@@ -75,6 +80,9 @@ impl Both {
             wave: SideBySide::begin(file, &layout, &scopes).map_err(Error::io(path, "write"))?,
             unit: tick,
             widths: pairs.iter().map(|pair| pair.width).collect(),
+            is_event: pairs.iter().map(|pair| pair.is_event).collect(),
+            // All are low at first.
+            raised: (0..pairs.len()).filter(|&pair| pairs[pair].is_event).collect(),
             wrong: vec![false; pairs.len()],
             count: 0,
             shown: None,
@@ -95,7 +103,18 @@ impl Both {
         self.sum_up()?;
         self.first.get_or_insert(at);
         self.last = Some(at);
-        self.wave.time(at)
+        self.wave.time(at)?;
+        for pair in std::mem::take(&mut self.raised) {
+            self.lower(pair)?;
+        }
+        Ok(())
+    }
+
+    /// Ends the pulse of an event.
+    fn lower(&mut self, pair: usize) -> io::Result<()> {
+        (0..SCOPES.len()).try_for_each(|scope| self.wave.scalar(scope, pair, Value::V0))?;
+        self.count -= usize::from(std::mem::take(&mut self.wrong[pair]));
+        Ok(())
     }
 
     /// Writes the bit that shows whether any pair differs, at the last time.
@@ -128,6 +147,9 @@ impl Both {
         self.count += usize::from(differs);
         self.count -= usize::from(self.wrong[pair]);
         self.wrong[pair] = differs;
+        if self.is_event[pair] {
+            self.raised.push(pair);
+        }
         Ok(())
     }
 

@@ -115,6 +115,8 @@ pub(super) fn compare(
             })?;
         }
         if now < from || (now == end && changes != [true, true]) {
+            let before = differences.take_touched();
+            differences.end_events(&before);
             continue;
         }
         if !begun {
@@ -134,7 +136,7 @@ pub(super) fn compare(
         if let Some(both) = &mut differences.both {
             both.at(Axis::Time(coarse), now.max(0) as u64)?;
         }
-        differences.compare(touched, spot, states)?;
+        differences.compare(&touched, spot, states)?;
         result.compared += 1;
     }
     compare_ends(&mut sides, until, &mut result)?;

@@ -61,7 +61,7 @@ pub(super) fn compare(
             if gaps != [false, false] {
                 continue;
             }
-            compare_touched(plan, spot, states, &mut differing, differences)?;
+            compare_touched(plan, spot, states, (count == 0, &mut differing), differences)?;
             result.compared += 1;
             count += 1;
         }
@@ -76,16 +76,22 @@ pub(super) fn compare(
     Ok(result)
 }
 
-/// Compares the plain pairs that have changed, and counts all plain pairs that differ at a sample.
+/// Compares the plain pairs that have changed, and counts all plain pairs that differ at a sample. An event belongs to
+/// the sample after it; before the first one, the sides may have read different parts.
 fn compare_touched(
     plan: &Plan,
     spot: Spot,
     states: [&SourceState; 2],
-    differing: &mut BTreeSet<usize>,
+    (is_first, differing): (bool, &mut BTreeSet<usize>),
     differences: &mut Differences,
 ) -> Result<()> {
-    let touched = differences.take_touched().into_iter();
-    for pair in touched.filter(|&pair| plan.matching.pairs[pair].is_plain()) {
+    let pairs = &plan.matching.pairs;
+    let touched = differences.take_touched();
+    differing.retain(|&pair| !pairs[pair].is_event);
+    if is_first {
+        differences.end_events(&touched);
+    }
+    for &pair in touched.iter().filter(|&&pair| pairs[pair].is_plain()) {
         if differences.differs(pair, states)? {
             differing.insert(pair);
         } else {
@@ -95,6 +101,7 @@ fn compare_touched(
     for &pair in &*differing {
         differences.count(pair, spot, states);
     }
+    differences.end_events(&touched);
     Ok(())
 }
 

@@ -1,7 +1,9 @@
-//! Diagnosis of differences: one flipped bit, a missing or an extra sample, a shifted window, a renamed probe, two
-//! swapped probes, or a wrong radix.
+//! Diagnosis of differences: one flipped bit, a missing or an extra sample, a shifted window, a shifted signal, a
+//! renamed probe, two swapped probes, or a wrong radix.
 
 mod collect;
+mod delay;
+mod late;
 mod radix;
 mod rows;
 
@@ -28,15 +30,22 @@ pub(super) fn samples(
     match single(result, &rest) {
         Some(finding) => findings.push(finding),
         None if rest.is_empty() => {}
-        None => findings.extend(rows::finding(&collected, &rest)),
+        None => match rows::finding(&collected, &rest) {
+            Some(finding) => findings.push(finding),
+            None => findings.extend(late::in_samples(&collected, &rest)),
+        },
     }
     Ok(findings)
 }
 
-/// Diagnoses the differences of waveforms, from the result alone.
-pub(super) fn changes(result: &Comparison) -> Vec<Finding> {
+/// Diagnoses the differences of waveforms, of which the second is `late_fs` late, by reading the signals that differ
+/// again.
+pub(super) fn changes(plan: &Plan, late_fs: i128, result: &Comparison) -> Result<Vec<Finding>> {
     let rest: Vec<_> = result.differing().collect();
-    single(result, &rest).into_iter().collect()
+    match single(result, &rest) {
+        Some(finding) => Ok(vec![finding]),
+        None => late::in_time(plan, late_fs, result),
+    }
 }
 
 /// Finds that all differences are one difference of one signal.

@@ -43,12 +43,15 @@ pub(super) struct Differences<'a> {
     users: [Vec<Vec<usize>>; 2],
     touched: Vec<usize>,
     is_touched: Vec<bool>,
+    /// Whether the event of a pair has occurred on each side; empty without events.
+    occurred: Vec<[bool; 2]>,
 }
 
 impl<'a> Differences<'a> {
     /// Creates counts that are all zero.
     pub(super) fn new(matching: &'a Matching, unknowns: Unknowns, both: Option<Both>) -> Self {
         let Matching { pairs, slots, .. } = matching;
+        let has_events = pairs.iter().any(|pair| pair.is_event);
         let mut users = slots.each_ref().map(|slots| vec![Vec::new(); slots.ids.len()]);
         for (k, pair) in pairs.iter().enumerate() {
             for (side, users) in users.iter_mut().enumerate() {
@@ -68,6 +71,7 @@ impl<'a> Differences<'a> {
             users,
             touched: Vec::new(),
             is_touched: vec![false; pairs.len()],
+            occurred: if has_events { vec![[false; 2]; pairs.len()] } else { Vec::new() },
         }
     }
 
@@ -77,6 +81,9 @@ impl<'a> Differences<'a> {
         for &pair in &self.users[side][signal] {
             if !std::mem::replace(&mut self.is_touched[pair], true) {
                 self.touched.push(pair);
+            }
+            if let Some(occurred) = self.occurred.get_mut(pair) {
+                occurred[side] = true;
             }
         }
     }
@@ -94,10 +101,31 @@ impl<'a> Differences<'a> {
         touched
     }
 
+    /// Forgets which of these pairs' events have occurred.
+    pub(super) fn end_events(&mut self, pairs: &[usize]) {
+        if !self.occurred.is_empty() {
+            pairs.iter().for_each(|&pair| self.occurred[pair] = [false; 2]);
+        }
+    }
+
+    /// Collects the values of both sides; that of an event is whether it has occurred.
+    fn gather(&mut self, pair: usize, states: [&SourceState; 2]) {
+        if !self.pairs[pair].is_event {
+            return self.pairs[pair].gather_both(states, &mut self.scratch);
+        }
+        for (bits, has_occurred) in self.scratch.iter_mut().zip(self.occurred[pair]) {
+            bits.clear(1);
+            bits.value[0] = u64::from(has_occurred);
+        }
+    }
+
     /// Returns whether the sides of a pair differ, and writes them to the waveform.
     #[inline]
     pub(super) fn differs(&mut self, pair: usize, states: [&SourceState; 2]) -> Result<bool> {
-        let differs = !self.pairs[pair].same(states, self.unknowns, &mut self.scratch);
+        let differs = match self.occurred.get(pair).filter(|_| self.pairs[pair].is_event) {
+            Some([a, b]) => a != b,
+            None => !self.pairs[pair].same(states, self.unknowns, &mut self.scratch),
+        };
         self.show(pair, states, differs)?;
         Ok(differs)
     }
@@ -105,11 +133,11 @@ impl<'a> Differences<'a> {
     /// Compares pairs at a place, unless they are excluded there.
     pub(super) fn compare(
         &mut self,
-        pairs: Vec<usize>,
+        pairs: &[usize],
         spot: Spot,
         states: [&SourceState; 2],
     ) -> Result<()> {
-        for pair in pairs {
+        for &pair in pairs {
             if self.pairs[pair].is_off(states[0]) {
                 continue;
             }
@@ -118,6 +146,7 @@ impl<'a> Differences<'a> {
                 self.count(pair, spot, states);
             }
         }
+        self.end_events(pairs);
         Ok(())
     }
 
@@ -128,14 +157,17 @@ impl<'a> Differences<'a> {
         states: [&SourceState; 2],
         differs: bool,
     ) -> Result<()> {
+        if self.both.is_none() {
+            return Ok(());
+        }
+        self.gather(pair, states);
         let Some(both) = &mut self.both else { return Ok(()) };
-        self.pairs[pair].gather_both(states, &mut self.scratch);
         both.change(pair, &self.scratch, differs)
     }
 
     /// Counts a difference of a pair, with the values in the states.
     pub(super) fn count(&mut self, pair: usize, spot: Spot, states: [&SourceState; 2]) {
-        self.pairs[pair].gather_both(states, &mut self.scratch);
+        self.gather(pair, states);
         let [a, b] = &self.scratch;
         self.counts[pair].differs(&self.pairs[pair], spot, a, b);
     }
@@ -173,7 +205,7 @@ impl PairCount {
             let differs = |k: &u32| bit(&a.value, *k) != bit(&b.value, *k);
             let known = a.is_known() && b.is_known();
             let bits = if known { (0..pair.width).filter(differs).collect() } else { Vec::new() };
-            let (expected, got) = (pair.show.text(a, pair.width), pair.show.text(b, pair.width));
+            let (expected, got) = (pair.text(a), pair.text(b));
             Difference { order, window, at, expected, got, bits }
         });
     }

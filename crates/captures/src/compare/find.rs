@@ -85,9 +85,9 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
 /// Returns the signal with all bits, if slices of it have their own names.
 fn widest(source: &Source, text: &str) -> Option<usize> {
     let wanted = Name::new(text);
-    let begin = wanted.scope(0) + "[";
+    let begin = format!("{}[", wanted.parts());
     let is_part = |(_, signal): &(usize, &Signal)| {
-        let name = signal.name.scope(0);
+        let name = signal.name.parts();
         name.strip_prefix(&begin).is_some_and(|range| range.contains(':'))
     };
     let called = source.called(wanted.last()).iter().map(|&k| (k, &source.signals[k]));
@@ -111,7 +111,7 @@ fn bits(
     let signal = &source.signals[found];
     let fault = |expected: String| Err(Input::new(&source.name, expected).field(text).into());
     if signal.kind == SignalKind::Other {
-        return fault("is an event, or text without known values, which is not compared".into());
+        return fault("has words whose values are not known, which are not compared".into());
     }
     let Some((high, low)) = slice else { return Ok((found, Part::whole(slots, signal))) };
     let (high, low) = (i64::from(high), i64::from(low));

@@ -8,11 +8,11 @@ mod tails;
 
 use std::collections::HashSet;
 
-use globset::{Glob, GlobSet, GlobSetBuilder};
 use regex::Regex;
 
 use tofsim::error::{Input, Result};
 
+use crate::choice::SignalChoice;
 use crate::source::{Name, Signal, SignalKind, Source};
 
 use super::map::{Side, SignalMap};
@@ -24,14 +24,8 @@ use names::by_name;
 use rules::{by_rule, is_swapped};
 use slices::by_slice;
 
-/// Selection of the signals to compare.
-#[derive(Clone, Debug, Default)]
-pub struct SignalChoice {
-    /// Signals to compare, with wildcards * and ?; all if empty.
-    pub only: Vec<String>,
-    /// Signals to exclude, with wildcards * and ?.
-    pub ignore: Vec<String>,
-}
+/// Test of whether the values of two signals can be compared.
+pub(super) type Fits = fn(&Signal, &Signal) -> bool;
 
 /// Matches the signals of two sources.
 ///
@@ -41,22 +35,17 @@ pub(super) fn matching(
     sides: [&Source; 2],
     map: &SignalMap,
     choice: &SignalChoice,
+    fits: Fits,
 ) -> Result<Matching> {
     let mut matching = Matching { swapped: is_swapped(sides, map), ..Matching::default() };
     let mut used = [HashSet::new(), HashSet::new()];
     for rule in map.signal.iter().filter(|rule| !rule.b.is_empty()) {
-        let pair = by_rule(sides, rule, &mut matching, &mut used)?;
+        let pair = by_rule(sides, rule, &mut matching, &mut used, fits)?;
         matching.pairs.push(pair);
     }
     let names = renamed(sides, map, matching.swapped)?;
-    let ignored = globs(choice.ignore.iter().chain(&map.ignore), "--ignore")?;
-    let only = globs(choice.only.iter(), "--signals")?;
-    let is_left_out = |is_in: &dyn Fn(&GlobSet) -> bool| {
-        is_in(&ignored) || (!choice.only.is_empty() && !is_in(&only))
-    };
-    matching.pairs.retain(|pair| {
-        !is_left_out(&|set| [&pair.name, &pair.other].iter().any(|name| is_match(set, name, name)))
-    });
+    let chosen = choice.patterns(&map.ignore)?;
+    matching.pairs.retain(|pair| chosen.has(&[&pair.name, &pair.other], None));
     let mut candidates: [Vec<usize>; 2] = Default::default();
     for side in 0..2 {
         for (k, signal) in sides[side].signals.iter().enumerate() {
@@ -64,11 +53,10 @@ pub(super) fn matching(
                 continue;
             }
             let (renamed, own) = (&names[side][k].text, &signal.name.text);
-            let is_in = |set: &GlobSet| is_match(set, renamed, own);
             let reason = match signal.kind {
-                _ if is_left_out(&is_in) => UnmatchedReason::Ignored,
+                _ if !chosen.has(&[own], Some(renamed)) => UnmatchedReason::Ignored,
                 SignalKind::Other => UnmatchedReason::Text,
-                SignalKind::Bits | SignalKind::Real | SignalKind::Text => {
+                SignalKind::Bits | SignalKind::Real | SignalKind::Text | SignalKind::Event => {
                     candidates[side].push(k);
                     continue;
                 }
@@ -77,7 +65,7 @@ pub(super) fn matching(
             matching.unmatched.push(Unmatched { side, name, signal: k, reason });
         }
     }
-    by_name(sides, &names, &candidates, &mut matching);
+    by_name(sides, &names, &candidates, &mut matching, fits);
     by_slice(sides, &mut matching);
     for rule in map.signal.iter().filter(|rule| rule.b.is_empty()) {
         let pair = matching.pair(&rule.a[0])?;
@@ -86,24 +74,6 @@ pub(super) fn matching(
         matching.pairs[pair] = changed;
     }
     Ok(matching)
-}
-
-fn is_match(set: &GlobSet, renamed: &str, text: &str) -> bool {
-    let below = text.split_once('.').map_or(text, |(_, below)| below);
-    let last = text.rsplit(['.', '/']).next().unwrap_or(text);
-    [text, below, renamed, last].iter().any(|name| set.is_match(name))
-}
-
-fn globs<'a>(texts: impl Iterator<Item = &'a String>, option: &str) -> Result<GlobSet> {
-    let mut set = GlobSetBuilder::new();
-    for text in texts {
-        let glob = Glob::new(text).map_err(|error| {
-            Input::new(option, format!("expected a pattern: {}", error.kind())).value(text)
-        })?;
-        set.add(glob);
-    }
-    let fault = |error: globset::Error| Input::new(option, error.kind());
-    Ok(set.build().map_err(fault)?)
 }
 
 fn renamed(sides: [&Source; 2], map: &SignalMap, swapped: bool) -> Result<[Vec<Name>; 2]> {
@@ -117,6 +87,9 @@ fn renamed(sides: [&Source; 2], map: &SignalMap, swapped: bool) -> Result<[Vec<N
         let own = if (side == 0) != swapped { Side::A } else { Side::B };
         let rules = rules.iter().filter(|(_, rename)| [own, Side::Both].contains(&rename.side));
         let rename = |signal: &Signal| {
+            if rules.clone().next().is_none() {
+                return signal.name.clone();
+            }
             let mut text = signal.name.text.clone();
             for (regex, rename) in rules.clone() {
                 text = regex.replace(&text, rename.by.as_str()).into_owned();

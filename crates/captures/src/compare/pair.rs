@@ -1,9 +1,12 @@
 //! A pair of signals, and how they are compared.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 use strum::Display;
 
-use crate::source::{Signal, SourceState};
+use crate::ila::read::NamedValue;
+use crate::source::{Signal, SignalKind, SourceState, untranslated};
 use crate::words::{Bits, extend, ones};
 
 use super::parts::{Part, Slots, gather};
@@ -50,6 +53,10 @@ pub(super) struct Pair {
     pub(super) width: u32,
     pub(super) sides: [Vec<Part>; 2],
     pub(super) show: Show,
+    /// Names of the values of each side.
+    pub(super) states: [Arc<[NamedValue]>; 2],
+    /// Whether it has events, which occur on both sides at the same places, instead of values.
+    pub(super) is_event: bool,
     /// Whether conditions interpret it as two's complement, if the map states it.
     pub(super) signed: Option<bool>,
     /// Mask of the bits to compare, least significant word first; empty for all.
@@ -66,16 +73,33 @@ pub(super) struct Pair {
 impl Pair {
     /// Creates a pair of two whole signals.
     pub(super) fn whole([a, b]: [&Signal; 2], how: MatchedBy, slots: &mut [Slots; 2]) -> Pair {
-        let [left, right] = slots;
+        let ([left, right], is_event) = (slots, a.kind == SignalKind::Event);
         Pair {
             name: a.name.text.clone(),
             other: b.name.text.clone(),
             how,
-            width: a.width,
+            width: if is_event { 1 } else { a.width },
             sides: [vec![Part::whole(left, a)], vec![Part::whole(right, b)]],
             show: Show::of(a, b),
+            states: [a, b].map(|signal| Arc::clone(&signal.words.states)),
+            is_event,
             ..Pair::default()
         }
+    }
+
+    /// Formats a value in the first side's form: with its name, if it has one.
+    pub(super) fn text(&self, bits: &Bits) -> String {
+        let named = |side: usize, value: u64| {
+            let mut states = self.states[side].iter();
+            let found = states.find(|state| state.bits == Some(value))?;
+            Some(format!("{} ({value})", found.name))
+        };
+        if let Some(value) = untranslated(bits, self.width) {
+            return named(1, value).unwrap_or_else(|| format!("no state ({value})"));
+        }
+        let value = bits.number().and_then(|value| u64::try_from(value).ok());
+        let name = value.and_then(|value| named(0, value).or_else(|| named(1, value)));
+        name.unwrap_or_else(|| self.show.text(bits, self.width))
     }
 
     /// Returns whether the pair is compared bit for bit, at one place at a time.
@@ -96,6 +120,17 @@ impl Pair {
             for (k, word) in bits.value.iter_mut().enumerate() {
                 let all = ones(self.width, k);
                 *word = (!*word & !bits.unknown[k] & all) | (*word & bits.unknown[k]);
+            }
+        }
+    }
+
+    /// Clears the bits that are not compared.
+    pub(super) fn mask(&self, bits: &mut Bits) {
+        for (k, mask) in self.mask.iter().enumerate() {
+            for word in [&mut bits.value, &mut bits.unknown] {
+                if let Some(word) = word.get_mut(k) {
+                    *word &= mask;
+                }
             }
         }
     }

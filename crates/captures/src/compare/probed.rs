@@ -2,12 +2,13 @@
 
 use tofsim::error::Result;
 
-use crate::source::Source;
+use crate::choice::SignalChoice;
+use crate::source::{Signal, Source};
 use crate::words::Bits;
 
 use super::find;
 use super::map::SignalMap;
-use super::matching::{Matching, SignalChoice, matching};
+use super::matching::{Matching, matching};
 use super::parts::Slots;
 use super::samples::{Clocking, Sample, SampleClock, Samples};
 
@@ -25,7 +26,7 @@ impl<'a> Probed<'a> {
     /// # Errors
     /// If the map names a signal that does not exist, or the capture cannot be read.
     pub(crate) fn new(design: &'a Source, capture: &Source, map: &SignalMap) -> Result<Self> {
-        let matching = matching([design, capture], map, &SignalChoice::default())?;
+        let matching = matching([design, capture], map, &SignalChoice::default(), Signal::fits)?;
         let clocking = Clocking::Rows { endless: false };
         let samples = Samples::new(capture, &matching.slots[1], clocking)?;
         Ok(Probed { design, matching, samples, scratch: Bits::default() })

@@ -1,6 +1,6 @@
 //! Remarks of a result on the sides, apart from their values.
 
-use crate::source::SourceFormat;
+use crate::source::{SignalKind, SourceFormat};
 
 use super::differences::PairCount;
 use super::matching::UnmatchedReason;
@@ -30,6 +30,11 @@ pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Com
         let source = &plan.sources[unmatched.side];
         let (name, reason) = (&unmatched.name, &unmatched.reason);
         let text = format!("{}: {name} is not compared: {reason}", source.name);
+        // A note says more of words whose values are not known.
+        let is_noted = source.signals[unmatched.signal].kind == SignalKind::Other;
+        if reason.is_skipped() && !is_noted {
+            result.skipped.push(text.clone());
+        }
         match reason {
             UnmatchedReason::Ignored => {}
             _ if !all && !source.is_capture() => {}

@@ -34,6 +34,8 @@ pub struct Comparison {
     pub findings: Vec<Finding>,
     /// Result for accepted words, if these are compared.
     pub beats: Option<Beats>,
+    /// Values that could not be compared, each with the reason.
+    pub skipped: Vec<String>,
     /// Notes for the user.
     pub notes: Vec<String>,
 }
@@ -74,14 +76,12 @@ impl Described {
 
     /// Formats a place of the side.
     pub fn place(&self, at: u64) -> String {
-        let Some(fs) = self.axis.femtoseconds(at) else { return format!("sample {at}") };
-        let text = format!("{}.{:06}", fs / 1_000_000, fs % 1_000_000);
-        format!("{} ns", text.trim_end_matches('0').trim_end_matches('.'))
+        self.axis.place_text(at)
     }
 
     /// Returns a place of the side as a number: picoseconds, or a sample number.
     pub fn number(&self, at: u64) -> f64 {
-        self.axis.femtoseconds(at).map_or(at as f64, |fs| fs as f64 / 1e3)
+        self.axis.place_number(at)
     }
 }
 

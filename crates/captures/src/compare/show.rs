@@ -33,6 +33,9 @@ impl Show {
         if a.kind == SignalKind::Text {
             return Show::Text;
         }
+        if a.kind == SignalKind::Event {
+            return Show::Shape(Shape::Unsigned);
+        }
         let shape = a.shape.or(b.shape).map(Show::Shape);
         let shown = shape.or_else(|| a.radix.or(b.radix).map(Show::radix));
         let known = || known_shape(&[&a.name, &b.name]).map(Show::Shape);

@@ -1,6 +1,7 @@
 //! A logic analyser's CSV files and archives as sources.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use tofsim::error::Result;
@@ -36,10 +37,13 @@ pub(super) fn source(path: &Path, radix: Option<Radix>, stop: &AtomicBool) -> Re
 
 fn signal(column: &Column, id: usize) -> Signal {
     let kind = if column.text { SignalKind::Text } else { SignalKind::Bits };
-    let (width, mixed, states) = (column.width, column.mixed, column.states.clone());
+    let (width, mixed, states) = (column.width, column.mixed, column.states.clone().into());
     let words = Words { width, mixed, states };
-    let (width, radix, lsb) = (column.bits(), column.radix, column.lsb.into());
-    Signal { name: Name::new(&column.name), width, lsb, kind, radix, shape: None, words, id }
+    let (width, radix, lsb) = (column.bits(), column.radix, i64::from(column.lsb));
+    let (name, range) = (Name::new(&column.name), Some([lsb + i64::from(width) - 1, lsb]));
+    let range = range.filter(|_| !column.text && width > 1);
+    let (scopes, own) = (Arc::default(), column.name.clone());
+    Signal { name, scopes, own, width, lsb, range, kind, radix, shape: None, words, id }
 }
 
 impl signals::Origin for CaptureOrigin {

@@ -10,6 +10,7 @@ mod types;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use tofsim::error::{Error, Result};
 
@@ -51,12 +52,21 @@ pub(super) fn source(path: &Path) -> Result<Source> {
     let read = check(&bytes).map_err(|fault| fault.of_file(path))?;
     let (Header { strings, variables, .. }, end) = read;
     let (mut ids, mut by_id, mut signals) = (HashMap::new(), Vec::new(), Vec::new());
+    let mut tables: HashMap<Vec<usize>, Arc<[NamedValue]>> = HashMap::new();
     for variable in variables {
         let id = *ids.entry(variable.signals.clone()).or_insert_with(|| {
             by_id.push(variable.signals.clone());
             by_id.len() - 1
         });
-        signals.push(signal(&variable, &strings, id));
+        let states = match tables.get(&variable.literals) {
+            Some(states) => Arc::clone(states),
+            None => {
+                let states = states(&variable.literals, &strings);
+                tables.insert(variable.literals.clone(), Arc::clone(&states));
+                states
+            }
+        };
+        signals.push(signal(&variable, states, id));
     }
     let origin = GhwOrigin { path: path.to_owned(), by_id };
     let (name, axis) = (path.display().to_string(), Axis::Time(Tick::FEMTOSECOND));
@@ -71,7 +81,17 @@ fn check(bytes: &[u8]) -> Checked<(Header, Option<u64>)> {
     Ok((header, end))
 }
 
-fn signal(variable: &Variable, strings: &[String], id: usize) -> Signal {
+/// Returns the names of an enumeration's values.
+fn states(literals: &[usize], strings: &[String]) -> Arc<[NamedValue]> {
+    let literals = literals.iter().zip(0..);
+    let named = |(&literal, bits): (&usize, u64)| NamedValue {
+        name: strings[literal].clone(),
+        bits: Some(bits),
+    };
+    literals.map(named).collect()
+}
+
+fn signal(variable: &Variable, states: Arc<[NamedValue]>, id: usize) -> Signal {
     let (kind, width) = match variable.scalar {
         Scalar::Real => (SignalKind::Real, 64),
         Scalar::Number(width) | Scalar::Literal(width) if variable.signals.len() == 1 => {
@@ -79,12 +99,11 @@ fn signal(variable: &Variable, strings: &[String], id: usize) -> Signal {
         }
         _ => (SignalKind::Bits, variable.signals.len() as u32),
     };
-    let literals = variable.literals.iter().zip(0..);
-    let states = literals
-        .map(|(&literal, bits)| NamedValue { name: strings[literal].clone(), bits: Some(bits) });
-    let words = Words { width, mixed: false, states: states.collect() };
-    let (name, lsb) = (Name::new(&variable.name), variable.lsb);
-    Signal { name, width, lsb, kind, radix: None, shape: None, words, id }
+    let words = Words { width, mixed: false, states };
+    let (scopes, own, range) = (Arc::clone(&variable.scopes), variable.own.clone(), variable.range);
+    let path: Vec<&str> = scopes.iter().chain([&own]).map(String::as_str).collect();
+    let (name, lsb) = (Name::new(path.join(".")), range.map_or(0, |[_, lsb]| lsb));
+    Signal { name, scopes, own, width, lsb, range, kind, radix: None, shape: None, words, id }
 }
 
 impl signals::Origin for GhwOrigin {

@@ -1,14 +1,15 @@
 //! Header of a VCD, rewritten to what the waveform library understands.
 //!
 //! wellen 0.25.7 makes a tab or a line break before a range part of the name, ignores what follows
-//! `$enddefinitions $end` on its line, prints attributes on standard output, and panics on a second `$timescale` and
-//! on words of a signal that is not declared as a string.
+//! `$enddefinitions $end` on its line, prints attributes on standard output, and panics on a second `$timescale`, on
+//! words of a signal that is not declared as a string, and on an enumeration without a table.
 
 use std::collections::{HashMap, HashSet};
 use std::io::{BufRead, Result as IoResult};
 use std::path::Path;
 
 use tofsim::error::{Error, Input, Result};
+use tofsim::waves::dump::UNITS;
 
 use super::spliced::Piece;
 use super::tick::Tick;
@@ -37,6 +38,9 @@ pub(super) enum Values {
     Event,
 }
 
+/// Attribute with the names of an enumeration's values, or with the number of such a table.
+const ENUMERATION: [&[u8]; 2] = [b"misc", b"07"];
+
 /// Header of a VCD.
 #[derive(Debug, Default)]
 pub(super) struct Head {
@@ -48,6 +52,8 @@ pub(super) struct Head {
     pub(super) variables: HashMap<Vec<u8>, Variable>,
     /// Line of the time scale.
     scale: Option<usize>,
+    /// Numbers of the tables of names.
+    tables: HashSet<Vec<u8>>,
 }
 
 impl Head {
@@ -92,7 +98,7 @@ impl Head {
                 "$timescale" => head.scale(line, &body).map_err(|found| found.of(&fault))?,
                 _ => {}
             }
-            if !LEFT_OUT.contains(&&name[..]) {
+            if !LEFT_OUT.contains(&&name[..]) || (name == "$attrbegin" && head.is_table(&body)) {
                 let all = [&[command][..], &body, &[END.to_vec()]].concat();
                 head.text.extend_from_slice(&all.join(&b' '));
                 head.text.push(b'\n');
@@ -145,6 +151,30 @@ impl Head {
         Ok(())
     }
 
+    /// Returns whether an attribute is a table of names, or the number of one, as the library understands it.
+    fn is_table(&mut self, body: &[Vec<u8>]) -> bool {
+        let [kind, subtype, name, rest @ ..] = body else { return false };
+        if [&kind[..], &subtype[..]] != ENUMERATION {
+            return false;
+        }
+        match rest {
+            [number] if name == b"\"\"" => self.tables.contains(number),
+            [count, names @ .., number] if name != b"\"\"" => {
+                let parse = |word: &[u8]| std::str::from_utf8(word).ok()?.parse::<u64>().ok();
+                let is_whole = parse(count).and_then(|count| count.checked_mul(2))
+                    == Some(names.len() as u64)
+                    && names.iter().all(|name| std::str::from_utf8(name).is_ok());
+                let is_it =
+                    is_whole && parse(number).is_some() && std::str::from_utf8(name).is_ok();
+                if is_it {
+                    self.tables.insert(number.clone());
+                }
+                is_it
+            }
+            _ => false,
+        }
+    }
+
     /// Checks the time scale.
     fn scale(&mut self, line: usize, body: &[Vec<u8>]) -> std::result::Result<(), Wrong> {
         let text = String::from_utf8_lossy(&body.concat()).into_owned();
@@ -156,7 +186,7 @@ impl Head {
         let unit = text.trim_start_matches(|digit: char| digit.is_ascii_digit());
         let factor = text[..text.len() - unit.len()].parse().ok();
         let exponent =
-            UNITS.iter().find(|(known, _)| *known == unit).map(|(_, exponent)| *exponent);
+            UNITS.iter().find(|(_, known)| *known == unit).map(|(exponent, _)| *exponent);
         let tick = factor.zip(exponent).and_then(|(factor, exponent)| Tick::new(factor, exponent));
         if tick.is_none() {
             let expected = "expected a number and one of zs, as, fs, ps, ns, us, ms, s";
@@ -165,18 +195,6 @@ impl Head {
         Ok(())
     }
 }
-
-/// Units of time, with their powers of ten.
-const UNITS: [(&str, i8); 8] = [
-    ("s", 0),
-    ("ms", -3),
-    ("us", -6),
-    ("ns", -9),
-    ("ps", -12),
-    ("fs", -15),
-    ("as", -18),
-    ("zs", -21),
-];
 
 /// Invalid field of a command, and what was expected.
 struct Wrong {

@@ -1,5 +1,7 @@
 //! Comparison of signal names as written by different tools.
 
+use std::sync::Arc;
+
 /// A signal's name: scopes and name, without range.
 ///
 /// Simulators separate scopes by dots, Vivado by slashes; escaped names begin with a backslash; `gen[0]` may be a
@@ -9,22 +11,29 @@
 pub struct Name {
     /// Text, as written in the source.
     pub text: String,
-    parts: Vec<String>,
+    /// Its parts in common form, separated by dots; comparisons keep several copies.
+    parts: Arc<str>,
 }
 
 impl Name {
     /// Creates a name from its text, without range.
     pub fn new(text: impl Into<String>) -> Self {
         let text = text.into();
-        let bare = plain(&text);
-        let parts = bare.split(['.', '/']).filter(|part| !part.is_empty());
-        let parts = parts.map(str::to_lowercase).collect();
+        let bare = plain(&text).to_lowercase();
+        let parts: Vec<&str> = bare.split(['.', '/']).filter(|part| !part.is_empty()).collect();
+        let parts = parts.join(".").into();
         Name { text, parts }
     }
 
-    /// Returns the same parts with the text of another name.
-    pub fn spelled(self, other: &Name) -> Name {
-        Name { text: other.text.clone(), ..self }
+    /// Returns the name relative to a scope within another scope of one part, if it lies within the first; the text
+    /// remains.
+    pub fn moved(&self, from: &str, to: &str) -> Option<Name> {
+        Some(Name { text: self.text.clone(), parts: format!("{to}.{}", self.below(from)?).into() })
+    }
+
+    /// Returns all its parts, separated by dots.
+    pub fn parts(&self) -> &str {
+        &self.parts
     }
 
     /// Returns whether both names have the same parts.
@@ -34,18 +43,17 @@ impl Name {
 
     /// Returns the number of parts of the shorter name, if the longer one ends with them.
     pub fn common(&self, other: &Name) -> Option<usize> {
-        let (long, short) = if self.parts.len() >= other.parts.len() {
-            (&self.parts, &other.parts)
-        } else {
-            (&other.parts, &self.parts)
-        };
-        (!short.is_empty() && long.ends_with(short)).then_some(short.len())
+        let (long, short) =
+            if self.parts.len() >= other.parts.len() { (self, other) } else { (other, self) };
+        let before = long.parts.strip_suffix(&*short.parts)?;
+        let is_end = before.is_empty() || before.ends_with('.');
+        (!short.parts.is_empty() && is_end).then(|| short.depth())
     }
 
     /// Returns the number of equal parts at the end.
     pub fn tail(&self, other: &Name) -> usize {
-        let (own, others) = (self.parts.iter().rev(), other.parts.iter().rev());
-        own.zip(others).take_while(|(own, other)| own == other).count()
+        let (own, others) = (self.parts.rsplit('.'), other.parts.rsplit('.'));
+        own.zip(others).take_while(|(own, other)| own == other && !own.is_empty()).count()
     }
 
     /// Returns whether the last parts are equal, including case.
@@ -55,27 +63,30 @@ impl Name {
     }
 
     /// Returns the name without its last `count` parts; empty if it has no more parts.
-    pub fn scope(&self, count: usize) -> String {
-        self.parts[..self.parts.len().saturating_sub(count)].join(".")
+    pub fn scope(&self, count: usize) -> &str {
+        let mut scope = &*self.parts;
+        for _ in 0..count {
+            scope = scope.rsplit_once('.').map_or("", |(scope, _)| scope);
+        }
+        scope
     }
 
     /// Returns the name relative to a scope, if it lies within the scope.
-    pub fn below(&self, scope: &str) -> Option<String> {
-        let whole = self.parts.join(".");
+    pub fn below(&self, scope: &str) -> Option<&str> {
         match scope {
-            "" => Some(whole),
-            _ => Some(whole.strip_prefix(scope)?.strip_prefix('.')?.to_owned()),
+            "" => Some(&self.parts),
+            _ => self.parts.strip_prefix(scope)?.strip_prefix('.'),
         }
     }
 
     /// Returns the last part in lower case.
     pub fn last(&self) -> &str {
-        self.parts.last().map_or("", String::as_str)
+        self.parts.rsplit('.').next().unwrap_or_default()
     }
 
     /// Returns the number of parts.
     pub fn depth(&self) -> usize {
-        self.parts.len()
+        self.parts.split('.').filter(|part| !part.is_empty()).count()
     }
 }
 
@@ -126,5 +137,26 @@ mod tests {
         assert_eq!(Name::new("hit").common(&ours), Some(1));
         assert_eq!(ours.common(&Name::new("latch.hit")), None);
         assert_eq!(ours.common(&Name::new("")), None);
+        assert_eq!(Name::new("").common(&Name::new("")), None);
+    }
+
+    #[test]
+    fn a_name_is_cut_at_its_separators() {
+        let ours = Name::new("tof_top.tdc.Hit");
+        assert_eq!(
+            (ours.scope(0), ours.scope(1), ours.scope(3)),
+            ("tof_top.tdc.hit", "tof_top.tdc", "")
+        );
+        assert_eq!(
+            (ours.below("tof_top"), ours.below(""), ours.below("tof")),
+            (Some("tdc.hit"), Some("tof_top.tdc.hit"), None)
+        );
+        assert_eq!((ours.last(), ours.depth(), Name::new("").depth()), ("hit", 3, 0));
+        assert_eq!(
+            (ours.tail(&Name::new("x.tdc.hit")), Name::new("").tail(&Name::new(""))),
+            (2, 0)
+        );
+        let moved = ours.moved("tof_top", "*").unwrap();
+        assert_eq!((moved.parts(), moved.text.as_str()), ("*.tdc.hit", "tof_top.tdc.Hit"));
     }
 }

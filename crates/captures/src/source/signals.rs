@@ -60,6 +60,19 @@ impl Axis {
         self.tick().map(|tick| tick.femtoseconds(at))
     }
 
+    /// Formats a place: a time in nanoseconds, or a sample number.
+    pub fn place_text(self, at: u64) -> String {
+        let Some(tick) = self.tick() else { return format!("sample {at}") };
+        let [whole, rest] = tick.nanoseconds(at);
+        let text = format!("{whole}.{rest:012}");
+        format!("{} ns", text.trim_end_matches('0').trim_end_matches('.'))
+    }
+
+    /// Returns a place as a number: picoseconds, or a sample number.
+    pub fn place_number(self, at: u64) -> f64 {
+        self.tick().map_or(at as f64, |tick| tick.picoseconds(at))
+    }
+
     /// Returns the unit of times, if places are times.
     pub(crate) fn tick(self) -> Option<Tick> {
         match self {
@@ -83,8 +96,22 @@ pub enum SignalKind {
     Real,
     /// Words as bytes, first one lowest, padded with zeros.
     Text,
-    /// Events of a simulator and words of unknown values, which are not compared.
+    /// Events of a simulator; the value is the number of events so far.
+    Event,
+    /// Words of unknown values, which are not compared.
     Other,
+}
+
+impl SignalKind {
+    /// Returns what values of the type are called.
+    pub(crate) fn plural(self) -> &'static str {
+        match self {
+            SignalKind::Bits => "bits",
+            SignalKind::Real => "real numbers",
+            SignalKind::Text | SignalKind::Other => "words",
+            SignalKind::Event => "events",
+        }
+    }
 }
 
 /// Words that represent values of a signal.
@@ -95,7 +122,7 @@ pub struct Words {
     /// Whether the source has numbers among the words.
     pub mixed: bool,
     /// Known words, with their values if the source states them; a waveform's words are known once it is read.
-    pub states: Vec<NamedValue>,
+    pub states: Arc<[NamedValue]>,
 }
 
 /// A signal under one of its names.
@@ -103,10 +130,16 @@ pub struct Words {
 pub struct Signal {
     /// Name with all scopes.
     pub name: Name,
+    /// Its scopes, outermost first.
+    pub scopes: Arc<[String]>,
+    /// Name in its scope, without range.
+    pub own: String,
     /// Width [bits].
     pub width: u32,
     /// Index of the lowest bit.
     pub lsb: i64,
+    /// Indices of the highest and the lowest bit, if the source states them.
+    pub range: Option<[i64; 2]>,
     /// Type of its values.
     pub kind: SignalKind,
     /// Radix of its values, if the source states it.
@@ -212,7 +245,7 @@ impl Source {
         self.axis == Axis::Samples
     }
 
-    /// Adds ranges to names that several signals would otherwise share.
+    /// Adds ranges to names that several signals would otherwise share: the source's, or else that of the bits.
     pub(super) fn distinguish(mut self) -> Self {
         let mut ids: HashMap<String, HashSet<usize>> = HashMap::new();
         for signal in &self.signals {
@@ -220,10 +253,10 @@ impl Source {
         }
         for signal in &mut self.signals {
             let shared = ids.get(&signal.name.text).is_some_and(|ids| ids.len() > 1);
-            if shared && signal.kind == SignalKind::Bits {
-                let top = signal.lsb + i64::from(signal.width) - 1;
-                let text = format!("{}[{top}:{}]", signal.name.text, signal.lsb);
-                signal.name = Name::new(text);
+            let top = signal.lsb + i64::from(signal.width) - 1;
+            let of_bits = (signal.kind == SignalKind::Bits).then_some([top, signal.lsb]);
+            if let Some([high, low]) = signal.range.or(of_bits).filter(|_| shared) {
+                signal.name = Name::new(format!("{}[{high}:{low}]", signal.name.text));
             }
         }
         self

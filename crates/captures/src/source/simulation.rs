@@ -44,8 +44,11 @@ pub(super) fn source(setup: Setup, array: Option<ArraySetup>, frames: Option<u64
     entries.extend(hierarchy::column_entries(&setup.params));
     let signals = entries.iter().map(|entry| Signal {
         name: Name::new(entry.path()),
+        scopes: entry.scope.split('.').map(str::to_owned).collect(),
+        own: entry.signal.name.to_string(),
         width: entry.signal.width,
         lsb: 0,
+        range: (entry.signal.width > 1).then(|| [i64::from(entry.signal.width) - 1, 0]),
         kind: SignalKind::Bits,
         words: Words::default(),
         radix: None,

@@ -25,6 +25,29 @@ impl Tick {
         u64::try_from(at as u128 * self.0 / other.0).unwrap_or(u64::MAX)
     }
 
+    /// Returns the largest power of ten, as an exponent [s], of which this unit is a multiple, and that multiple.
+    pub(crate) fn decimal(self) -> (i8, u64) {
+        let (mut length, mut exponent) = (self.0, -21);
+        while length.is_multiple_of(10) {
+            (length, exponent) = (length / 10, exponent + 1);
+        }
+        (exponent, length as u64)
+    }
+
+    /// Converts `at` from this unit to whole nanoseconds, and a rest [1e-21 s].
+    pub(crate) fn nanoseconds(self, at: u64) -> [u128; 2] {
+        let (length, nanosecond) = (at as u128 * self.0, 1000 * Tick::PICOSECOND.0);
+        [length / nanosecond, length % nanosecond]
+    }
+
+    /// Converts `at` from this unit [ps].
+    pub(crate) fn picoseconds(self, at: u64) -> f64 {
+        if self.0.is_multiple_of(Tick::FEMTOSECOND.0) {
+            return self.femtoseconds(at) as f64 / 1e3;
+        }
+        (at as u128 * self.0) as f64 / Tick::PICOSECOND.0 as f64
+    }
+
     /// Converts `at` from this unit [fs].
     pub fn femtoseconds(self, at: u64) -> u128 {
         at as u128 * self.0 / Tick::FEMTOSECOND.0
@@ -52,6 +75,14 @@ mod tests {
         assert_eq!(coarse.convert(7, coarse), 7);
         assert_eq!(Tick::new(100, -12).unwrap().convert(19, Tick::new(1, -9).unwrap()), 1);
         assert_eq!((coarse.count(1999), coarse.count_up(1001), coarse.count_up(1000)), (1, 2, 1));
+    }
+
+    #[test]
+    fn a_time_below_a_femtosecond_is_not_zero() {
+        let tick = Tick::new(10, -18).unwrap();
+        assert_eq!((tick.picoseconds(1), tick.nanoseconds(25)), (1e-5, [0, 250_000]));
+        assert_eq!(Tick::new(100, -12).unwrap().nanoseconds(19), [1, 900_000_000_000]);
+        assert_eq!(Tick::PICOSECOND.picoseconds(u64::MAX), u64::MAX as f64);
     }
 
     #[test]

@@ -26,7 +26,12 @@ use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, WIDES
 use super::span::Fault;
 use super::spliced::{Piece, Spliced};
 use super::stream::{Cursor, Disconnected, Feed};
+use super::tables::Tables;
 use super::tick::Tick;
+use super::variables::{joined, variables};
+
+/// Width of a number of events [bits].
+const EVENTS: u32 = 32;
 
 /// Path and format of a waveform.
 #[derive(Clone, Debug)]
@@ -108,14 +113,14 @@ fn described(
     let source = path.display().to_string();
     let mut signals = Vec::new();
     let mut references: Vec<SignalRef> = Vec::new();
-    let mut ids = HashMap::new();
-    for var in hierarchy.all_vars().map(|var| &hierarchy[var]) {
+    let (mut ids, mut tables) = (HashMap::new(), Tables::default());
+    for (var, scopes) in variables(hierarchy) {
         let reference = var.signal_ref();
         let id = *ids.entry(reference).or_insert_with(|| {
             references.push(reference);
             references.len() - 1
         });
-        signals.push(signal(var, hierarchy, id));
+        signals.push(signal(var, scopes, hierarchy, &mut tables, id));
     }
     if let Some(wide) = signals.iter().find(|signal| signal.width > WIDEST) {
         let expected = format!("expected {WIDEST} bits at most");
@@ -134,17 +139,26 @@ fn described(
     Ok(Source::new(source, format, axis, signals, origin))
 }
 
-fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
+fn signal(
+    var: &Var,
+    scopes: Arc<[String]>,
+    hierarchy: &Hierarchy,
+    tables: &mut Tables,
+    id: usize,
+) -> Signal {
     let (kind, width) = match var.signal_encoding(hierarchy) {
-        SignalEncoding::BitVector(0) => (SignalKind::Other, 0),
+        SignalEncoding::BitVector(0) => (SignalKind::Event, EVENTS),
         SignalEncoding::String => (SignalKind::Text, 8 * LONGEST_WORD as u32),
         SignalEncoding::BitVector(width) => (SignalKind::Bits, width),
         SignalEncoding::Real => (SignalKind::Real, 64),
     };
     // The library makes scopes of the indices of arrays.
+    let (scopes, own) = joined(scopes, var.name(hierarchy));
     let name = Name::new(var.full_name(hierarchy).replace(".[", "["));
-    let lsb = var.index().map_or(0, |index| index.lsb());
-    Signal { name, width, lsb, kind, radix: None, shape: None, words: Words::default(), id }
+    let range = var.index().map(|index| [index.msb(), index.lsb()]);
+    let states = if kind == SignalKind::Bits { tables.of(var, hierarchy) } else { Arc::default() };
+    let (lsb, words) = (range.map_or(0, |[_, lsb]| lsb), Words { states, ..Words::default() });
+    Signal { name, scopes, own, width, lsb, range, kind, radix: None, shape: None, words, id }
 }
 
 fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {
@@ -185,6 +199,7 @@ fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Res
         places[reference.index()].push(signal);
     }
     let mut bits = Bits::default();
+    let mut events = vec![0u32; places.len()];
     let (mut last, mut is_back) = (0, false);
     let result = wave.stream_changes(Filter::include_signals(&wanted), |at, reference, value| {
         is_back |= at < last;
@@ -198,8 +213,15 @@ fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Res
         {
             marking.change(reference, at, u8::from(level.get_bit(0)) == 1, feed);
         }
+        if let SignalValueRef::Event = value {
+            let count = &mut events[reference.index()];
+            *count = count.wrapping_add(1);
+        }
         for &signal in &places[reference.index()] {
-            set(&mut bits, value, feed.words(signal));
+            set(&mut bits, value, feed.words(signal), origin.format);
+            if let SignalValueRef::Event = value {
+                bits.value[0] = u64::from(events[reference.index()]);
+            }
             feed.change(signal, &bits.value, &bits.unknown);
         }
         Ok::<(), Disconnected>(())

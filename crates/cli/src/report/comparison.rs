@@ -40,6 +40,12 @@ fn text(result: &Comparison, verbose: bool) -> String {
     text += &format!("compared  {pairs} at {}\n", counted(result.compared, places));
     text += &beats::counts(result);
     text += &matched(result, verbose);
+    if !result.skipped.is_empty() {
+        text += &format!(
+            "skipped   {}, which --strict refuses\n",
+            counted(result.skipped.len() as u64, "signals")
+        );
+    }
     for note in &result.notes {
         text += &format!("note      {note}\n");
     }
@@ -217,6 +223,7 @@ fn json(result: &Comparison) -> Value {
         "findings": result.findings,
         "first": result.differing().next().map(pair),
         "signals": result.pairs.iter().map(pair).collect::<Vec<_>>(),
+        "skipped": result.skipped,
         "unmatched": result.unmatched.iter().map(|unmatched| json!({
             "side": if unmatched.side == 0 { "a" } else { "b" },
             "name": unmatched.name,

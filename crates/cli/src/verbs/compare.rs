@@ -1,6 +1,6 @@
 //! `tofsim compare`: two waveforms, captures or simulations laid over each other.
 
-mod values;
+pub(super) mod values;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -11,10 +11,9 @@ use values::{latency, time, tolerance, valid};
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::kernel::Time;
 use tofsim::{Note, NoteCode, NoteValue};
+use tofsim_captures::choice::SignalChoice;
 use tofsim_captures::compare::map::Rule;
-use tofsim_captures::compare::{
-    Align, Options, SampleClock, SignalChoice, SignalMap, Unknowns, compare,
-};
+use tofsim_captures::compare::{Align, Options, SampleClock, SignalMap, Unknowns, compare};
 use tofsim_captures::condition::Condition;
 use tofsim_captures::ila::{AnalyserSetup, Radix};
 use tofsim_captures::source::Source;
@@ -37,16 +36,13 @@ use super::terminal::Console;
 ///
 /// A CONDITION has the form `state == 5 && (start rising || code[7:4] != 0b1x0x)`; TIME has the form 10us or 8.5ns.
 #[derive(Debug, clap::Args)]
-#[command(
-    visible_alias = "diff",
-    after_help = "Examples:\n  \
+#[command(after_help = "Examples:\n  \
     tofsim compare waves/kc705.vcd verilog.vcd\n  \
     tofsim compare waves/run.vcd board.ila --map fig_6_6\n  \
     tofsim compare --scenario near board.csv --clock clk_sys --align correlation\n  \
     tofsim compare a.fst b.ila --clock clk --beats 'valid && ready'\n  \
     tofsim compare a.fst b.fst --clock clk_sys --latency depth=2 --waves both.vcd\n\n\
-    Exit status: 0 same, 1 different, 2 cannot be compared."
-)]
+    Exit status: 0 same, 1 different, 2 cannot be compared.")]
 pub struct Args {
     /// The reference and the capture under test; one file with --scenario
     #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
@@ -208,6 +204,7 @@ pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
     notes.extend(result.notes.iter().map(remark));
     let findings = ComparisonFindings { result: &result, notes: &notes, verbose: console.verbose };
     Report { findings, record, notes: &notes }.deliver(None, args.json, console)?;
+    console.none_skipped(&result.skipped)?;
     Ok(ExitCode::from(u8::from(!result.is_same())))
 }
 

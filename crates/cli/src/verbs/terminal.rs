@@ -95,6 +95,21 @@ impl Console {
         Err(Input::new("--strict", expected).field(&first.key).value(&first.value).into())
     }
 
+    /// Checks that no values were skipped in a comparison.
+    ///
+    /// # Errors
+    /// With `--strict`, if some were.
+    pub fn none_skipped(&self, skipped: &[String]) -> Result<()> {
+        let Some(first) = skipped.first().filter(|_| self.strict) else { return Ok(()) };
+        let more = match skipped.len() - 1 {
+            0 => String::new(),
+            1 => "; 1 other is skipped, too".to_owned(),
+            more => format!("; {more} others are skipped, too"),
+        };
+        let expected = format!("expected that all values can be compared: {first}{more}");
+        Err(Input::new("--strict", expected).into())
+    }
+
     /// Writes files, given by name and contents, into a folder, which is made if it is not there.
     ///
     /// # Errors

@@ -212,9 +212,18 @@ fn what_only_looks_like_it_is_not_named() {
         }
     });
     assert_eq!((differing(&twice).len(), findings(&twice)), (1, vec![]));
+}
+
+#[test]
+fn a_column_with_the_values_of_one_that_follows_it_is_a_late_one() {
     let copied = damaged(|table| {
         let (laser, valid) = (table.column("VCSEL_ON"), table.column("TDC_VALID"));
         table.rows.iter_mut().for_each(|row| row[laser] = row[valid].clone());
     });
-    assert_eq!((differing(&copied).len(), findings(&copied)), (1, vec![]));
+    assert_eq!(
+        (differing(&copied).len(), findings(&copied)),
+        (1, vec!["shifted signal".to_owned()])
+    );
+    let text = copied["findings"][0]["text"].as_str().unwrap();
+    assert!(text.contains("VCSEL_ON is 2 samples later"), "{text}");
 }

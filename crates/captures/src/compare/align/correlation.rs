@@ -37,7 +37,7 @@ impl<'a> PairBits<'a> {
         let matching = &plan.matching;
         let named = |signal: &String| Ok(&matching.pairs[matching.pair(signal)?]);
         let pairs: Vec<&Pair> = match signals {
-            [] => matching.pairs.iter().collect(),
+            [] => matching.pairs.iter().filter(|pair| !pair.is_event).collect(),
             _ => signals.iter().map(named).collect::<Result<_>>()?,
         };
         let width = pairs.iter().map(|pair| pair.width as usize).sum();

@@ -43,13 +43,7 @@ impl BeatWords {
         let mut bits = Bits::default();
         for pair in pairs {
             pair.gather(side, &samples.state, &mut bits);
-            for (k, mask) in pair.mask.iter().enumerate() {
-                for word in [&mut bits.value, &mut bits.unknown] {
-                    if let Some(word) = word.get_mut(k) {
-                        *word &= mask;
-                    }
-                }
-            }
+            pair.mask(&mut bits);
             key.extend_from_slice(&bits.value);
             key.extend_from_slice(&bits.unknown);
         }
@@ -72,7 +66,7 @@ fn text(pairs: &[&Pair], side: usize, samples: &Samples) -> String {
     let mut bits = Bits::default();
     let values = pairs.iter().map(|pair| {
         pair.gather(side, &samples.state, &mut bits);
-        let value = pair.show.text(&bits, pair.width);
+        let value = pair.text(&bits);
         let last = pair.name.rsplit(['.', '/']).next().unwrap_or(&pair.name);
         if pairs.len() == 1 { value } else { format!("{last}={value}") }
     });

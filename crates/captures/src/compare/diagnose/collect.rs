@@ -44,7 +44,7 @@ pub(super) struct Collected {
 }
 
 /// Returns the value if it has at most 64 bits, all known; otherwise a hash.
-fn key(bits: &Bits) -> u64 {
+pub(super) fn key(bits: &Bits) -> u64 {
     if let ([value], true) = (&bits.value[..], bits.is_known()) {
         return *value;
     }
@@ -124,7 +124,7 @@ fn push(plan: &Plan, side: usize, state: &SourceState, collected: &mut Collected
         column.values.push(key(&bits));
     }
     let mut row = DefaultHasher::new();
-    for pair in &plan.matching.pairs {
+    for pair in plan.matching.pairs.iter().filter(|pair| !pair.is_event) {
         pair.gather(side, state, &mut bits);
         bits.hash(&mut row);
     }

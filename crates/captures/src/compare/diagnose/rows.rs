@@ -5,8 +5,8 @@ use super::collect::Collected;
 
 /// Largest number of missing or extra samples.
 const STEP: usize = 64;
-/// Largest shift of a window [samples].
-const SHIFT: usize = 4096;
+/// Largest shift of a window or a signal [samples].
+pub(super) const SHIFT: usize = 4096;
 /// Number of samples that must agree for a diagnosis.
 const FEWEST: usize = 16;
 
@@ -47,7 +47,7 @@ pub(super) fn finding(collected: &Collected, rest: &[&Compared]) -> Option<Findi
     None
 }
 
-fn counted(samples: usize) -> &'static str {
+pub(super) fn counted(samples: usize) -> &'static str {
     if samples == 1 { "sample" } else { "samples" }
 }
 

@@ -36,12 +36,22 @@ pub enum UnmatchedReason {
     /// The other side has slices of the signal, but not all of its bits.
     #[error("{0} of its bits are not on the other side")]
     Part(u32),
-    /// The signal or its partner is text or an event.
-    #[error("text on one side only, or an event")]
+    /// One side has words, whose values are not known.
+    #[error("words on one side only")]
     Text,
+    /// The signal of the other side has another type of values.
+    #[error("{0} here, {1} on the other side")]
+    Type(&'static str, &'static str),
     /// The user excluded the signal.
     #[error("left out")]
     Ignored,
+}
+
+impl UnmatchedReason {
+    /// Returns whether the other side has the signal, so that its values should have been compared.
+    pub fn is_skipped(&self) -> bool {
+        !matches!(self, UnmatchedReason::Alone | UnmatchedReason::Ignored)
+    }
 }
 
 /// Matched and unmatched signals.

@@ -6,6 +6,7 @@ use crate::source::{Name, Signal, SignalKind, Source};
 
 use super::super::pair::{MatchedBy, Pair};
 use super::super::parts::ordered;
+use super::Fits;
 use super::matched::{Matching, Unmatched, UnmatchedReason};
 use super::tails::{by_tail, ends};
 
@@ -24,7 +25,7 @@ fn scopes(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Option<[Strin
     let mut alike: Vec<_> = by_last.into_values().collect();
     let pairs = |[a, b]: &[Vec<usize>; 2]| a.len() * b.len();
     alike.sort_by_key(pairs);
-    let mut votes: BTreeMap<[String; 2], usize> = BTreeMap::new();
+    let mut votes: BTreeMap<[&str; 2], usize> = BTreeMap::new();
     let mut count = 0;
     for [of_a, of_b] in alike {
         count += of_a.len() * of_b.len();
@@ -35,21 +36,20 @@ fn scopes(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Option<[Strin
             for &b in &of_b {
                 let (a, b) = (&names[0][a], &names[1][b]);
                 let tail = a.tail(b);
-                *votes.entry([a.scope(tail), b.scope(tail)]).or_default() += 1;
+                let scopes = [a.scope(tail), b.scope(tail)];
+                *votes.entry(scopes).or_default() += 1;
             }
         }
     }
     let (scopes, count) = votes.into_iter().max_by_key(|(_, count)| *count)?;
-    (count >= 2 && scopes.iter().all(|scope| !scope.is_empty())).then_some(scopes)
+    let are_named = scopes.iter().all(|scope| !scope.is_empty());
+    (count >= 2 && are_named).then(|| scopes.map(str::to_owned))
 }
 
 /// Replaces these scopes by a common name.
 fn below(names: &[Vec<Name>; 2], scopes: &[String; 2]) -> [Vec<Name>; 2] {
     [0, 1].map(|side| {
-        let own = |name: &Name| match name.below(&scopes[side]) {
-            Some(below) => Name::new(format!("{SHARED}.{below}")).spelled(name),
-            None => name.clone(),
-        };
+        let own = |name: &Name| name.moved(&scopes[side], SHARED).unwrap_or_else(|| name.clone());
         names[side].iter().map(own).collect()
     })
 }
@@ -82,18 +82,17 @@ fn best(
     names: &[Vec<Name>; 2],
     candidates: &[Vec<usize>; 2],
 ) -> [Vec<Best>; 2] {
-    let mut whole: [HashMap<String, Vec<usize>>; 2] = Default::default();
+    let mut whole: [HashMap<&str, Vec<usize>>; 2] = Default::default();
     for side in 0..2 {
         for &k in &candidates[side] {
-            whole[side].entry(names[side][k].scope(0)).or_default().push(k);
+            whole[side].entry(names[side][k].parts()).or_default().push(k);
         }
     }
     let mut best = [0, 1].map(|side| vec![Best::default(); names[side].len()]);
     for side in 0..2 {
         for &own in &candidates[side] {
-            let text = names[side][own].scope(0);
             // Names that are the same are found from the first side.
-            for end in ends(&text).skip(side) {
+            for end in ends(names[side][own].parts()).skip(side) {
                 for &other in whole[1 - side].get(end).into_iter().flatten() {
                     let [a, b] = ordered(side, own, other);
                     let score = score(&names[0][a], &names[1][b]);
@@ -125,6 +124,7 @@ pub(super) fn by_name(
     own: &[Vec<Name>; 2],
     candidates: &[Vec<usize>; 2],
     matching: &mut Matching,
+    fits: Fits,
 ) {
     let hung = scopes(own, candidates).map(|scopes| below(own, &scopes));
     let names = hung.as_ref().unwrap_or(own);
@@ -139,7 +139,7 @@ pub(super) fn by_name(
         let mutual: Vec<usize> = found.found.iter().copied().filter(is_mutual).collect();
         let Some(&first) = mutual.first() else { continue };
         let b = &sides[1].signals[first];
-        let refused = refused(sides, k, &mutual, &best[1][first]);
+        let refused = refused(sides, k, &mutual, &best[1][first], fits);
         if !refused.is_empty() {
             for (side, signal, reason) in refused {
                 reasons[side].entry(signal).or_insert(reason);
@@ -163,7 +163,7 @@ pub(super) fn by_name(
         let alone = candidates[side].iter().copied();
         alone.filter(|k| is_alone(side, k)).collect::<Vec<_>>()
     });
-    for [a, b] in by_tail(sides, own, candidates, &alone) {
+    for [a, b] in by_tail(sides, own, candidates, &alone, fits) {
         let [a, b] = [&sides[0].signals[a], &sides[1].signals[b]];
         if joined[0].insert(a.id) && joined[1].insert(b.id) {
             matching.pairs.push(Pair::whole([a, b], MatchedBy::Tail, &mut matching.slots));
@@ -188,6 +188,7 @@ fn refused(
     own: usize,
     mutual: &[usize],
     back: &Best,
+    fits: Fits,
 ) -> Vec<(usize, usize, UnmatchedReason)> {
     let (a, b) = (&sides[0].signals[own], &sides[1].signals[mutual[0]]);
     if let Some(others) = several(sides[1], mutual) {
@@ -196,11 +197,12 @@ fn refused(
     if let Some(others) = &back.several {
         return vec![(1, mutual[0], UnmatchedReason::Ambiguous(others.clone()))];
     }
-    if a.fits(b) {
+    if fits(a, b) {
         return Vec::new();
     }
     let reason = |own: &Signal, other: &Signal| match (own.kind, other.kind) {
         (SignalKind::Text, _) | (_, SignalKind::Text) => UnmatchedReason::Text,
+        (own, other) if own != other => UnmatchedReason::Type(own.plural(), other.plural()),
         _ => UnmatchedReason::Width(own.width, other.width),
     };
     let theirs = mutual.iter().map(|&other| (1, other, reason(b, a)));

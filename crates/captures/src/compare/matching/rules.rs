@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use tofsim::error::{Input, Result};
 use tofsim::kernel::signals::SignalFormat as Shape;
 
-use crate::source::Source;
+use crate::source::{SignalKind, Source};
 use crate::words::ones;
 
 use super::super::find;
@@ -13,6 +13,7 @@ use super::super::map::{Rule, SignalMap, parse_mask};
 use super::super::pair::{MatchedBy, Pair};
 use super::super::parts::{Part, Slots, ordered};
 use super::super::show::Show;
+use super::Fits;
 use super::matched::Matching;
 
 /// Returns whether more of the map's names exist with the sides swapped.
@@ -37,6 +38,7 @@ pub(super) fn by_rule(
     rule: &Rule,
     matching: &mut Matching,
     used: &mut [HashSet<usize>; 2],
+    fits: Fits,
 ) -> Result<Pair> {
     let names = ordered(usize::from(matching.swapped), &rule.a, &rule.b);
     let mut parts: [Vec<Part>; 2] = Default::default();
@@ -54,15 +56,23 @@ pub(super) fn by_rule(
         }
     }
     let [width, other] = [0, 1].map(|side| parts[side].iter().map(|part| part.width).sum::<u32>());
+    let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
+    let are_whole = parts.iter().all(|parts| matches!(parts[..], [Part { whole: true, .. }]));
     // The width of words may be unknown.
-    if width != other && width > 0 && other > 0 {
+    if width != other && width > 0 && other > 0 && !(are_whole && fits(a, b)) {
         let expected = format!("expected signals of one width, not {width} and {other} bits");
         return Err(Input::new("map", expected).field(names[0].join(" ")).into());
     }
-    let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
     let [name, other] = names.map(|parts| parts.join(" "));
-    let (how, show) = (MatchedBy::Map, Show::of(a, b));
-    let mut pair = Pair { name, other, how, width, sides: parts, show, ..Pair::default() };
+    let is_event = a.kind == SignalKind::Event && b.kind == SignalKind::Event;
+    let states = if are_whole {
+        [a, b].map(|signal| signal.words.states.clone())
+    } else {
+        Default::default()
+    };
+    let width = if is_event { 1 } else { width };
+    let pair = Pair { name, other, width, sides: parts, states, is_event, ..Pair::default() };
+    let mut pair = Pair { how: MatchedBy::Map, show: Show::of(a, b), ..pair };
     pair.follow(rule, sides, matching)?;
     Ok(pair)
 }
@@ -83,7 +93,14 @@ impl Pair {
             }
             self.valid = Some(part.signal);
         }
+        if self.is_event && (rule.latency != 0 || rule.valid.is_some()) {
+            let expected = "expected a signal with values: events have no `latency` and no `valid`";
+            return Err(Input::new("map", expected).field(&self.name).into());
+        }
         self.signed = rule.signed.or(self.signed);
+        if rule.signed.is_some() || rule.fraction.is_some() {
+            self.states = Default::default();
+        }
         match (rule.signed, rule.fraction) {
             (Some(true), fraction) => {
                 self.show = Show::Shape(Shape::Signed { fraction: fraction.unwrap_or(0) });

@@ -4,6 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use crate::source::{Name, Source};
 
+use super::Fits;
+
 /// Returns a name and all its endings, longest first.
 pub(super) fn ends(text: &str) -> impl Iterator<Item = &str> {
     let inner = text.match_indices('.').map(|(place, _)| &text[place + 1..]);
@@ -23,6 +25,7 @@ pub(super) fn by_tail(
     names: &[Vec<Name>; 2],
     candidates: &[Vec<usize>; 2],
     left: &[Vec<usize>; 2],
+    fits: Fits,
 ) -> Vec<[usize; 2]> {
     if left.iter().any(Vec::is_empty) {
         return Vec::new();
@@ -30,25 +33,27 @@ pub(super) fn by_tail(
     let [own, others] = [0, 1].map(|side| endings(sides[side], &names[side], &candidates[side]));
     let is_left: HashSet<usize> = left[1].iter().copied().collect();
     let partner = |&a: &usize| {
-        let text = names[0][a].scope(0);
-        let (end, &found) = ends(&text).find_map(|end| others.get_key_value(end))?;
+        let (end, &found) = ends(names[0][a].parts()).find_map(|end| others.get_key_value(end))?;
         let (Ending::One(b), Some(Ending::One(_))) = (found, own.get(end)) else { return None };
         let [a_signal, b_signal] = [&sides[0].signals[a], &sides[1].signals[b]];
-        (a_signal.fits(b_signal) && is_left.contains(&b)).then_some([a, b])
+        (fits(a_signal, b_signal) && is_left.contains(&b)).then_some([a, b])
     };
     left[0].iter().filter_map(partner).collect()
 }
 
 /// Indexes the names of a side by all their endings.
-fn endings(source: &Source, names: &[Name], candidates: &[usize]) -> HashMap<String, Ending> {
-    let mut endings: HashMap<String, Ending> = HashMap::new();
+fn endings<'a>(
+    source: &Source,
+    names: &'a [Name],
+    candidates: &[usize],
+) -> HashMap<&'a str, Ending> {
+    let mut endings: HashMap<&str, Ending> = HashMap::new();
     for &k in candidates {
-        let text = names[k].scope(0);
-        for end in ends(&text) {
+        for end in ends(names[k].parts()) {
             match endings.get_mut(end) {
                 Some(Ending::One(first)) if source.signals[*first].id == source.signals[k].id => {}
                 Some(ending) => *ending = Ending::Several,
-                None => drop(endings.insert(end.to_owned(), Ending::One(k))),
+                None => drop(endings.insert(end, Ending::One(k))),
             }
         }
     }

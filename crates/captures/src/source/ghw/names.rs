@@ -1,5 +1,7 @@
 //! Names of a GHW file: the tree of scopes, and the signals of each name.
 
+use std::sync::Arc;
+
 use super::super::signals::WIDEST;
 use super::super::span::{Checked, Fault, Span, at_most};
 use super::range::Range;
@@ -11,13 +13,15 @@ const CHARACTERS: u64 = 1 << 27;
 /// A name, and the file's signals that it stands for, highest bit first.
 #[derive(Clone, Debug)]
 pub(super) struct Variable {
-    /// Name with all scopes.
-    pub(super) name: String,
+    /// Scopes and records that it is part of, outermost first.
+    pub(super) scopes: Arc<[String]>,
+    /// Name in them.
+    pub(super) own: String,
     /// Numbers of the file's signals, from 1.
     pub(super) signals: Vec<u32>,
     pub(super) scalar: Scalar,
-    /// Index of the lowest bit.
-    pub(super) lsb: i64,
+    /// Indices of the highest and the lowest bit of a vector.
+    pub(super) range: Option<[i64; 2]>,
     /// Strings of the literals of an enumeration.
     pub(super) literals: Vec<usize>,
 }
@@ -58,12 +62,14 @@ pub(super) struct Names<'a> {
     /// Encoding of each of the file's signals.
     pub(super) scalars: Vec<Scalar>,
     scopes: Vec<String>,
+    /// The scopes that have a name, once a signal needs them.
+    path: Option<Arc<[String]>>,
 }
 
 impl<'a> Names<'a> {
     pub(super) fn new(types: &'a Types, strings: &'a [String]) -> Names<'a> {
         let (variables, scalars, scopes) = (Vec::new(), Vec::new(), Vec::new());
-        Names { types, strings, variables, scalars, scopes }
+        Names { types, strings, variables, scalars, scopes, path: None }
     }
 
     /// Parses the section.
@@ -73,29 +79,38 @@ impl<'a> Names<'a> {
         loop {
             match file.byte()? {
                 0 => return Ok(()),
-                END_OF_SCOPE => drop(self.scopes.pop()),
+                END_OF_SCOPE => {
+                    self.path = None;
+                    self.scopes.pop();
+                }
                 GENERATE_FOR => {
                     let name = self.name(file)?;
                     let iterator = self.iterator(file)?;
-                    self.scopes.push(format!("{name}({iterator})"));
+                    self.enter(format!("{name}({iterator})"));
                 }
                 // A process has no end of its scope.
                 PROCESS => drop(file.number()?),
                 kind if SCOPES.contains(&kind) => {
                     let name = self.name(file)?;
-                    self.scopes.push(name);
+                    self.enter(name);
                 }
                 kind if SIGNALS.contains(&kind) => {
                     let name = self.name(file)?;
                     let found = self.types.of(file)?;
                     at_most("signals of a name", self.types.signals(found), file.left())?;
                     let scopes = self.scopes.iter().filter(|scope| !scope.is_empty());
-                    let path: Vec<&str> = scopes.chain([&name]).map(String::as_str).collect();
-                    self.declare(path.join("."), found, file)?;
+                    let path = self.path.get_or_insert_with(|| scopes.cloned().collect());
+                    let path = Arc::clone(path);
+                    self.declare(&path, name, found, file)?;
                 }
                 kind => return Err(Fault::value("kind", kind.into(), "is none of GHDL's")),
             }
         }
+    }
+
+    fn enter(&mut self, name: String) {
+        self.path = None;
+        self.scopes.push(name);
     }
 
     fn name(&self, file: &mut Span) -> Checked<String> {
@@ -113,21 +128,32 @@ impl<'a> Names<'a> {
     }
 
     /// Adds a name of a type, or the names of its elements and fields, and parses the numbers of their signals.
-    fn declare(&mut self, name: String, index: usize, file: &mut Span) -> Checked<()> {
+    fn declare(
+        &mut self,
+        scopes: &Arc<[String]>,
+        own: String,
+        index: usize,
+        file: &mut Span,
+    ) -> Checked<()> {
         let types = self.types;
         match types.resolved(index) {
             Form::Scalar(scalar, literals) => {
                 let signals = vec![self.signal(file, *scalar)?];
                 let literals = literals.clone();
-                self.variables.push(Variable { name, signals, scalar: *scalar, lsb: 0, literals });
+                let (scopes, scalar, range) = (Arc::clone(scopes), *scalar, None);
+                let variable = Variable { scopes, own, signals, scalar, range, literals };
+                self.variables.push(variable);
                 Ok(())
             }
             Form::Array(element, Dimensions::Known(ranges)) => {
-                self.elements(name, *element, ranges, file)
+                self.elements(scopes, own, (*element, ranges), file)
             }
-            Form::Record(fields) => fields.iter().try_for_each(|&(field, index)| {
-                self.declare(format!("{name}.{}", self.strings[field]), index, file)
-            }),
+            Form::Record(fields) => {
+                let scopes: Arc<[String]> = scopes.iter().cloned().chain([own]).collect();
+                fields.iter().try_for_each(|&(field, index)| {
+                    self.declare(&scopes, self.strings[field].clone(), index, file)
+                })
+            }
             Form::Array(..) | Form::Alias(_) => Err(Fault::of("type", "expected one with ranges")),
         }
     }
@@ -135,25 +161,27 @@ impl<'a> Names<'a> {
     /// Adds the elements of an array; the last dimension of an array of bits is a vector.
     fn elements(
         &mut self,
-        name: String,
-        element: usize,
-        ranges: &[Range],
+        scopes: &Arc<[String]>,
+        own: String,
+        (element, ranges): (usize, &[Range]),
         file: &mut Span,
     ) -> Checked<()> {
         match (ranges, self.types.bit(element)) {
-            ([], _) => self.declare(name, element, file),
+            ([], _) => self.declare(scopes, own, element, file),
             ([range], Some(scalar)) => {
                 let length = at_most("width", range.length(), WIDEST.into())?;
                 let signals = (0..length).map(|_| self.signal(file, scalar));
                 let signals: Vec<u32> = signals.collect::<Checked<_>>()?;
-                let (lsb, literals) = (range.right, Vec::new());
+                let (range, literals) = (Some([range.left, range.right]), Vec::new());
                 if !signals.is_empty() {
-                    self.variables.push(Variable { name, signals, scalar, lsb, literals });
+                    let scopes = Arc::clone(scopes);
+                    let variable = Variable { scopes, own, signals, scalar, range, literals };
+                    self.variables.push(variable);
                 }
                 Ok(())
             }
             ([range, inner @ ..], _) => range.values().try_for_each(|value| {
-                self.elements(format!("{name}[{value}]"), element, inner, file)
+                self.elements(scopes, format!("{own}[{value}]"), (element, inner), file)
             }),
         }
     }

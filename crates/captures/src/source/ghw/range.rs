@@ -5,7 +5,7 @@ use super::super::span::{Checked, Fault, Span};
 /// Range of an array's index or of a scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Range {
-    left: i64,
+    pub(super) left: i64,
     pub(super) right: i64,
     falls: bool,
 }
