@@ -51,6 +51,8 @@ pub(super) fn resolve(
     let found = matching([&bare[0], &bare[1]], map, choice, fits_by_name)?;
     let mut sources = sides.map(Source::clone);
     let mut translations: [HashMap<usize, Translation>; 2] = Default::default();
+    // What a capture says of its words is of the samples that it has.
+    let are_types = !sides.iter().any(|side| side.is_capture());
     // A signal of several pairs has the same values in all of them.
     let mut uses: HashMap<usize, usize> = HashMap::new();
     let of_pairs = found.pairs.iter().flat_map(|pair| ids(&found, pair, 1));
@@ -67,6 +69,7 @@ pub(super) fn resolve(
                     _ => None,
                 };
                 if let [Some(a), Some(b)] = [whole(0), whole(1)]
+                    && are_types
                     && uses[&b.id] == 1
                     && !pair.invert
                     && let Some(codes) = codes(a, b)
