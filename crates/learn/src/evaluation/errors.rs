@@ -116,11 +116,12 @@ impl Evaluation {
         let first = estimators(&Scene::default());
         let mut columns: Vec<_> =
             first.iter().map(|one| EstimatorErrors::named(one.name())).collect();
-        let of_two = |one: &Box<dyn Estimator + 'a>| one.second().filter(|_| has_two(source));
-        let mut seconds: Vec<_> = first
-            .iter()
-            .map(|one| of_two(one).map(|second| (second, EstimatorErrors::named(second.name))))
-            .collect();
+        let may_have_two = has_two(source);
+        let second_of = |estimator: &dyn Estimator| {
+            let second = estimator.second().filter(|_| may_have_two)?;
+            Some((second, EstimatorErrors::named(second.name)))
+        };
+        let mut seconds: Vec<_> = first.iter().map(|one| second_of(one.as_ref())).collect();
         let mut scenes = Vec::with_capacity(rows.count() as usize);
         let is_array = rows.grid().array.is_some();
         let needs_dark = first.iter().any(|one| one.needs_dark());
