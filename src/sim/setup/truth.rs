@@ -97,7 +97,11 @@ mod tests {
     fn a_surface_that_returns_no_light_is_no_target() {
         let set = |key: &'static str| ["estimator.targets=2", key];
         assert_eq!(truths("net", &set("target.second_share=0")), Some([Some(0.7), None]));
-        assert_eq!(truths("net", &set("target.second_share=1")), Some([Some(0.35), None]));
         assert_eq!(truths("net", &set("firmware.laser_en=false")), None);
+        // The depth is that of the surface, which is not the target.
+        let hidden = set("target.second_share=1");
+        assert_eq!(truths("net", &hidden), None);
+        let found = Setup::load("net", &hidden).unwrap().depths_reported_by(Targets::NearestFirst);
+        assert_eq!(found, TrueDepths { first_m: 0.35, second_m: None });
     }
 }
