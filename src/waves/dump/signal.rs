@@ -41,12 +41,12 @@ pub struct DumpSignal {
 
 impl DumpSignal {
     /// Returns its scopes, outermost first.
-    pub(in super::super) fn scopes(&self) -> Vec<&str> {
+    pub(crate) fn scopes(&self) -> Vec<&str> {
         self.scopes.iter().map(String::as_str).collect()
     }
 
     /// Formats the range, such as `[7:0]`.
-    pub(in super::super) fn range_text(&self) -> Option<String> {
+    pub(crate) fn range_text(&self) -> Option<String> {
         self.range.map(|[high, low]| match self.kind {
             DumpKind::Bits(1) if high == low => format!("[{high}]"),
             _ => format!("[{high}:{low}]"),
@@ -54,7 +54,7 @@ impl DumpSignal {
     }
 
     /// Formats the table of states: a name, their number, their names, and their values in binary.
-    pub(in super::super) fn table(&self, number: u64) -> String {
+    pub(crate) fn table(&self, number: u64) -> String {
         let width = if let DumpKind::Bits(width) = self.kind { width as usize } else { 1 };
         let mut text = format!("states_{number} {}", self.states.len());
         self.states.iter().for_each(|(name, _)| text += &format!(" {}", escaped(name)));

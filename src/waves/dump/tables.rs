@@ -6,11 +6,11 @@ use super::signal::{DumpKind, DumpSignal, DumpState};
 
 /// Tables that a file has so far: signals of one width share the table of the states that they share.
 #[derive(Default)]
-pub(in super::super) struct Tables(HashMap<(*const DumpState, DumpKind), u64>);
+pub(crate) struct Tables(HashMap<(*const DumpState, DumpKind), u64>);
 
 impl Tables {
     /// Returns the number of a signal's table, from 1, and its text if it is new; `None` if the signal has no states.
-    pub(in super::super) fn of(&mut self, signal: &DumpSignal) -> Option<(u64, Option<String>)> {
+    pub(crate) fn of(&mut self, signal: &DumpSignal) -> Option<(u64, Option<String>)> {
         if signal.states.is_empty() {
             return None;
         }

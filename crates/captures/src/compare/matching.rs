@@ -20,12 +20,10 @@ use super::map::{Side, SignalMap};
 pub(super) use matched::Matching;
 pub use matched::{Unmatched, UnmatchedReason};
 
+use matched::Fits;
 use names::by_name;
 use rules::{by_rule, is_swapped};
 use slices::by_slice;
-
-/// Test of whether the values of two signals can be compared.
-pub(super) type Fits = fn(&Signal, &Signal) -> bool;
 
 /// Matches the signals of two sources.
 ///

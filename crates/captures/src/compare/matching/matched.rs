@@ -2,11 +2,14 @@
 
 use tofsim::error::{Input, Result};
 
-use crate::source::Name;
+use crate::source::{Name, Signal};
 
 use super::super::find::near;
 use super::super::pair::Pair;
 use super::super::parts::Slots;
+
+/// Test of whether the values of two signals can be compared.
+pub(super) type Fits = fn(&Signal, &Signal) -> bool;
 
 /// A signal without a partner.
 #[derive(Clone, Debug, PartialEq, Eq)]

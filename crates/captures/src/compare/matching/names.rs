@@ -6,8 +6,7 @@ use crate::source::{Name, Signal, SignalKind, Source};
 
 use super::super::pair::{MatchedBy, Pair};
 use super::super::parts::ordered;
-use super::Fits;
-use super::matched::{Matching, Unmatched, UnmatchedReason};
+use super::matched::{Fits, Matching, Unmatched, UnmatchedReason};
 use super::tails::{by_tail, ends};
 
 /// Largest number of name pairs with the same last part that are evaluated to find the common scopes, rare names

@@ -13,8 +13,7 @@ use super::super::map::{Rule, SignalMap, parse_mask};
 use super::super::pair::{MatchedBy, Pair};
 use super::super::parts::{Part, Slots, ordered};
 use super::super::show::Show;
-use super::Fits;
-use super::matched::Matching;
+use super::matched::{Fits, Matching};
 
 /// Returns whether more of the map's names exist with the sides swapped.
 pub(super) fn is_swapped(sides: [&Source; 2], map: &SignalMap) -> bool {

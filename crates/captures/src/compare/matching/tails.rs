@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::source::{Name, Source};
 
-use super::Fits;
+use super::matched::Fits;
 
 /// Returns a name and all its endings, longest first.
 pub(super) fn ends(text: &str) -> impl Iterator<Item = &str> {

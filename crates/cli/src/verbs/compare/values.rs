@@ -8,7 +8,7 @@ use tofsim::kernel::Time;
 const LONGEST_LATENCY: u64 = 65_536;
 
 /// A time with its unit.
-pub(in super::super) fn time(text: &str) -> Result<Time, String> {
+pub(crate) fn time(text: &str) -> Result<Time, String> {
     tofsim_captures::compare::time(text)
         .ok_or_else(|| "expected a time, as 10us or 8.5ns".to_owned())
 }
