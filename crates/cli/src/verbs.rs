@@ -7,6 +7,7 @@ pub mod calibrate;
 pub mod compare;
 pub mod completions;
 pub mod dataset;
+mod deferred;
 mod design;
 pub mod dpi;
 pub mod draws;

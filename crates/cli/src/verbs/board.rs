@@ -14,6 +14,7 @@ use clap::Subcommand;
 
 use tofsim::error::Result;
 
+use super::deferred::Deferred;
 use super::terminal::Console;
 
 /// Operate a real board over its serial port: depths, histograms, calibration, registers
@@ -29,7 +30,7 @@ use super::terminal::Console;
     tofsim board csr -o csr.csv              registers for LiteX's tools")]
 pub struct Args {
     #[command(subcommand)]
-    verb: Verb,
+    verb: Deferred<Verb>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -44,7 +45,7 @@ enum Verb {
 
 /// Runs the verb; the status says whether the board has the scenario's parameters.
 pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
-    match &args.verb {
+    match &args.verb.0 {
         Verb::Info(args) => return info::run(args, console),
         Verb::Run(args) => run::run(args, console),
         Verb::Set(args) => set::run(args, console),

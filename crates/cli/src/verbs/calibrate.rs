@@ -15,6 +15,7 @@ use crate::choice::{CALIBRATED, words};
 use crate::report::calibration::PulseFindings;
 use crate::report::writer::Report;
 
+use super::deferred::Deferred;
 use super::estimate::width;
 use super::options::ResultArgs;
 use super::terminal::Console;
@@ -29,7 +30,7 @@ use glass::GlassArgs;
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(subcommand)]
-    verb: Verb,
+    verb: Deferred<Verb>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -75,7 +76,7 @@ struct PulseArgs {
 
 /// Runs the verb.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
-    match &args.verb {
+    match &args.verb.0 {
         Verb::Pulse(args) => args.run(console),
         Verb::Glass(args) => args.run(console),
     }

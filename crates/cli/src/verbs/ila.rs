@@ -16,13 +16,14 @@ use tofsim_captures::ila::{AnalyserSetup, builtin};
 use crate::report::writer::print_list;
 use crate::verbs::terminal::print;
 
+use super::deferred::Deferred;
 use super::terminal::Console;
 
 /// The logic analyser: capture a simulation as Vivado's captures the board, and read its files
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(subcommand)]
-    verb: Verb,
+    verb: Deferred<Verb>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -52,7 +53,7 @@ enum Verb {
 
 /// Runs the command.
 pub fn run(args: &Args, console: &Console) -> Result<()> {
-    match &args.verb {
+    match &args.verb.0 {
         Verb::Capture(args) => capture::run(args, console),
         Verb::Info(args) => info::run(args, console),
         Verb::Replay(args) => replay::run(args, console),

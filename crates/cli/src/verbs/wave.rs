@@ -12,13 +12,14 @@ use clap::Subcommand;
 use tofsim::error::Result;
 
 use super::compare;
+use super::deferred::Deferred;
 use super::terminal::Console;
 
 /// Inspect, compare, cut and convert waveform files
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(subcommand)]
-    verb: Verb,
+    verb: Deferred<Verb>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -32,7 +33,7 @@ enum Verb {
 
 /// Runs the command.
 pub fn run(args: &Args, console: &Console) -> Result<ExitCode> {
-    match &args.verb {
+    match &args.verb.0 {
         Verb::Info(args) => info::run(args, console),
         Verb::Stats(args) => stats::run(args, console),
         Verb::Diff(args) => return compare::run(args, console),
