@@ -70,6 +70,20 @@ fn scenes_without_a_second_surface_have_no_second_target() {
 }
 
 #[test]
+fn settings_that_look_for_one_target_have_no_second() {
+    let folder = empty();
+    let args = ["--scenario", "net", "--repeats", "20", "--check", "0", "--json"];
+    let grid = ["--grid", "estimator.targets=1,2"];
+    let report = json(folder.path(), &[&["evaluate"][..], &args, &SCENE, &grid].concat());
+    let counts = |name: &str| {
+        let all = &named(&report, name)["all"];
+        [&all["estimates"], &all["failures"]].map(|count| count.as_u64().unwrap())
+    };
+    assert_eq!(counts("likelihood_estimator").iter().sum::<u64>(), 40);
+    assert_eq!(counts("likelihood_estimator-second"), [20, 0]);
+}
+
+#[test]
 fn a_run_states_both_true_distances_in_the_order_of_the_firmware() {
     let folder = empty();
     let run = ["run", "net", "--waves", "none", "--fidelity", "shot", "--no-second-opinion"];

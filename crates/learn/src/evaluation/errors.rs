@@ -116,12 +116,13 @@ impl Evaluation {
         let first = estimators(&Scene::default());
         let mut columns: Vec<_> =
             first.iter().map(|one| EstimatorErrors::named(one.name())).collect();
-        let may_have_two = has_two(source);
-        let second_of = |estimator: &dyn Estimator| {
-            let second = estimator.second().filter(|_| may_have_two)?;
-            Some((second, EstimatorErrors::named(second.name)))
+        // Settings may differ in whether an estimator looks for a second target.
+        let settings = if has_two(source) { rows.grid().settings() as usize } else { 0 };
+        let second_of = |place: usize| {
+            let of = |setting| estimators(&Scene { setting, ..Scene::default() })[place].second();
+            Some(EstimatorErrors::named((0..settings).find_map(of)?.name))
         };
-        let mut seconds: Vec<_> = first.iter().map(|one| second_of(one.as_ref())).collect();
+        let mut seconds: Vec<_> = (0..first.len()).map(second_of).collect();
         let mut scenes = Vec::with_capacity(rows.count() as usize);
         let is_array = rows.grid().array.is_some();
         let needs_dark = first.iter().any(|one| one.needs_dark());
@@ -143,8 +144,12 @@ impl Evaluation {
                 });
                 let found: Vec<_> = found.collect();
                 let depths_m = found.iter().map(|found| Some(found.as_ref()?.depth_m));
-                if let Some((of, second)) = &mut seconds[place] {
-                    let [first_m, second_m] = truths_m(source, &block, of.targets);
+                if let Some(second) = &mut seconds[place] {
+                    let targets = |scene: &Scene| {
+                        let second = estimators(scene)[place].second();
+                        second.map_or(Targets::One, |second| second.targets)
+                    };
+                    let [first_m, second_m] = truths_m(source, &block, targets);
                     column.extend_beside(depths_m, &first_m);
                     let depths_m =
                         found.iter().map(|found| Some(found.as_ref()?.second.as_ref()?.depth_m));
@@ -158,9 +163,7 @@ impl Evaluation {
             done(block.len() as u64);
         }
         let both = columns.into_iter().zip(seconds);
-        let columns = both
-            .flat_map(|(column, second)| [Some(column), second.map(|(_, column)| column)])
-            .flatten();
+        let columns = both.flat_map(|(column, second)| [Some(column), second]).flatten();
         Ok(Evaluation { scenes, columns: columns.collect() })
     }
 
@@ -224,9 +227,13 @@ fn has_two(source: &HistogramSource) -> bool {
         && source.scenarios().any(|scenario| scenario.target.second_share > 0.0)
 }
 
-/// Returns the true distances of the first and of the second target of the rows, as an estimator reports them; NaN
-/// without a second one [m].
-fn truths_m(source: &HistogramSource, block: &[Sample], targets: Targets) -> [Vec<f64>; 2] {
+/// Returns the true distances of the first and of the second target of the rows, as an estimator of the `targets` of
+/// their scenes reports them; NaN without a second one [m].
+fn truths_m(
+    source: &HistogramSource,
+    block: &[Sample],
+    targets: impl Fn(&Scene) -> Targets,
+) -> [Vec<f64>; 2] {
     let second_m: Vec<_> =
         source.scenarios().map(|scenario| scenario.target.second_distance_m).collect();
     let mut white = Last(None);
@@ -234,7 +241,8 @@ fn truths_m(source: &HistogramSource, block: &[Sample], targets: Targets) -> [Ve
         let scene = &sample.scene;
         let white = white.or(scene.surfaces(), |_| source.white(scene));
         let budget = scaled(white, scene);
-        let depths = TrueDepths::new(targets, scene.distance_m, second_m[scene.setting], &budget);
+        let depths =
+            TrueDepths::new(targets(scene), scene.distance_m, second_m[scene.setting], &budget);
         (depths.first_m, depths.second_m.unwrap_or(f64::NAN))
     });
     let (first_m, second_m) = truths.unzip();
