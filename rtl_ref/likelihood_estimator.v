@@ -48,6 +48,7 @@ module likelihood_estimator #(
     output reg [6:0] status,                     // why not to believe it
     output reg [BinBits+24:0] chi_square,        // of the fit [2^-8]
     output reg valid,                            // the status says nothing against the depth
+    output reg [3:0] code,                       // what a host can rely on
     output reg algo_done,                        // the depth is ready; one cycle
     // Second target, all 0 without one
     output reg signed [35:0] second_depth,       // its depth [2^-29 m]
@@ -62,6 +63,8 @@ module likelihood_estimator #(
     localparam [6:0] AmbientProgram = 7'd0, StartProgram = Glass ? 7'd8 : 7'd7, StepProgram = Glass ? 7'd14 : 7'd13,
         EndProgram = Glass ? 7'd69 : 7'd49, SecondProgram = Glass ? 7'd84 : 7'd64, SwapProgram = SecondProgram + 7'd6;
     localparam [3:0] Turns = 4'd10;
+    localparam [3:0] Valid = 4'd1, ValidSecond = 4'd2, NoTarget = 4'd3, AmbientTooHigh = 4'd4, CutOff = 4'd5,
+        Saturated = 4'd6, PedestalChanged = 4'd7, AnotherEcho = 4'd8, NotSettled = 4'd9, NoFit = 4'd10, NotArmed = 4'd11;
     localparam integer Bins = 1 << BinBits, Beats = 29;
     localparam integer ScanCycles = 2 * (Bins + BoxBins - BoxBins / 2 - 1 + Beats);
     localparam integer GlassBeats = Glass ? GlassBins + 1 : 0;
@@ -71,6 +74,7 @@ module likelihood_estimator #(
     // Numbers of bins are integers elsewhere.
     // verilator lint_off WIDTH
     localparam [BinBits:0] All = Bins, Before = BinsBefore, After = BinsAfter + 1;
+    localparam [CountBits-1:0] LeastLeft = LikelihoodShots >> 6;
     // verilator lint_on WIDTH
 
     reg [3:0] state;                  // what it does
@@ -113,7 +117,7 @@ module likelihood_estimator #(
     reg other_cut;                    // its last step was shortened
 
     initial begin
-        {depth, sigma, status, chi_square, valid, algo_done} = 0;
+        {depth, sigma, status, chi_square, valid, code, algo_done} = 0;
         {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} = 0;
         {start_score, seen, used_up, dark, reached, free, unarmed} = 0;
         {second_depth, second_sigma, second_strength, second_status, second_valid} = 0;
@@ -125,6 +129,7 @@ module likelihood_estimator #(
     wire block_done, word_bin, word_rest, word_edge, word_slide, word_first;
     wire [CountBits+BinBits-1:0] block_ended, word_ended, word_waiting;
     wire [CountBits+BinBits+9:0] block_exposure, ambient_exposure;
+    wire [CountBits-1:0] left;
     wire [9:0] word_width;
     wire [BinBits+7:0] word_end;
     wire signed [CountBits+8:0] residual;
@@ -189,6 +194,9 @@ module likelihood_estimator #(
     wire no_fit = far || changed;
     wire no_echo = unsure || faint || flags[2] || start_score < 14'sd297;
 
+    wire [6:0] own_reasons = {unarmed, no_fit, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
+                              flags[3] || flags[4], no_echo};
+
     // A fit without an echo is the first, and those that follow it
     wire unlit = Glass && (state == Ambient || state == Step && dark);
 
@@ -218,6 +226,20 @@ module likelihood_estimator #(
     wire [6:0] later_status = own_first ? other_status : own_status;
     // The results of all are there, and not those of one echo or of the other
     wire last_end = !HasSecond || paired && turns == Turns;
+
+    // What a host can rely on: the first that applies.
+    wire [6:0] reasons = HasSecond ? first_status : own_reasons;
+    wire blind = left < LeastLeft, code_changed = HasSecond && !are_two ? alone_changed : changed;
+    wire [3:0] code_next = reasons[6] ? NotArmed
+        : reasons[0] && blind ? AmbientTooHigh
+        : code_changed ? PedestalChanged
+        : reasons[0] ? NoTarget
+        : reasons[2] ? Saturated
+        : reasons[1] ? CutOff
+        : reasons[3] ? AnotherEcho
+        : reasons[4] ? NotSettled
+        : reasons[5] ? NoFit
+        : HasSecond && are_two ? ValidSecond : Valid;
 
     // begin_pass: 1 a fit, 2 a scan; begin_program: its entry
     reg [3:0] state_next;
@@ -256,7 +278,7 @@ module likelihood_estimator #(
 
     always @(posedge clk_sys) begin
         if (rst) begin
-            {depth, sigma, status, chi_square, valid, algo_done} <= 0;
+            {depth, sigma, status, chi_square, valid, code, algo_done} <= 0;
             {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} <= 0;
             {start_score, seen, used_up, dark, reached, free, unarmed} <= 0;
             {second_depth, second_sigma, second_strength, second_status, second_valid} <= 0;
@@ -331,6 +353,7 @@ module likelihood_estimator #(
                 sigma <= !are_two ? alone_sigma : own_first ? solved_sigma : other_sigma;
                 status <= first_status;
                 valid <= first_status == 7'd0;
+                code <= code_next;
                 chi_square <= are_two ? sum_chi : alone_chi;
                 second_depth <= !are_two ? 36'sd0
                     : (own_first ? other_depth : solved_depth) - $signed({4'd0, LaserDelay});
@@ -345,10 +368,9 @@ module likelihood_estimator #(
                 depth <= solved_depth - $signed({4'd0, LaserDelay});
                 sigma <= solved_sigma;
                 chi_square <= sum_chi;
-                status <= {unarmed, no_fit, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
-                           flags[3] || flags[4], no_echo};
-                valid <= !(unarmed || no_fit || cut != 6'd0 || flags[5] || flags[6] || best_score > 14'sd331 || used_up
-                           || flags[3] || flags[4] || no_echo);
+                status <= own_reasons;
+                valid <= own_reasons == 7'd0;
+                code <= code_next;
                 scan <= 1'b0;
             end
         end
@@ -377,6 +399,7 @@ module likelihood_estimator #(
         .block_done(block_done),
         .block_ended(block_ended),
         .block_exposure(block_exposure),
+        .left(left),
         .pass(pass),
         .scan(scan),
         .fit_begin(fit_begin),

@@ -32,6 +32,7 @@ module likelihood_memory #(
     output reg block_done,                       // one is complete; one cycle
     output reg [CountBits+BinBits-1:0] block_ended,      // its hits
     output reg [CountBits+BinBits+9:0] block_exposure,   // its exposure [shots units]
+    output reg [CountBits-1:0] left,                     // shots that are left
     // Passes
     input wire pass,                             // begins a pass
     input wire scan,                             // over all bins but those of the fit
@@ -68,7 +69,6 @@ module likelihood_memory #(
     reg [BinBits-1:0] taken_bin;            // its bin
     reg [CountBits-1:0] taken_ended;        // the word
     reg [CountBits-1:0] taken_waiting;      // shots that waited
-    reg [CountBits-1:0] left;               // shots that are left
     reg begun;                              // its exposure is begun
     reg [BinBits-1:0] begun_bin;
     reg [CountBits-1:0] begun_ended;

@@ -48,6 +48,7 @@ module registers #(
     input wire [35:0] sigma,
     input wire [6:0] status,
     input wire valid,
+    input wire [3:0] code,
     output reg host_mode,                 // control signals, see control_sync
     output reg [RateBits-1:0] host_laser_freq,
     output reg host_laser_en,
@@ -82,6 +83,7 @@ module registers #(
     localparam [13:0] EstimateValidAt = 14'h001f;
     localparam [13:0] DensityClearAt = 14'h0020;
     localparam [13:0] DensityHitsAt = 14'h0021;
+    localparam [13:0] EstimateCodeAt = 14'h0022;
     localparam [13:0] HistogramAt = 14'h1000;
     localparam [13:0] CodeDensityAt = 14'h2000;
 
@@ -104,6 +106,7 @@ module registers #(
     reg [35:0] frame_sigma;
     reg [6:0] frame_status;
     reg frame_valid;
+    reg [3:0] frame_code;
     reg clearing;                         // counts are set to zero
     reg [PlaceBits-1:0] clear_place;
     reg counting;                         // the count of counted_n is in counted
@@ -143,7 +146,7 @@ module registers #(
         host_laser_freq = {RateBits{1'b0}};
         {scratch, frames_permitted, frames, shots, hits, frame} = 192'd0;
         {calibrating_last, calibrated, frame_valid, clearing, counting, in_histogram, in_density} = 7'd0;
-        {frame_depth, frame_sigma, frame_status} = 79'd0;
+        {frame_depth, frame_sigma, frame_status, frame_code} = 83'd0;
         {clear_place, counted_n} = {2 * PlaceBits{1'b0}};
         {counted, density_hits, register_word, density_word, read_data} = 160'd0;
         hist_valid_last = 1'b0;
@@ -184,6 +187,7 @@ module registers #(
             SigmaAt + 14'd1: register_word <= sigma_word[31:0];
             EstimateStatusAt: register_word <= {25'd0, frame_status};
             EstimateValidAt: register_word <= {31'd0, frame_valid};
+            EstimateCodeAt: register_word <= {28'd0, frame_code};
             DensityClearAt: register_word <= {31'd0, clearing};
             DensityHitsAt: register_word <= density_hits;
             default: ;
@@ -226,6 +230,7 @@ module registers #(
             frame_sigma <= sigma;
             frame_status <= status;
             frame_valid <= valid;
+            frame_code <= code;
         end
         if (writes) case (place)
             ScratchAt: scratch <= write_data;

@@ -186,6 +186,7 @@ module tof_top #(
     wire network_done, network_read_en, centroid_done, centroid_read_en, likelihood_done, likelihood_read_en;
     wire [35:0] likelihood_sigma;
     wire [6:0] likelihood_status;
+    wire [3:0] likelihood_code;
     wire likelihood_valid, likelihood_second_valid;
     wire signed [35:0] likelihood_second_depth;
     wire [35:0] likelihood_second_sigma;
@@ -202,6 +203,7 @@ module tof_top #(
     assign sigma = Likelihood ? likelihood_sigma : 36'd0;
     assign status = Likelihood ? likelihood_status : 7'd0;
     assign valid = Likelihood && likelihood_valid;
+    wire [3:0] code = Likelihood ? likelihood_code : 4'd0;
     assign second_depth = Likelihood ? likelihood_second_depth : 36'sd0;
     assign second_sigma = Likelihood ? likelihood_second_sigma : 36'd0;
     assign second_strength = Likelihood ? likelihood_second_strength : 24'd0;
@@ -613,6 +615,7 @@ module tof_top #(
         .chi_square(),
         // verilator lint_on PINCONNECTEMPTY
         .valid(likelihood_valid),
+        .code(likelihood_code),
         .algo_done(likelihood_done),
         .second_depth(likelihood_second_depth),
         .second_sigma(likelihood_second_sigma),
@@ -675,6 +678,7 @@ module tof_top #(
         .sigma(sigma),
         .status(status),
         .valid(valid),
+        .code(code),
         .host_mode(host_mode),
         .host_laser_freq(host_laser_freq),
         .host_laser_en(host_laser_en),

@@ -41,6 +41,7 @@ use super::likelihood_sums::{self, LikelihoodSums};
 use super::likelihood_terms::{self, LikelihoodTerms};
 
 pub use super::tof_top::slot::SlotIn as In;
+use super::tof_top::status_code::StatusCode;
 
 states! {
     /// States of the estimator.
@@ -89,6 +90,9 @@ signals! {
         pub chi_square: U<35>,
         /// The status says nothing against the depth.
         pub valid: bool,
+        /// What a host can rely on.
+        #[view(heading = "Estimator", probe = true)]
+        pub code: StatusCode,
         /// The depth is ready; one cycle.
         pub algo_done: bool,
         /// Depth of the second target, 0 without one.

@@ -86,6 +86,9 @@ signals! {
         /// Its exposure [shots units].
         #[size(ExposureBits)]
         pub block_exposure: Exposure,
+        /// Shots that are left; between a load and the next one, those that the histogram does not count.
+        #[size(CountBits)]
+        pub left: Count,
         /// The word is a bin of the pass.
         pub word_bin: bool,
         /// The word stands for all other bins.
@@ -128,9 +131,6 @@ signals! {
         /// Shots that waited.
         #[size(CountBits)]
         taken_waiting: Count,
-        /// Shots that are left.
-        #[size(CountBits)]
-        left: Count,
         /// Its exposure is begun.
         begun: bool,
         /// Of this bin.

@@ -8,6 +8,7 @@ use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_builder::{Bin, Count};
 use crate::firmware::tdc_calibration::Place;
 use crate::firmware::tof_top::slot::{Sigma, StatusBits};
+use crate::firmware::tof_top::status_code::StatusCode;
 use crate::firmware::vcsel_driver::Rate;
 use crate::kernel::U;
 use crate::{module_of_registers, signals};
@@ -74,6 +75,8 @@ signals! {
         pub status: StatusBits,
         /// There are none.
         pub valid: bool,
+        /// What a host can rely on.
+        pub code: StatusCode,
     }
 }
 
@@ -139,6 +142,8 @@ signals! {
         pub(crate) frame_status: StatusBits,
         /// There are none.
         pub(crate) frame_valid: bool,
+        /// What a host can rely on.
+        pub(crate) frame_code: StatusCode,
         /// Counts are set to zero.
         pub(crate) clearing: bool,
         /// Which one.
@@ -276,7 +281,7 @@ impl Registers {
         if i.frame_done && !q.hold {
             (d.bank, d.frame) = (!q.bank, q.frames + 1);
             (d.frame_depth, d.frame_sigma) = (i.depth, i.sigma);
-            (d.frame_status, d.frame_valid) = (i.status, i.valid);
+            (d.frame_status, d.frame_valid, d.frame_code) = (i.status, i.valid, i.code);
         }
     }
 }

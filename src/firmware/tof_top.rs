@@ -37,6 +37,7 @@ pub mod slot;
 pub mod slot_inputs;
 pub mod slotted;
 pub mod status;
+pub mod status_code;
 
 use channel::Channel;
 pub use estimators::FirmwareEstimator;
@@ -116,6 +117,7 @@ connect! {
         wire [bank, row] <- this.frame_ctrl;
         wire [pre_start, start] <- this.vcsel_driver.registers;
         wire [read_en, read_addr] <- this.slot;
+        wire code <- this.slot.words;
         output laser_on_lvds_p <- this.lvds_output.o;
         output laser_on_lvds_n <- this.lvds_output.ob;
         output ring_on <- this.tdc_calibration.registers.ring_on;
@@ -235,7 +237,7 @@ connect! {
         hist_bin <- this.slot.read_addr;
         hist_count <- this.nets.count;
         frame_done <- this.frame_ctrl.frame_done;
-        [depth, sigma, status, valid] <- this.slot.words;
+        [depth, sigma, status, valid, code] <- this.slot.words;
     }
     laser_guard(clk_sys, clk_laser): laser_guard::In {
         rst <- this.reset_sync_sys.rst_sync;

@@ -6,9 +6,10 @@ use std::time::Instant;
 use tofsim::error::{Input, Result, poll_stop};
 use tofsim::firmware::forward2::Depth;
 use tofsim::firmware::registers::map::{
-    FRAME, FRAMES, FRAMES_PERMITTED, HISTOGRAM, HITS, HOLD, SHOTS, STATUS_BITS,
+    ESTIMATE_CODE, FRAME, FRAMES, FRAMES_PERMITTED, HISTOGRAM, HITS, HOLD, SHOTS, STATUS_BITS,
 };
 use tofsim::firmware::tof_top::slot::{EstimateWords, SecondWords};
+use tofsim::firmware::tof_top::status_code::StatusCode;
 use tofsim::kernel::U;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
@@ -16,8 +17,8 @@ use tofsim::sim::setup::Setup;
 use crate::board::Board;
 use crate::names::set_bits;
 
-/// Words from `hold` to `estimate_valid`.
-const RESULT_WORDS: usize = 8;
+/// Words from `hold` to `estimate_code`.
+const RESULT_WORDS: usize = (ESTIMATE_CODE.address - HOLD.address) as usize + 1;
 
 impl Board {
     /// Begins a series of frames: none is permitted, none is held. Returns the number of the last finished one plus
@@ -115,6 +116,7 @@ impl Board {
                 sigma: U::new(wide(words[4], words[5])),
                 status: U::new(words[6].into()),
                 valid: words[7] == 1,
+                code: StatusCode::of_number(words[RESULT_WORDS - 1].into()),
                 // The registers hold the first target alone.
                 second: SecondWords::default(),
             },

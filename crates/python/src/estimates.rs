@@ -101,8 +101,10 @@ fn columns<'py, 'a>(
     found.set_item("sigma_m", metres(|one| one.sigma_m))?;
     let valid = estimates.clone().map(|one| one.valid).collect();
     found.set_item("valid", PyArray1::<bool>::from_vec(py, valid))?;
-    let status: Vec<_> = estimates.map(|one| one.status.words()).collect();
+    let status: Vec<_> = estimates.clone().map(|one| one.status.words()).collect();
     found.set_item("status", status)?;
+    let code: Vec<_> = estimates.map(|one| one.code.word()).collect();
+    found.set_item("code", code)?;
     Ok(found)
 }
 

@@ -98,6 +98,12 @@ impl Frame {
         self.estimate.status.words()
     }
 
+    /// What a host can rely on; `not stated` from an estimator without a status.
+    #[getter]
+    fn code(&self) -> &'static str {
+        self.estimate.code.word()
+    }
+
     /// Depth of the second target, if the firmware has found one [m].
     #[getter]
     fn second_depth_m(&self) -> Option<f64> {

@@ -11,7 +11,7 @@ use super::glass::{Glass, MOST_LIGHT};
 use super::pulse::{PulseWord, step_log2, words};
 use super::targets::Targets;
 pub use super::unfit::Unfit;
-use super::words::{DEPTH_FRACTION, UNITS};
+use super::words::{DEPTH_FRACTION, LEAST_LEFT_LOG2, UNITS};
 
 /// The box, in deviations of the pulse: the part of a Gaussian in it is 0.84.
 const BOX_SIGMA: f64 = 2.8;
@@ -131,6 +131,12 @@ impl fmt::Debug for Params {
 }
 
 impl Params {
+    /// Returns the shots that have to be left at the end of the window for the absence of an echo to show that there is
+    /// no target.
+    pub fn least_left(&self) -> u64 {
+        self.shots >> LEAST_LEFT_LOG2
+    }
+
     /// For a histogram of bins of 25 ps and a pulse as long as one of them: fits into any, and is what an
     /// instrument has that the estimator is not for.
     pub fn stand_in(histogram: histogram_builder::Params) -> Self {

@@ -2,6 +2,7 @@
 
 use crate::firmware::forward2::Depth;
 use crate::firmware::tof_top::status::{Status, StatusSet};
+use crate::firmware::tof_top::status_code::{CodeConditions, StatusCode};
 use crate::kernel::U;
 
 use super::params::Params;
@@ -135,9 +136,7 @@ impl LikelihoodEstimator {
         let unsure = flag(1) && d.start_score.get() < SURE_SCORE;
         let faint = flag(0) && d.start_score.get() < CERTAIN_SCORE;
         let no_echo = unsure || faint || flag(2) || d.start_score.get() < LEAST_SCORE;
-        let glass = solver.glass.get() as i64;
-        let [least, most] = p.glass.limits();
-        let has_changed = p.glass.bins() > 0 && (glass < least || glass > most);
+        let has_changed = self.has_changed(p);
         let reasons = [
             (no_echo, Status::NoEcho),
             (flag(3) || flag(4), Status::CutOff),
@@ -147,12 +146,27 @@ impl LikelihoodEstimator {
             (self.likelihood_sums.far || has_changed, Status::NoFit),
             (d.unarmed, Status::Unarmed),
         ];
-        d.status = U::new(StatusSet::of(&reasons).bits().into());
+        let status = StatusSet::of(&reasons);
+        d.status = U::new(status.bits().into());
         d.valid = d.status == 0;
+        d.code = StatusCode::of(status, self.conditions(p, has_changed));
         // An arrival counts from the laser edge, a depth from where the light leaves.
         (d.depth, d.sigma) = (Depth::new(solver.depth.get() - p.delay), solver.sigma);
         d.chi_square = self.likelihood_sums.chi_square;
         (d.algo_done, d.scan, d.state) = (true, false, State::Idle);
+    }
+
+    /// Returns the conditions of a code with one target.
+    pub(super) fn conditions(&self, p: &Params, has_changed: bool) -> CodeConditions {
+        let left = self.likelihood_memory.registers.left.get();
+        CodeConditions { is_blind: left < p.least_left(), has_changed, has_second: false }
+    }
+
+    /// Returns whether the cover glass's light is beyond what the calibration holds for.
+    pub(super) fn has_changed(&self, p: &Params) -> bool {
+        let glass = self.likelihood_solver.registers.glass.get() as i64;
+        let [least, most] = p.glass.limits();
+        p.glass.bins() > 0 && (glass < least || glass > most)
     }
 }
 

@@ -45,7 +45,7 @@ impl SlotEstimator for LikelihoodEstimator {
     fn outputs(&self) -> SlotOut {
         let memory = &self.likelihood_memory.registers;
         let (read_en, read_addr) = (memory.read_en, memory.read_addr);
-        let Registers { depth, sigma, status, valid, algo_done, .. } = self.registers;
+        let Registers { depth, sigma, status, valid, code, algo_done, .. } = self.registers;
         let Registers { second_depth, second_sigma, second_strength, .. } = self.registers;
         let Registers { second_status, second_valid, .. } = self.registers;
         let second = SecondWords {
@@ -55,7 +55,7 @@ impl SlotEstimator for LikelihoodEstimator {
             second_status,
             second_valid,
         };
-        let words = EstimateWords { depth, sigma, status, valid, second };
+        let words = EstimateWords { depth, sigma, status, valid, code, second };
         SlotOut { read_en, read_addr, words, algo_done }
     }
 

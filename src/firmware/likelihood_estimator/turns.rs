@@ -2,6 +2,7 @@
 
 use crate::firmware::forward2::Depth;
 use crate::firmware::tof_top::status::{Status, StatusSet};
+use crate::firmware::tof_top::status_code::StatusCode;
 use crate::kernel::{S, U};
 
 use super::params::Params;
@@ -110,9 +111,10 @@ impl LikelihoodEstimator {
             _ => own.depth.get() <= other.depth.get(),
         };
         let [first, second] = if is_first { [own, other] } else { [other, own] };
+        let has_changed = self.has_changed(p);
         let of_both = [
             (is_another, Status::Another),
-            (self.likelihood_sums.far || self.has_changed(p), Status::NoFit),
+            (self.likelihood_sums.far || has_changed, Status::NoFit),
             (d.unarmed, Status::Unarmed),
         ];
         let word = |echo: &Echo| {
@@ -120,11 +122,14 @@ impl LikelihoodEstimator {
             U::new(StatusSet::of(&reasons).bits().into())
         };
         let delayed = |depth: S<36, 29>| Depth::new(depth.get() - p.delay);
+        let mut conditions;
         if are_two {
             (d.depth, d.sigma, d.status) = (delayed(first.depth), first.sigma, word(&first));
             (d.second_depth, d.second_sigma) = (delayed(second.depth), second.sigma);
             (d.second_strength, d.second_status) = (second.strength, word(&second));
             d.chi_square = self.likelihood_sums.chi_square;
+            conditions = self.conditions(p, has_changed);
+            conditions.has_second = true;
         } else {
             let is_split = drop > LEAST_DROP || drop > HINT && apart < NEAR * p.sigma;
             (d.depth, d.sigma) = (delayed(q.alone_depth), q.alone_sigma);
@@ -132,7 +137,9 @@ impl LikelihoodEstimator {
             (d.second_depth, d.second_sigma) = Default::default();
             (d.second_strength, d.second_status) = Default::default();
             d.chi_square = q.alone_chi;
+            conditions = self.conditions(p, q.alone_changed);
         }
+        d.code = StatusCode::of(d.status.into(), conditions);
         (d.valid, d.second_valid) = (d.status == 0, are_two && d.second_status == 0);
         (d.algo_done, d.scan, d.state) = (true, false, State::Idle);
     }
@@ -154,12 +161,5 @@ impl LikelihoodEstimator {
             (q.unarmed, Status::Unarmed),
         ];
         U::new(StatusSet::of(&reasons).bits().into())
-    }
-
-    /// Returns whether the cover glass's light is beyond what the calibration holds for.
-    fn has_changed(&self, p: &Params) -> bool {
-        let glass = self.likelihood_solver.registers.glass.get() as i64;
-        let [least, most] = p.glass.limits();
-        p.glass.bins() > 0 && (glass < least || glass > most)
     }
 }

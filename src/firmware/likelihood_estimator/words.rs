@@ -60,6 +60,9 @@ pub const STEPS: usize = 6;
 pub const GLASS_STEPS: usize = 2;
 /// Shots that have to wait at the fit's first bin.
 pub const LEAST_WAITING: u64 = 32;
+/// Part of the shots that has to be left at the end of the window for the absence of an echo to show that there is no
+/// target: a 64th.
+pub const LEAST_LEFT_LOG2: u32 = 6;
 /// Score of the box that an echo has at least, 64 log2 of 25 squared deviations.
 pub const LEAST_SCORE: i64 = 297;
 /// Score of one that is sure, of 100.

@@ -83,6 +83,8 @@ registers! {
     DENSITY_CLEAR = "density_clear", 0x020, 1, writable;
     /// Hits counted in the code density; it stops at 2^32 - 1.
     DENSITY_HITS = "density_hits", 0x021, 1;
+    /// What a host can rely on, a number of the table of status codes.
+    ESTIMATE_CODE = "estimate_code", 0x022, 1;
 }
 
 /// Value of [`IDENTITY`].

@@ -1,6 +1,7 @@
 //! The word that the host reads.
 
 use crate::kernel::U;
+use crate::kernel::signals::Word;
 
 use super::{In, Params, RegisterFile, Registers, map};
 
@@ -60,6 +61,7 @@ impl Registers {
             map::SIGMA => q.frame_sigma.get(),
             map::ESTIMATE_STATUS => q.frame_status.get(),
             map::ESTIMATE_VALID => q.frame_valid.into(),
+            map::ESTIMATE_CODE => q.frame_code.bits(),
             map::DENSITY_CLEAR => q.clearing.into(),
             map::DENSITY_HITS => q.density_hits.get(),
             _ => 0,

@@ -8,6 +8,8 @@ use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::kernel::{U, scan};
 use crate::signals;
 
+use super::status_code::StatusCode;
+
 /// Standard deviation of a depth, with as many fraction bits as the depth word [2^-29 m].
 pub type Sigma = U<36>;
 /// Status word: each bit a reason to reject the depth (see [`Status`](super::status::Status)).
@@ -74,6 +76,8 @@ pub struct EstimateWords {
     pub status: StatusBits,
     /// The status has no reason to reject the depth; low from an estimator that states none.
     pub valid: bool,
+    /// What a host can rely on, in one word; 0 from an estimator that states no status.
+    pub code: StatusCode,
     /// The second target; all 0 without one.
     pub second: SecondWords,
 }

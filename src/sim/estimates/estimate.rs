@@ -7,6 +7,7 @@ use crate::firmware::likelihood_estimator::words::SIGNAL_FRACTION;
 use crate::firmware::tof_top::FirmwareEstimator;
 use crate::firmware::tof_top::slot::{DepthM, EstimateWords, SecondWords, SigmaM};
 use crate::firmware::tof_top::status::StatusSet;
+use crate::firmware::tof_top::status_code::StatusCode;
 
 /// Result of an estimator for a histogram.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -24,6 +25,9 @@ pub struct Estimate {
     pub valid: bool,
     /// Reasons to reject the depth, in words; empty if there are none.
     pub status: StatusSet,
+    /// What a host can rely on, from the firmware's likelihood estimator.
+    #[serde(skip_serializing_if = "StatusCode::is_unstated")]
+    pub code: StatusCode,
     /// Sum of squared residuals over their variances, about one a bin of the fit [1].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_square: Option<f64>,
@@ -99,6 +103,7 @@ impl Estimate {
             sigma_m: None,
             valid: depth_m.is_some(),
             status: StatusSet::default(),
+            code: StatusCode::Unstated,
             chi_square: None,
             second: None,
             pedestal: None,
@@ -114,9 +119,21 @@ impl Estimate {
             sigma_m: states.then(|| words.sigma_m().to_num()),
             valid: words.valid || !states,
             status: words.status.into(),
+            code: words.code,
             second: EchoDepth::of_words(&words.second),
             ..Estimate::of_depth(estimator.estimator(), Some(depth.to_num()))
         }
+    }
+
+    /// Returns why the depth is rejected: the code, if the estimator states one, and the reasons; `None` if it is valid.
+    pub fn rejection(&self) -> Option<String> {
+        let (code, reasons) = (self.code, self.status.to_string());
+        let text = if code.is_unstated() || code.word() == reasons {
+            reasons
+        } else {
+            format!("{} ({reasons})", code.word())
+        };
+        (!self.valid).then_some(text)
     }
 }
 
@@ -141,7 +158,8 @@ mod tests {
     fn an_estimate_has_what_its_words_state() {
         let status = U::new((Status::CutOff.bit() | Status::NoFit.bit()).into());
         let (depth, sigma) = (Depth::new(0x1013_c199), U::new(1 << 19));
-        let words = EstimateWords { depth, sigma, status, ..EstimateWords::default() };
+        let code = StatusCode::CutOff;
+        let words = EstimateWords { depth, sigma, status, code, ..EstimateWords::default() };
         let json = |words| {
             serde_json::to_value(Estimate::of_words(FirmwareEstimator::LikelihoodEstimator, words))
         };
@@ -152,9 +170,14 @@ mod tests {
             "sigma_m": 2f64.powi(-10),
             "valid": false,
             "status": ["cut off by the window", "no fit"],
+            "code": "cut off by the window",
         });
         assert_eq!(json(&words).unwrap(), expected);
-        let clear = EstimateWords { status: U::new(0), valid: true, ..words };
+        let estimate = Estimate::of_words(FirmwareEstimator::LikelihoodEstimator, &words);
+        let text = "cut off by the window (cut off by the window, no fit)";
+        assert_eq!(estimate.rejection().as_deref(), Some(text));
+        let code = StatusCode::Valid;
+        let clear = EstimateWords { status: U::new(0), valid: true, code, ..words };
         let found = json(&clear).unwrap();
         assert_eq!((&found["valid"], &found["status"]), (&true.into(), &serde_json::json!([])));
     }

@@ -97,7 +97,7 @@ pub fn trace<I: Instrument>(p: &I, histogram: &[u32]) -> Trace<I::Number> {
     } else {
         scan(p, &shots, &Point::dark(point.ambient, point.glass), p.window(point.arrival))
     };
-    let with = |Judged { found, flags, waiting }, turns| Trace {
+    let with = |Judged { found, flags, waiting, .. }, turns| Trace {
         ambient,
         start,
         begin,

@@ -48,8 +48,5 @@ pub fn table(setup: &Setup, log: &FrameLog) -> String {
 
 /// Returns the status in words.
 fn status(estimate: &Estimate) -> String {
-    match estimate.status.is_empty() {
-        true => "-".to_owned(),
-        false => estimate.status.words().join("; "),
-    }
+    estimate.rejection().unwrap_or_else(|| "-".to_owned())
 }

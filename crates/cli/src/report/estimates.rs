@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use tofsim::firmware::tof_top::status_code::StatusCode;
 use tofsim::network::Network;
 use tofsim::sim::estimates::{Estimate, digits};
 use tofsim_learn::estimation::EstimatorKind;
@@ -139,10 +140,11 @@ fn rows_table(rows: &[Row], several: bool) -> String {
 fn in_word(estimate: &Estimate) -> String {
     if let Some(failure) = &estimate.failure {
         failure.clone()
-    } else if !estimate.status.is_empty() {
-        estimate.status.to_string()
+    } else if let Some(why) = estimate.rejection() {
+        why
     } else if estimate.sigma_m.is_some() {
-        "valid".to_owned()
+        let code = if estimate.code.is_unstated() { StatusCode::Valid } else { estimate.code };
+        code.word().to_owned()
     } else {
         "-".to_owned()
     }

@@ -229,8 +229,8 @@ pub fn in_words(estimate: &Estimate, truth: Option<TrueDepths>) -> String {
     if let Some(sigma_m) = estimate.sigma_m {
         text += &format!("  {}, sd {sigma_m:.6} m", estimate.estimator);
     }
-    if !estimate.valid {
-        text += &format!(", rejected: {}", estimate.status);
+    if let Some(why) = estimate.rejection() {
+        text += &format!(", rejected: {why}");
     }
     if let Some(second) = &estimate.second {
         text += &format!(", second target {:.6} m", second.depth_m);

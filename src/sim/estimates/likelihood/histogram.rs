@@ -79,6 +79,16 @@ impl<'a, N: Number> Shots<'a, N> {
         self.waiting[bin]
     }
 
+    /// Shots that are left at the end of the window.
+    pub fn left(&self) -> N {
+        match (self.waiting.last(), self.ended.last()) {
+            (Some(&waiting), Some(&ended)) if waiting > N::whole(ended.into()) => {
+                waiting - N::whole(ended.into())
+            }
+            _ => N::default(),
+        }
+    }
+
     /// Number of bins.
     pub fn bins(&self) -> usize {
         self.ended.len()

@@ -4,6 +4,7 @@ use crate::firmware::likelihood_estimator::targets::{
     HINT, LEAST_APART, LEAST_DROP, NEAR, TURNS, Targets,
 };
 use crate::firmware::tof_top::status::Status;
+use crate::firmware::tof_top::status_code::{CodeConditions, StatusCode};
 
 use super::histogram::Shots;
 use super::instrument::Instrument;
@@ -65,7 +66,8 @@ pub fn find<I: Instrument>(
         let is_split = is_lower || drop > whole(HINT) && apart < whole(NEAR) * sigma;
         let status =
             if is_split { one.found.status.with(Status::Another) } else { one.found.status };
-        return (Judged { found: Found { status, ..one.found }, ..one }, turns);
+        let code = StatusCode::of(status, one.conditions);
+        return (Judged { found: Found { status, code, ..one.found }, ..one }, turns);
     }
     let is_first = match p.words().targets {
         Targets::StrongestFirst => point.signal >= other_echo.signal,
@@ -79,6 +81,9 @@ pub fn find<I: Instrument>(
     let without_score = |found: &Found<I::Number>| found.status.without(Status::NoEcho);
     let Found { depth, sigma, .. } = second.found;
     let second = Second { depth, sigma, signal, status: without_score(&second.found) };
-    let found = Found { status: without_score(&first.found), second: Some(second), ..first.found };
-    (Judged { found, flags: one.flags, waiting: one.waiting }, turns)
+    let status = without_score(&first.found);
+    let conditions = CodeConditions { has_second: true, ..first.conditions };
+    let code = StatusCode::of(status, conditions);
+    let found = Found { status, code, second: Some(second), ..first.found };
+    (Judged { found, flags: one.flags, waiting: one.waiting, conditions }, turns)
 }

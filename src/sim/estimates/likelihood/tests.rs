@@ -29,6 +29,7 @@ fn step(block: &mut LikelihoodEstimator, p: &Params, histogram: &[u32]) -> (Foun
         depth: now.depth.get(),
         sigma: now.sigma.get() as i64,
         status: now.status.into(),
+        code: now.code,
         chi_square: now.chi_square.get() as i64,
         second: second(now),
     };

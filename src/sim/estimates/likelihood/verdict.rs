@@ -7,6 +7,7 @@ use crate::firmware::likelihood_estimator::words::{
 };
 use crate::firmware::tof_top::slot::{EstimateWords, SecondWords};
 use crate::firmware::tof_top::status::{Status, StatusSet};
+use crate::firmware::tof_top::status_code::{CodeConditions, StatusCode};
 use crate::kernel::U;
 
 use super::histogram::Shots;
@@ -30,6 +31,8 @@ pub struct Found<N = i64> {
     pub sigma: N,
     /// Reasons to reject it: the firmware's status word.
     pub status: StatusSet,
+    /// What a host can rely on.
+    pub code: StatusCode,
     /// Sum of squared residuals over their variances, 8 fraction bits [1].
     pub chi_square: N,
     /// The second target, if there are two.
@@ -57,6 +60,7 @@ impl Found {
             sigma: U::new(self.sigma as u64),
             status: U::new(self.status.bits().into()),
             valid: self.status.is_empty(),
+            code: self.code,
             second: self.second.map(|second| second.words()).unwrap_or_default(),
         }
     }
@@ -118,6 +122,8 @@ pub struct Judged<N> {
     pub flags: [bool; 7],
     /// Shots that wait at the first bin of the fit, if it has one.
     pub waiting: Option<N>,
+    /// Conditions of the code, without a second target.
+    pub conditions: CodeConditions,
 }
 
 /// Computes the result of an estimation.
@@ -176,14 +182,18 @@ pub fn verdict<I: Instrument>(
         (cut > 0 || to_left || to_right, Status::NotSettled),
         (far || has_changed, Status::NoFit),
     ];
+    let is_blind = shots.left() < whole(p.words().least_left() as i64);
+    let conditions = CodeConditions { is_blind, has_changed, has_second: false };
+    let status = StatusSet::of(&reasons);
     let found = Found {
         depth: to_depth(last.arrival) - scales.delay,
         sigma: to_depth(sigma),
-        status: StatusSet::of(&reasons),
+        status,
+        code: StatusCode::of(status, conditions),
         chi_square: chi_square.fold(whole(0), |sum, term| sum + term),
         second: None,
     };
-    Judged { found, flags, waiting }
+    Judged { found, flags, waiting, conditions }
 }
 
 /// A score: its word, or 64 log2 of the squared deviations that it stands for.

@@ -39,9 +39,10 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
 }
 
 fn row(frame: &Frame, laser: LaserState) -> String {
-    let Estimate { sigma_m, status, .. } = frame.estimate();
+    let estimate = frame.estimate();
+    let Estimate { sigma_m, .. } = estimate;
     let sigma = sigma_m.map_or("-".to_owned(), |sigma_m| fixed(1e3 * sigma_m, 3));
-    let status = list(&status.words());
+    let status = estimate.rejection().unwrap_or_else(|| "-".to_owned());
     let (depth, hits) = (fixed(frame.depth_m(), 6), grouped(frame.hits()));
     line([&frame.index.to_string(), &depth, &sigma, &hits, &status, &list(&laser.faults())])
 }
