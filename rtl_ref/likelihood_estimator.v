@@ -194,9 +194,6 @@ module likelihood_estimator #(
     wire no_fit = far || changed;
     wire no_echo = unsure || faint || flags[2] || start_score < 14'sd297;
 
-    wire [6:0] own_reasons = {unarmed, no_fit, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
-                              flags[3] || flags[4], no_echo};
-
     // A fit without an echo is the first, and those that follow it
     wire unlit = Glass && (state == Ambient || state == Step && dark);
 
@@ -228,17 +225,19 @@ module likelihood_estimator #(
     wire last_end = !HasSecond || paired && turns == Turns;
 
     // What a host can rely on: the first that applies.
-    wire [6:0] reasons = HasSecond ? first_status : own_reasons;
+    wire [6:0] status_next = HasSecond ? first_status
+        : {unarmed, no_fit, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up, flags[3] || flags[4],
+           no_echo};
     wire blind = left < LeastLeft, code_changed = HasSecond && !are_two ? alone_changed : changed;
-    wire [3:0] code_next = reasons[6] ? NotArmed
-        : reasons[0] && blind ? AmbientTooHigh
+    wire [3:0] code_next = status_next[6] ? NotArmed
+        : status_next[0] && blind ? AmbientTooHigh
         : code_changed ? PedestalChanged
-        : reasons[0] ? NoTarget
-        : reasons[2] ? Saturated
-        : reasons[1] ? CutOff
-        : reasons[3] ? AnotherEcho
-        : reasons[4] ? NotSettled
-        : reasons[5] ? NoFit
+        : status_next[0] ? NoTarget
+        : status_next[2] ? Saturated
+        : status_next[1] ? CutOff
+        : status_next[3] ? AnotherEcho
+        : status_next[4] ? NotSettled
+        : status_next[5] ? NoFit
         : HasSecond && are_two ? ValidSecond : Valid;
 
     // begin_pass: 1 a fit, 2 a scan; begin_program: its entry
@@ -351,8 +350,8 @@ module likelihood_estimator #(
                 depth <= (!are_two ? alone_depth : own_first ? solved_depth : other_depth)
                     - $signed({4'd0, LaserDelay});
                 sigma <= !are_two ? alone_sigma : own_first ? solved_sigma : other_sigma;
-                status <= first_status;
-                valid <= first_status == 7'd0;
+                status <= status_next;
+                valid <= status_next == 7'd0;
                 code <= code_next;
                 chi_square <= are_two ? sum_chi : alone_chi;
                 second_depth <= !are_two ? 36'sd0
@@ -368,8 +367,8 @@ module likelihood_estimator #(
                 depth <= solved_depth - $signed({4'd0, LaserDelay});
                 sigma <= solved_sigma;
                 chi_square <= sum_chi;
-                status <= own_reasons;
-                valid <= own_reasons == 7'd0;
+                status <= status_next;
+                valid <= status_next == 7'd0;
                 code <= code_next;
                 scan <= 1'b0;
             end

@@ -9,10 +9,13 @@ use rayon::prelude::*;
 use tofsim::network::Histogram;
 use tofsim::scenario;
 use tofsim::scenario::glass::{GlassTemplate, HEADER};
+use tofsim::sim::estimates::Estimate;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::calibration::glass::GlassCalibration;
 use tofsim_learn::estimation::Acquisition;
+
+mod codes;
 
 /// Illumination by the sun [klux].
 const KLUX: [u32; 4] = [0, 25, 50, 100];
@@ -21,19 +24,23 @@ const DISTANCES_M: [f64; 4] = [0.1, 0.3, 0.6, 0.8];
 /// From the nearer of two targets to the other one [m].
 const APART_M: f64 = 0.25;
 const GLASS: [&str; 2] = ["cover.fraction=1.3e-4", "laser.delay_ps=600"];
+/// Dirt makes the window's light four times as strong.
+const DIRT: &str = "cover.fraction=5.2e-4";
 
 /// What the estimator looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Scene {
     Target,
     BehindGlass,
+    /// A target behind glass that has become dirty since its calibration.
+    BehindDirt,
     /// A net before the target, with so many targets looked for.
     Net(u8),
     Nothing,
     GlassAlone,
 }
 
-use Scene::{BehindGlass, GlassAlone, Net, Nothing, Target};
+use Scene::{BehindDirt, BehindGlass, GlassAlone, Net, Nothing, Target};
 
 /// Frames of a kind of scene.
 #[derive(Clone, Copy, Debug, Default)]
@@ -83,13 +90,12 @@ fn text(template: &GlassTemplate) -> String {
     text
 }
 
-/// Counts the depths of a scene.
-fn tally(
+/// Returns the setup of a scene at an illumination, a reflectance and a distance, and the distances of its targets.
+fn scene_setup(
     scene: Scene,
     [klux, reflectance, distance_m]: [f64; 3],
     template: &Path,
-    frames: u64,
-) -> Tally {
+) -> (Setup, Vec<f64>) {
     let near_m = distance_m - APART_M;
     let mut keys = vec![
         "estimator.kind=likelihood".to_owned(),
@@ -99,7 +105,7 @@ fn tally(
         format!("target.distance_m={distance_m}"),
     ];
     let mut truths_m = vec![distance_m];
-    if matches!(scene, BehindGlass | GlassAlone) {
+    if matches!(scene, BehindGlass | BehindDirt | GlassAlone) {
         keys.extend(GLASS.map(str::to_owned));
         keys.push(format!("estimator.glass_file={:?}", template.display().to_string()));
     }
@@ -115,16 +121,25 @@ fn tally(
             keys.push(format!("target.second_reflectance={reflectance}"));
             keys.push(format!("estimator.targets={targets}"));
         }
+        BehindDirt => keys.push(DIRT.to_owned()),
         Target | BehindGlass => {}
     }
-    let setup = setup(&keys);
+    (setup(&keys), truths_m)
+}
+
+/// Returns by how many of its sigmas a depth is off the nearest target.
+fn off(estimate: &Estimate, truths_m: &[f64]) -> f64 {
+    let off_m = truths_m.iter().map(|truth_m| (estimate.depth_m.unwrap() - truth_m).abs());
+    off_m.fold(f64::INFINITY, f64::min) / estimate.sigma_m.unwrap()
+}
+
+/// Counts the depths of a scene.
+fn tally(scene: Scene, at: [f64; 3], template: &Path, frames: u64) -> Tally {
+    let (setup, truths_m) = scene_setup(scene, at, template);
     let drawn = Histograms::new(&setup).unwrap();
     let count = |index| {
-        let frame = drawn.frame(index);
-        let found = frame.estimate();
-        let sigma_m = found.sigma_m.unwrap();
-        let off_m = truths_m.iter().map(|truth_m| (found.depth_m.unwrap() - truth_m).abs());
-        let off = off_m.fold(f64::INFINITY, f64::min) / sigma_m;
+        let found = drawn.frame(index).estimate();
+        let off = off(&found, &truths_m);
         let off = [3.0, 6.0].map(|most| usize::from(found.valid && off > most));
         Tally { frames: 1, valid: usize::from(found.valid), off }
     };
