@@ -226,8 +226,8 @@ module likelihood_estimator #(
 
     // What a host can rely on: the first that applies.
     wire [6:0] status_next = HasSecond ? first_status
-        : {unarmed, no_fit, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up, flags[3] || flags[4],
-           no_echo};
+        : {unarmed, no_fit, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
+           flags[3] || flags[4], no_echo};
     wire blind = left < LeastLeft, code_changed = HasSecond && !are_two ? alone_changed : changed;
     wire [3:0] code_next = status_next[6] ? NotArmed
         : status_next[0] && blind ? AmbientTooHigh
@@ -346,13 +346,16 @@ module likelihood_estimator #(
             end
             if (HasSecond && state == End && ran && paired && !last_end)
                 {other_depth, other_sigma, other_flags, other_cut} <= {solved_depth, solved_sigma, flags, cut != 6'd0};
+            if (state == End && ran && last_end) begin
+                status <= status_next;
+                valid <= status_next == 7'd0;
+                code <= code_next;
+                scan <= 1'b0;
+            end
             if (HasSecond && state == End && ran && last_end) begin
                 depth <= (!are_two ? alone_depth : own_first ? solved_depth : other_depth)
                     - $signed({4'd0, LaserDelay});
                 sigma <= !are_two ? alone_sigma : own_first ? solved_sigma : other_sigma;
-                status <= status_next;
-                valid <= status_next == 7'd0;
-                code <= code_next;
                 chi_square <= are_two ? sum_chi : alone_chi;
                 second_depth <= !are_two ? 36'sd0
                     : (own_first ? other_depth : solved_depth) - $signed({4'd0, LaserDelay});
@@ -360,17 +363,12 @@ module likelihood_estimator #(
                 second_strength <= !are_two ? 24'd0 : own_first ? other_strength : strength;
                 second_status <= are_two ? later_status : 7'd0;
                 second_valid <= are_two && later_status == 7'd0;
-                scan <= 1'b0;
             end
             if (!HasSecond && state == End && ran) begin
                 // An arrival counts from the laser edge, a depth from where the light leaves.
                 depth <= solved_depth - $signed({4'd0, LaserDelay});
                 sigma <= solved_sigma;
                 chi_square <= sum_chi;
-                status <= status_next;
-                valid <= status_next == 7'd0;
-                code <= code_next;
-                scan <= 1'b0;
             end
         end
     end

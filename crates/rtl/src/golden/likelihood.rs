@@ -7,6 +7,7 @@
 
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::likelihood_estimator::{In, LikelihoodEstimator, State};
+use tofsim::firmware::tof_top::status::Status;
 use tofsim::kernel::U;
 use tofsim::sim::setup::Setup;
 
@@ -58,6 +59,7 @@ pub struct Estimations<'a> {
     modes: Cover,
     limits: Cover,
     pairs: Cover,
+    blind: Cover,
 }
 
 impl<'a> Estimations<'a> {
@@ -88,6 +90,10 @@ impl<'a> Estimations<'a> {
                 "sides of a limit",
                 if cuts && !has_second { 2 * least..2 * KINDS } else { 0..0 },
             ),
+            blind: Cover::new(
+                "shots left at the end of a dark window, just enough and too few",
+                if cuts { 0..2 } else { 0..0 },
+            ),
             pairs: Cover::new(
                 "fates of two echoes",
                 if cuts && has_second { 0..FATES } else { 0..0 },
@@ -109,6 +115,10 @@ impl<'a> Estimations<'a> {
         if block.registers.algo_done {
             self.seen.see(u64::from(!block.registers.valid));
             self.modes.see(block.registers.status.get() >> 6);
+            let (left, least) =
+                (block.likelihood_memory.registers.left.get(), self.params.least_left());
+            let is_dark = block.registers.status.get() & u64::from(Status::NoEcho.bit()) != 0;
+            self.blind.see_if(is_dark && left.abs_diff(least) <= 1, u64::from(left < least));
         }
         let idle = block.state() == State::Idle;
         let algo_start = draw.one_in(if idle { 3 } else { 64 }) && (idle || !self.leads);
@@ -220,8 +230,8 @@ impl<'a> Estimations<'a> {
     }
 
     /// Returns the coverage.
-    pub fn coverage(self) -> [Cover; 6] {
-        [self.starts, self.resets, self.seen, self.modes, self.limits, self.pairs]
+    pub fn coverage(self) -> [Cover; 7] {
+        [self.starts, self.resets, self.seen, self.modes, self.limits, self.blind, self.pairs]
     }
 }
 

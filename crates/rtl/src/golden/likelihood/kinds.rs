@@ -11,7 +11,8 @@ pub(super) const USED_UP: u64 = 6;
 pub(super) const RISING: u64 = 7;
 pub(super) const FALLING: u64 = 8;
 pub(super) const ODD: u64 = 9;
-pub(super) const EMPTY: u64 = 10;
+/// Without an echo, on either side of the least number of shots that are left at the end of the window.
+pub(super) const DARK: u64 = 10;
 pub(super) const UNARMED: u64 = 11;
 /// On either side of a limit: the least score of any echo, the least of an unsure one, the highest of another, the least
 /// shots that wait, the least score of an echo whose signal is uncertain.

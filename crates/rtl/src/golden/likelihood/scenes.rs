@@ -22,7 +22,7 @@ impl Estimations<'_> {
             CERTAIN => {
                 (0..SHAKES).fold(self.used_up(6, draw), |counts, _| Self::moved(&counts, draw))
             }
-            EMPTY => vec![0; self.params.histogram.bins],
+            DARK => self.dark(self.params.least_left() - self.begun % 2),
             kind => self.drawn(kind, draw),
         }
     }
@@ -124,6 +124,17 @@ impl Estimations<'_> {
             now
         };
         (0..bins).map(count).collect()
+    }
+
+    /// Ambient light without fluctuations that leaves so many shots at the end of the window.
+    fn dark(&self, left: u64) -> Vec<u32> {
+        let (shots, edges) = (self.params.shots as f64, &self.params.edges);
+        let (begin, end) = (f64::from(edges[0]), f64::from(edges[edges.len() - 1]));
+        let waiting = |edge: &u32| {
+            let part = (f64::from(*edge) - begin) / (end - begin);
+            (shots * (left as f64 / shots).powf(part)).round() as u32
+        };
+        edges.windows(2).map(|bin| waiting(&bin[0]) - waiting(&bin[1])).collect()
     }
 
     fn extreme(&self, draw: &mut Draw) -> Vec<u32> {
