@@ -230,8 +230,8 @@ module likelihood_estimator #(
            flags[3] || flags[4], no_echo};
     wire blind = left < LeastLeft, code_changed = HasSecond && !are_two ? alone_changed : changed;
     wire [3:0] code_next = status_next[6] ? NotArmed
-        : status_next[0] && blind ? AmbientTooHigh
         : code_changed ? PedestalChanged
+        : status_next[0] && blind ? AmbientTooHigh
         : status_next[0] ? NoTarget
         : status_next[2] ? Saturated
         : status_next[1] ? CutOff

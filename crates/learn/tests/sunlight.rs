@@ -24,8 +24,8 @@ const DISTANCES_M: [f64; 4] = [0.1, 0.3, 0.6, 0.8];
 /// From the nearer of two targets to the other one [m].
 const APART_M: f64 = 0.25;
 const GLASS: [&str; 2] = ["cover.fraction=1.3e-4", "laser.delay_ps=600"];
-/// Dirt makes the window's light four times as strong.
-const DIRT: &str = "cover.fraction=5.2e-4";
+/// Dirt makes the window's light two and a half times as strong.
+const DIRT: &str = "cover.fraction=3.25e-4";
 
 /// What the estimator looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -83,8 +83,8 @@ impl StatusCode {
         let (has, is_dark) = (|reason| status.contains(reason), status.contains(Status::NoEcho));
         let codes = [
             (has(Status::Unarmed), StatusCode::NotArmed),
-            (is_dark && is_blind, StatusCode::AmbientTooHigh),
             (has_changed, StatusCode::PedestalChanged),
+            (is_dark && is_blind, StatusCode::AmbientTooHigh),
             (is_dark, StatusCode::NoTarget),
             (has(Status::UsedUp), StatusCode::Saturated),
             (has(Status::CutOff), StatusCode::CutOff),

@@ -1,13 +1,15 @@
 //! Status codes: what was in the scene, and how far the depths were off.
 
+use std::path::Path;
+
 use rayon::prelude::*;
 
 use tofsim::firmware::tof_top::status_code::StatusCode;
 use tofsim::sim::fast::histogram::Histograms;
 
 use super::{
-    BehindDirt, BehindGlass, DISTANCES_M, GlassAlone, KLUX, Net, Nothing, REFLECTANCES, Scene,
-    Target, calibrate, off, scene_setup,
+    APART_M, BehindDirt, BehindGlass, DISTANCES_M, GlassAlone, KLUX, Net, Nothing, REFLECTANCES,
+    Scene, Target, calibrate, off, scene_setup,
 };
 
 /// A distance whose echo the end of the window cuts [m].
@@ -45,20 +47,24 @@ fn by_code(frames: u64) -> ByCode {
     calibrate(&template);
     let mut all = ByCode::default();
     for scene in [Target, BehindGlass, BehindDirt, Net(1), Net(2), Nothing, GlassAlone] {
-        let distances = DISTANCES_M.into_iter().chain((scene == Target).then_some(CUT_OFF_M));
-        for distance_m in distances.filter(|m| !matches!(scene, Net(_)) || *m > super::APART_M) {
-            for (klux, reflectance) in
-                KLUX.iter().flat_map(|&klux| REFLECTANCES.map(|r| (f64::from(klux), r)))
-            {
-                let at = [klux, reflectance, distance_m];
-                all = and(all, count(scene, at, &template, frames));
-            }
-        }
+        let is_empty = matches!(scene, Nothing | GlassAlone);
+        let points = if is_empty { vec![[0.0, 0.1, 0.5]] } else { grid(scene) };
+        let frames = if is_empty { 32 * frames } else { frames };
+        let tallies = points.into_iter().map(|at| count(scene, at, &template, frames));
+        all = tallies.fold(all, and);
     }
     all
 }
 
-fn count(scene: Scene, at: [f64; 3], template: &std::path::Path, frames: u64) -> ByCode {
+/// Returns illumination, reflectance and distance of the points of a scene.
+fn grid(scene: Scene) -> Vec<[f64; 3]> {
+    let distances = DISTANCES_M.into_iter().chain((scene == Target).then_some(CUT_OFF_M));
+    let distances = distances.filter(|m| !matches!(scene, Net(_)) || *m > APART_M);
+    let lights = KLUX.iter().flat_map(|&klux| REFLECTANCES.map(|r| (f64::from(klux), r)));
+    distances.flat_map(|m| lights.clone().map(move |(klux, r)| [klux, r, m])).collect()
+}
+
+fn count(scene: Scene, at: [f64; 3], template: &Path, frames: u64) -> ByCode {
     let (setup, truths_m) = scene_setup(scene, at, template);
     let drawn = Histograms::new(&setup).unwrap();
     let one = |index| {
@@ -99,7 +105,7 @@ fn a_code_keeps_what_it_promises() {
     assert_eq!(of(StatusCode::Unstated).frames, 0);
     for valid in [StatusCode::Valid, StatusCode::ValidSecond] {
         let Coded { frames, empty, off, .. } = of(valid);
-        assert!(frames > 500 && empty == 0 && off[1] <= frames / 5000, "{valid:?} {codes:?}");
+        assert!(frames > 200 && empty == 0 && off[1] <= frames / 5000, "{valid:?} {codes:?}");
     }
     assert_eq!(of(StatusCode::ValidSecond).two, of(StatusCode::ValidSecond).frames);
     for code in [StatusCode::NoTarget, StatusCode::CutOff, StatusCode::PedestalChanged] {
