@@ -13,7 +13,7 @@ const LZ4: u8 = b'4';
 /// Length from which a stream is compressed [bytes].
 const SHORT: usize = 32;
 /// Length from which initial values are compressed [bytes].
-const LARGE: usize = 1 << 14;
+const LARGE: usize = 1 << 8;
 /// Compression level of zlib for initial values, most of which are alike.
 const ZLIB: u8 = 1;
 
