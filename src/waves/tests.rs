@@ -135,6 +135,11 @@ fn a_scope_points_to_its_module_and_its_instance_in_the_verilog() {
         let hierarchy = wave.hierarchy();
         let scope = hierarchy.lookup_scope(&["tof_top", "tdc", "tdc_latch"]).unwrap();
         let scope = &hierarchy[scope];
+        for scope in hierarchy.all_scopes().map(|scope| &hierarchy[scope]) {
+            let (file, _) = scope.source_loc(hierarchy).unwrap();
+            let name = scope.full_name(hierarchy);
+            assert!(fs::exists(file).unwrap() && file.starts_with("rtl_ref/"), "{name}: {file}");
+        }
         assert_eq!(scope.source_loc(hierarchy).unwrap().0, "rtl_ref/tdc_latch.v");
         let (file, line) = scope.instantiation_source_loc(hierarchy).unwrap();
         let text = fs::read_to_string(file).unwrap();

@@ -24,7 +24,9 @@ enum Kind {
 
 /// Appends a comment, in several parts if it is longer than readers take.
 pub(super) fn comment(bytes: &mut Vec<u8>, text: &str) {
-    let mut rest = text;
+    // A zero ends a comment, and tools print it on one line.
+    let text = text.replace(['\0', '\n', '\r'], " ");
+    let mut rest = &*text;
     while !rest.is_empty() {
         let part = &rest[..rest.floor_char_boundary(COMMENT)];
         rest = &rest[part.len()..];
@@ -62,10 +64,7 @@ pub(super) fn source(bytes: &mut Vec<u8>, source: &ScopeSource) {
 fn attribute(bytes: &mut Vec<u8>, kind: Kind, text: &[u8], value: u64) {
     bytes.extend(ATTRIBUTE);
     bytes.push(kind as u8);
-    // A zero ends the text, and tools print it on one line.
-    bytes.extend(
-        text.iter().map(|byte| if matches!(byte, b'\0' | b'\n' | b'\r') { b' ' } else { *byte }),
-    );
+    bytes.extend_from_slice(text);
     bytes.push(0);
     number(bytes, value);
 }
@@ -88,10 +87,10 @@ mod tests {
     fn a_stem_has_the_number_of_its_path_in_place_of_a_text() {
         let mut bytes = Vec::new();
         let paths = vec![(200, "a.v")];
-        let (declared, instantiated) = (Some((200, 300)), Some((1, 7)));
+        let (declared, instantiated) = (Some((200, 300)), Some((10, 7)));
         source(&mut bytes, &ScopeSource { component: "a", paths, declared, instantiated });
         let path = [252, 0, 3, b'a', b'.', b'v', 0, 200, 1];
-        let stems = [252, 0, 4, 200, 1, 0, 172, 2, 252, 0, 5, 1, 0, 7];
+        let stems = [252, 0, 4, 200, 1, 0, 172, 2, 252, 0, 5, 10, 0, 7];
         assert_eq!(bytes, [&path[..], &stems].concat());
     }
 }

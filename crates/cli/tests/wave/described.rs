@@ -23,9 +23,9 @@ fn an_fst_has_its_record_and_the_meaning_of_its_signals_in_comments() {
     assert!(text.contains(&before_the_time.join("\n")), "{text}");
     let place = text.find("$scope module tdc_decoder").unwrap();
     let before: Vec<_> = text[..place].lines().rev().take(3).collect();
-    assert_eq!(before[2], "$attrbegin misc 03 rtl_ref/tdc_decoder.v 20 $end", "{before:?}");
+    assert_eq!(before[2], "$attrbegin misc 03 rtl_ref/tdc_decoder.v 14 $end", "{before:?}");
     assert!(
-        before[1].starts_with("$attrbegin misc 04 20 ")
+        before[1].starts_with("$attrbegin misc 04 14 ")
             && before[0].starts_with("$attrbegin misc 05 "),
         "{before:?}"
     );
