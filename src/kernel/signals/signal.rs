@@ -149,9 +149,9 @@ impl Signal {
         if self.unit.length.is_some() { "ps" } else { self.unit.name }
     }
 
-    /// Returns its meaning: the documentation without the unit.
-    pub fn meaning(&self) -> &'static str {
-        Unit::meaning(self.doc)
+    /// Returns its meaning: the documentation without the unit and without links.
+    pub fn meaning(&self) -> String {
+        Unit::meaning(self.doc).replace("[`", "`").replace("`]", "`")
     }
 
     /// Returns whether a port is one in a design of those sizes.

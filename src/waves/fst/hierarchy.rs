@@ -68,7 +68,7 @@ impl Hierarchy {
                     bytes.push(UP);
                 }
                 Element::Signal(entry) => {
-                    attributes::comment(bytes, entry.signal.meaning());
+                    attributes::comment(bytes, &entry.signal.meaning());
                     attributes::value_type(bytes, &entry.signal.type_text());
                     if let Some(table) = tables.number(&entry.signal) {
                         // GTKWave gives a new table to the next variable.
