@@ -13,6 +13,7 @@ mod build;
 mod channels;
 mod entry;
 mod part;
+mod sources;
 
 use build::Build;
 pub use channels::CHANNEL;
@@ -20,6 +21,7 @@ use channels::channel_entries;
 pub use entry::{Entry, IDS, Kind, ROW, TOP, below_top, within};
 use entry::{MOST_OUTPUTS, RAM};
 pub use part::{Part, changes, copy};
+pub use sources::ModuleSource;
 
 /// Lists every name in every scope of a design with these parameters, without the RAM's words and the other columns of
 /// an array.
@@ -35,6 +37,10 @@ pub fn entries(params: &Params) -> Vec<Entry> {
         let is_own =
             |entry: &Entry| entry.signal.name == "count" && builders.contains(&entry.scope);
         entries.retain(|entry| !is_own(entry));
+    }
+    let scale = params.tdc.decoder.scale;
+    for Entry { signal, .. } in &mut entries {
+        signal.unit = signal.unit.in_design(scale.bin(), scale.digits());
     }
     entries
 }

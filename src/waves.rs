@@ -14,6 +14,8 @@ pub(crate) mod marks;
 mod scopes;
 mod select;
 pub mod side_by_side;
+mod sources;
+mod states;
 mod surfer;
 #[cfg(test)]
 mod tests;

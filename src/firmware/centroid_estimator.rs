@@ -56,7 +56,7 @@ signals! {
         /// Word of the histogram.
         #[size(BinBits)]
         pub read_addr: Bin,
-        /// The depth, when `algo_done` is high, and until the next one.
+        /// The depth, when `algo_done` is high, and until the next one [m].
         pub depth: Depth,
         /// The depth is ready; one cycle.
         pub algo_done: bool,

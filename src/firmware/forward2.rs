@@ -76,7 +76,7 @@ signals! {
 signals! {
     /// Registers; the public one is the output port.
     pub struct Forward2 {
-        /// The depth, from `algo_done` until the next one.
+        /// The depth, from `algo_done` until the next one [m].
         pub depth: Depth,
         /// Activations to multiply.
         #[size(ActivationBits)]

@@ -124,6 +124,7 @@ signals! {
         writing: bool,
         /// The word of the hit before it is counted [hits].
         #[size(CountBits)]
+        #[view(heading = "Histogram", curve = true)]
         hit_word: Count,
     }
 }

@@ -76,9 +76,9 @@ states! {
 signals! {
     /// Registers; the public ones are the output ports.
     pub struct Registers {
-        /// The depth, when `algo_done` is high, and until the next one.
+        /// The depth, when `algo_done` is high, and until the next one [m].
         pub depth: Depth,
-        /// Its standard deviation, with as many fraction bits.
+        /// Its standard deviation [2^-29 m].
         #[view(heading = "Estimator", probe = true)]
         pub sigma: U<36>,
         /// Reasons to reject the depth; see [`Status`].
@@ -95,10 +95,10 @@ signals! {
         pub code: StatusCode,
         /// The depth is ready; one cycle.
         pub algo_done: bool,
-        /// Depth of the second target, 0 without one.
+        /// Depth of the second target, 0 without one [m].
         #[only_if(HasSecond)]
         pub second_depth: Depth,
-        /// Its standard deviation, with as many fraction bits.
+        /// Its standard deviation [2^-29 m].
         #[only_if(HasSecond)]
         #[view(heading = "Estimator", probe = true)]
         pub second_sigma: U<36>,
@@ -193,10 +193,10 @@ signals! {
         /// Score of the box over one echo.
         #[only_if(HasSecond)]
         pub(crate) alone_score: likelihood_scan::Log,
-        /// Depth of one echo.
+        /// Depth of one echo [m].
         #[only_if(HasSecond)]
         pub(crate) alone_depth: S<36, 29>,
-        /// Its deviation.
+        /// Its deviation [2^-29 m].
         #[only_if(HasSecond)]
         pub(crate) alone_sigma: U<36>,
         /// Flags of one echo.
@@ -218,10 +218,10 @@ signals! {
         /// Few shots waited at its first bin.
         #[only_if(HasSecond)]
         pub(crate) alone_used_up: bool,
-        /// Depth of the other of two echoes.
+        /// Depth of the other of two echoes [m].
         #[only_if(HasSecond)]
         pub(crate) other_depth: S<36, 29>,
-        /// Its deviation.
+        /// Its deviation [2^-29 m].
         #[only_if(HasSecond)]
         pub(crate) other_sigma: U<36>,
         /// Flags of the other echo.

@@ -158,7 +158,7 @@ signals! {
         #[size(ArrivalBits)]
         #[view(heading = "Likelihood", probe = true)]
         pub other_arrival: U<21>,
-        /// S of the other echo.
+        /// S of the other echo, 14 fraction bits [photons a shot].
         #[only_if(HasSecond)]
         #[view(heading = "Likelihood", probe = true)]
         pub other_strength: U<24>,

@@ -69,7 +69,7 @@ signals! {
         pub frame_done: bool,
         /// Its depth [m].
         pub depth: Depth,
-        /// Standard deviation of the depth.
+        /// Standard deviation of the depth [2^-29 m].
         pub sigma: Sigma,
         /// Reasons to reject the depth.
         pub status: StatusBits,
@@ -136,7 +136,7 @@ signals! {
         pub(crate) frame: U<32>,
         /// Its depth [m].
         pub(crate) frame_depth: Depth,
-        /// Standard deviation of the depth.
+        /// Standard deviation of the depth [2^-29 m].
         pub(crate) frame_sigma: Sigma,
         /// Reasons to reject the depth.
         pub(crate) frame_status: StatusBits,

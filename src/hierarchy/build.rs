@@ -3,7 +3,7 @@
 use crate::firmware::tof_top::FirmwareEstimator;
 use crate::firmware::tof_top::TofTop;
 use crate::kernel::module::{Alias, Instance, Module, Visitor};
-use crate::kernel::signals::{Signal, Signals, View};
+use crate::kernel::signals::{Signal, Signals, Unit, View};
 use crate::kernel::sizes::Size;
 
 use super::entry::{Entry, Kind, TOP};
@@ -28,7 +28,14 @@ pub(super) struct Build {
 #[derive(Clone, Copy)]
 struct Port {
     doc: &'static str,
+    unit: Unit,
     only_if: Option<Size>,
+}
+
+impl Port {
+    fn of(signal: &Signal) -> Self {
+        Port { doc: signal.doc, unit: signal.unit, only_if: signal.only_if }
+    }
 }
 
 /// An alias of a stored signal.
@@ -114,10 +121,12 @@ impl Build {
         };
         let entry = |(id, field): (usize, &String)| {
             let (name, of) = (name(field)?, &self.held[id].1.signal);
-            let stored = Port { doc: of.doc, only_if: of.only_if };
-            let Port { doc, only_if } = alias.port.unwrap_or(stored);
-            let output = alias.kind == Kind::Output;
-            let signal = Signal { name, doc, only_if, output, view: View::NONE, ..of.clone() };
+            let stored = Port::of(of);
+            let Port { doc, unit, only_if } = alias.port.unwrap_or(stored);
+            // A value has the same unit everywhere, though not every name of it states one.
+            let unit = if of.unit == Unit::default() { unit } else { of.unit };
+            let (output, view) = (alias.kind == Kind::Output, View::NONE);
+            let signal = Signal { name, doc, unit, only_if, output, view, ..of.clone() };
             let scope = scope_path(&self.scopes[alias.scope]);
             Some((alias.scope, Entry { scope, signal, kind: alias.kind, id }))
         };
@@ -170,8 +179,7 @@ impl Visitor for Build {
         for (port, holder) in sources {
             let is_port = |s: &&Signal| s.name == port || s.name == format!("{port}_0");
             let own = inputs.iter().find(is_port);
-            let own = own.map(|s| Port { doc: s.doc, only_if: s.only_if });
-            self.alias(port, Kind::Input, holder, own);
+            self.alias(port, Kind::Input, holder, own.map(Port::of));
         }
         for (port, source) in own {
             self.alias(port, Kind::Input, clock(source), None);

@@ -2,9 +2,11 @@
 
 mod field;
 mod signal;
+mod unit;
 
 pub use field::{Field, Sink, Source, Word};
 pub use signal::{Declaration, Signal, SignalFormat, View};
+pub use unit::Unit;
 
 /// A struct of signals: the ports or the registers of one module.
 pub trait Signals: Copy + PartialEq {
@@ -22,7 +24,7 @@ pub trait Signals: Copy + PartialEq {
 /// its reset value where that is not zero; `pub` fields are output ports, `pub(crate)` ones are not.
 /// Where elaboration decides it, a [`Size`] stands above a field: `#[size(..)]` for its width,
 /// `#[count(..)]` for the number of elements of an array, `#[only_if(..)]` for a port that is there unless
-/// the size is zero. `#[view(..)]` sets fields of its [`View`].
+/// the size is zero. `#[view(..)]` sets fields of its [`View`]. The documentation may end in the signal's [`Unit`].
 #[macro_export]
 macro_rules! signals {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
@@ -69,6 +71,7 @@ macro_rules! signals {
                                 $($($view: $shown,)+)?
                                 ..$crate::kernel::signals::View::NONE
                             },
+                            unit: $crate::kernel::signals::Unit::of(concat!($($doc),+)),
                             doc: concat!($($doc),+).trim_ascii(),
                         }
                     }),

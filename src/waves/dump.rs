@@ -6,6 +6,8 @@ mod units;
 pub(super) mod vcd;
 
 pub use super::fst::dump::FstDump;
-pub use signal::{Dump, DumpKind, DumpSignal, DumpState, DumpValue, escaped, unescaped};
+pub use signal::{
+    Dump, DumpKind, DumpSignal, DumpState, DumpValue, SignalDescription, escaped, unescaped,
+};
 pub use units::{UNITS, unit};
 pub use vcd::VcdDump;

@@ -1,11 +1,10 @@
 //! FST files, as described in GTKWave's `block_format.txt`.
 //!
-//! In a waveform of a simulation ([`Fst`]) the provenance is in the version string as far as it fits, and in full in a
-//! block at the end of the file that readers skip; names of states are in a separate file next to it (see
-//! [`super::write_views`]). A file of any design ([`FstDump`](dump::FstDump)) has tables of state names in its
-//! hierarchy.
+//! The provenance is in the version string as far as it fits, and in full in comments at the start of the hierarchy. Also
+//! in the hierarchy are tables of state names and, in a waveform of a simulation ([`Fst`]), type, unit and meaning of each
+//! signal, and the places of each module in the Verilog. A file of any design is an [`FstDump`](dump::FstDump).
 
-use std::io::{self, Seek, SeekFrom};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
@@ -18,6 +17,7 @@ use crate::kernel::signals::Sink;
 use super::body::{Body, Step};
 use super::digits::TapDigits;
 
+mod attributes;
 mod blocks;
 mod changes;
 pub(super) mod dump;
@@ -30,7 +30,6 @@ mod signal_stream;
 mod stream;
 mod times;
 
-use blocks::Block;
 use changes::Changes;
 use header::Header;
 use hierarchy::Hierarchy;
@@ -39,7 +38,6 @@ use stream::Stream;
 /// An FST file being written.
 pub(super) struct Fst {
     path: PathBuf,
-    provenance: String,
     changes: Changes<OutputFile>,
     /// Index of each id's signal in the file; `None` if it is not selected.
     signals: Vec<Option<usize>>,
@@ -59,7 +57,7 @@ impl Fst {
         encoder: &Encoder,
         provenance: &[String],
     ) -> Result<Self> {
-        let hierarchy = Hierarchy::new(entries);
+        let hierarchy = Hierarchy::new(entries, provenance);
         let header = Header {
             scopes: hierarchy.scopes,
             names: hierarchy.names,
@@ -72,7 +70,6 @@ impl Fst {
         begun.map_err(Error::io(path, "write"))?;
         Ok(Fst {
             path: path.to_owned(),
-            provenance: provenance.join("\n"),
             changes: Changes::new(file, header, streams),
             signals: hierarchy.signals,
             taps: TapDigits::new(encoder),
@@ -137,11 +134,7 @@ impl Body for Fst {
 
     fn finish(self, at: u64) -> Result<()> {
         // Readers take the values of the first time step only if there is a second one.
-        let done = self.changes.finish(at.max(1)).and_then(|mut file| {
-            file.seek(SeekFrom::End(0))?;
-            Block::Skipped.write(&mut file, &[self.provenance.as_bytes()])?;
-            Ok(file)
-        });
-        done.map_err(|error| Error::io(&self.path, "write")(error))?.commit()
+        let done = self.changes.finish(at.max(1));
+        done.map_err(Error::io(&self.path, "write"))?.commit()
     }
 }

@@ -8,6 +8,7 @@ use crate::kernel::signals::SignalFormat;
 use super::layout::{Group, ShownSignal};
 use super::marks::Marks;
 use super::side_by_side::range;
+use super::writer::WaveFormat;
 
 /// Trace flags, which a save file holds in hexadecimal.
 mod flag {
@@ -27,25 +28,33 @@ mod flag {
     pub(super) const END: u64 = 0x1000000;
     pub(super) const ONES: u64 = 0x20000000;
     pub(super) const FIXED_POINT: u64 = 0x40000000;
+    pub(super) const STATES: u64 = 0x100000000;
 }
 
 /// Size of the window [pixels].
 const SIZE: (u32, u32) = (1600, 900);
 /// Widths of the column of scopes, and of that of names and values [pixels].
-const COLUMNS: (u32, u32) = (180, 320);
+const COLUMNS: (u32, u32) = (180, 400);
 /// Width of frames and scroll bars [pixels].
 const FRAMES: u32 = 110;
 /// Width that shows 2^n units of time at a zoom of -n [pixels].
 const ZOOM_PIXELS: f64 = 200.0;
 /// Rows of a curve in addition to its first one.
 const CURVE_ROWS: usize = 2;
+/// Most fraction bits that GTKWave shows; with more, it drops them.
+const FRACTION: u32 = 30;
 /// Largest number of named markers.
 const MARKERS: usize = 26;
 
-/// Formats the save file for the waveform `wave`, whose files of state names begin with `stem`.
-pub(super) fn save_file(wave: &str, stem: &str, groups: &[Group<'_>], marks: &Marks) -> String {
+/// Formats the save file for the waveform `wave`, whose files of state names, if it needs some, begin with `stem`.
+pub(super) fn save_file(
+    (wave, format): (&str, WaveFormat),
+    stem: &str,
+    groups: &[Group<'_>],
+    marks: &Marks,
+) -> String {
     let mut text = String::new();
-    let mut lines = Lines { text: &mut text, stem };
+    let mut lines = Lines { text: &mut text, stem, format };
     lines.header(wave, marks);
     for group in groups {
         let closed = if group.closed { flag::CLOSED } else { 0 };
@@ -72,6 +81,7 @@ pub(super) fn names(states: &[&str], width: usize) -> String {
 struct Lines<'a> {
     text: &'a mut String,
     stem: &'a str,
+    format: WaveFormat,
 }
 
 impl Lines<'_> {
@@ -105,25 +115,31 @@ impl Lines<'_> {
 
     fn row(&mut self, row: &ShownSignal<'_>) {
         let signal = &row.entry.signal;
+        let fraction = Some(signal.fraction()).filter(|bits| (1..=FRACTION).contains(bits));
+        let point = if fraction.is_some() { flag::FIXED_POINT } else { 0 };
         let radix = match signal.format {
+            SignalFormat::State(_) if self.format == WaveFormat::Fst => flag::BINARY | flag::STATES,
             SignalFormat::State(_) => flag::BINARY | flag::NAMES,
             SignalFormat::Bits if signal.width == 1 => flag::BINARY,
             SignalFormat::Bits => flag::HEXADECIMAL,
-            SignalFormat::Unsigned if signal.width > 32 => flag::HEXADECIMAL,
-            SignalFormat::Unsigned => flag::DECIMAL,
-            SignalFormat::Signed { fraction: 0 } => flag::SIGNED,
-            SignalFormat::Signed { .. } => flag::SIGNED | flag::FIXED_POINT,
+            SignalFormat::Unsigned if fraction.is_none() && signal.width > 32 => flag::HEXADECIMAL,
+            SignalFormat::Unsigned => flag::DECIMAL | point,
+            SignalFormat::Signed { .. } => flag::SIGNED | point,
             SignalFormat::Taps => flag::DECIMAL | flag::ONES,
         };
         self.line(format_args!("@{:x}", radix | flag::RIGHT));
-        match signal.format {
-            SignalFormat::Signed { fraction } if fraction > 0 => {
+        match (signal.format, fraction) {
+            (SignalFormat::State(_), _) if self.format == WaveFormat::Vcd => {
+                self.line(format_args!("^1 {}", names_file(self.stem, row)));
+            }
+            (SignalFormat::Unsigned | SignalFormat::Signed { .. }, Some(fraction)) => {
                 self.line(format_args!("[fpshift_count] {fraction}"));
             }
-            SignalFormat::State(_) => self.line(format_args!("^1 {}", names_file(self.stem, row))),
             _ => {}
         }
-        let note = if signal.format == SignalFormat::Taps { " (ones)" } else { "" };
+        let unit = signal.unit.without(if fraction.is_some() { 0 } else { signal.fraction() });
+        let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
+        let note = if signal.format == SignalFormat::Taps { " (ones)" } else { &unit };
         self.named(row, note);
         if row.curve {
             let signed = matches!(signal.format, SignalFormat::Signed { .. });

@@ -34,7 +34,7 @@ const FLOW: &[(&str, &[&str])] = &[
     ("SPAD", &["spad_rst", "tdc_stop", VIEWED]),
     ("Row of SPADs", &["spad_row.spad_out_*"]),
     ("TDC", &[VIEWED, "tdc_valid", "tdc_code"]),
-    ("Histogram", &["hist_valid", "hist_bin", "hist_count"]),
+    ("Histogram", &["hist_valid", "hist_bin", "hist_count", VIEWED]),
     ("Estimator", &["algo_start", VIEWED]),
     ("Outputs", &["depth", "algo_done", "frame_done"]),
     (

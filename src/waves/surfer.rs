@@ -1,18 +1,14 @@
 //! Surfer command files, written from the documentation of version 0.7 and not tried with the program.
 //!
-//! Surfer reads state names from a VCD itself; for an FST file, a mapping next to it holds them.
+//! Surfer reads state names from the waveform.
 
 use crate::kernel::signals::SignalFormat;
 
 use super::layout::{Group, ShownSignal};
 use super::marks::Marks;
-use super::writer::WaveFormat;
-
-/// Folder of mappings, relative to the folder in which Surfer is started.
-pub(super) const MAPPINGS: &str = ".surfer/mappings";
 
 /// Formats the command file: the heading and the signals of each group, then the marks.
-pub(super) fn commands(format: WaveFormat, groups: &[Group<'_>], marks: &Marks) -> String {
+pub(super) fn commands(groups: &[Group<'_>], marks: &Marks) -> String {
     let mut text = String::new();
     let mut place = 0;
     for group in groups.iter().filter(|group| !group.closed) {
@@ -21,9 +17,15 @@ pub(super) fn commands(format: WaveFormat, groups: &[Group<'_>], marks: &Marks) 
         place += 1;
         for row in &group.rows {
             text += &format!("variable_add {}\n", row.entry.path());
-            if let Some(shown) = shown_as(format, row) {
+            let signal = &row.entry.signal;
+            let shown = shown_as(row).map(|shown| format!("item_set_format {shown}\n"));
+            // Surfer has a binary point only where the range has one: it shows the integer.
+            let unit = Some(signal.unit.without(signal.fraction())).filter(|unit| !unit.is_empty());
+            let named = unit.map(|unit| format!("item_rename {} [{unit}]\n", signal.name));
+            if shown.is_some() || named.is_some() {
                 text += &format!("item_focus {}\n", letters(place));
-                text += &format!("item_set_format {shown}\nitem_unfocus\n");
+                text += &(shown.unwrap_or_default() + &named.unwrap_or_default());
+                text += "item_unfocus\n";
             }
             place += 1;
         }
@@ -34,23 +36,11 @@ pub(super) fn commands(format: WaveFormat, groups: &[Group<'_>], marks: &Marks) 
     text + &format!("cursor_set {}\n", marks.laser_edge.unwrap_or(marks.from).ps())
 }
 
-/// Returns the name of the mapping for the states of `row`, which is also the name of its file.
-pub(super) fn mapping_name(row: &ShownSignal<'_>) -> String {
-    row.name.replace('.', "_")
-}
-
-pub(super) fn mapping(states: &[&str], row: &ShownSignal<'_>) -> String {
-    let codes = states.iter().enumerate().map(|(code, state)| format!("{code} {state}\n"));
-    let (name, bits) = (mapping_name(row), row.entry.signal.width);
-    format!("Name = {name}\nBits = {bits}\n{}", codes.collect::<String>())
-}
-
-fn shown_as(format: WaveFormat, row: &ShownSignal<'_>) -> Option<String> {
+fn shown_as(row: &ShownSignal<'_>) -> Option<&'static str> {
     match row.entry.signal.format {
-        SignalFormat::Unsigned if row.entry.signal.width <= 32 => Some("Unsigned".into()),
-        SignalFormat::Signed { .. } => Some("Signed".into()),
-        SignalFormat::Taps => Some("Number of ones".into()),
-        SignalFormat::State(_) if format == WaveFormat::Fst => Some(mapping_name(row)),
+        SignalFormat::Unsigned if row.entry.signal.width <= 32 => Some("Unsigned"),
+        SignalFormat::Signed { .. } => Some("Signed"),
+        SignalFormat::Taps => Some("Number of ones"),
         SignalFormat::State(_) | SignalFormat::Bits | SignalFormat::Unsigned => None,
     }
 }

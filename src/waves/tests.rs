@@ -4,7 +4,7 @@ pub(super) mod bench;
 mod files;
 pub(super) mod readback;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use wellen::simple::read;
@@ -78,16 +78,76 @@ fn aliases_share_one_identifier() {
 }
 
 #[test]
-fn surfer_is_told_the_names_of_states() {
+fn both_formats_have_the_names_of_states() {
     let directory = tempfile::tempdir().unwrap();
-    let wave = read(&record(directory.path(), false, params())[0]).unwrap();
-    let hierarchy = wave.hierarchy();
-    let with_names = hierarchy.all_vars().filter_map(|var| {
-        let var = var.deref_in(&wave);
-        Some((var.full_name(hierarchy), var.enum_type(hierarchy)?.1))
+    for path in record(directory.path(), false, params()) {
+        let wave = read(&path).unwrap();
+        let hierarchy = wave.hierarchy();
+        let with_names = hierarchy.all_vars().filter_map(|var| {
+            let var = var.deref_in(&wave);
+            Some((var.full_name(hierarchy), var.enum_type(hierarchy)?.1))
+        });
+        let names = vec![("00", "Clear"), ("01", "Acquire"), ("10", "Drain"), ("11", "Estimate")];
+        assert_eq!(Vec::from_iter(with_names), [("tof_top.frame_ctrl.state".to_owned(), names)]);
+    }
+}
+
+#[test]
+fn both_formats_have_units_and_an_fst_has_every_type() {
+    let directory = tempfile::tempdir().unwrap();
+    let paths = record(directory.path(), false, params());
+    let [vcd, fst] = [0, 1].map(|k| {
+        let wave = read(&paths[k]).unwrap();
+        let (hierarchy, vars) = (wave.hierarchy(), wave.hierarchy().all_vars());
+        let types = vars.map(|var| {
+            let var = var.deref_in(&wave);
+            let stated = var.vhdl_type_name(hierarchy).map(str::to_owned);
+            (var.full_name(hierarchy), (stated, var.var_type()))
+        });
+        types.collect::<BTreeMap<_, _>>()
     });
-    let names = vec![("00", "Clear"), ("01", "Acquire"), ("10", "Drain"), ("11", "Estimate")];
-    assert_eq!(Vec::from_iter(with_names), [("tof_top.frame_ctrl.state".to_owned(), names)]);
+    for (path, expected) in [
+        ("depth", "signed/2^29[m]"),
+        ("hist_count", "unsigned[hits]"),
+        ("tdc_code", "unsigned[25_ps]"),
+        ("tdc.tdc_decoder.t", "signed/2^4[25_ps]"),
+        ("depth_estimator.forward1.l1_in_7", "signed/2^23"),
+    ] {
+        let path = format!("tof_top.{path}");
+        assert_eq!(vcd[&path].0.as_deref(), Some(expected), "{path}");
+        assert_eq!(vcd[&path], fst[&path]);
+    }
+    for entry in entries(&params()) {
+        let (stated, kind) = &fst[&entry.path()];
+        assert_eq!(stated.as_deref(), Some(&*entry.signal.type_text()), "{}", entry.path());
+        assert_eq!(kind, &vcd[&entry.path()].1, "{}", entry.path());
+        // GTKWave shows a type from its last dot on, and a VCD ends it at a blank.
+        assert!(!entry.signal.type_text().contains(['.', ' ']), "{}", entry.path());
+    }
+    assert_eq!(vcd["tof_top.start"].0, None);
+}
+
+#[test]
+fn a_scope_points_to_its_module_and_its_instance_in_the_verilog() {
+    let directory = tempfile::tempdir().unwrap();
+    for path in record(directory.path(), false, params()) {
+        let wave = read(&path).unwrap();
+        let hierarchy = wave.hierarchy();
+        let scope = hierarchy.lookup_scope(&["tof_top", "tdc", "tdc_latch"]).unwrap();
+        let scope = &hierarchy[scope];
+        for scope in hierarchy.all_scopes().map(|scope| &hierarchy[scope]) {
+            let (file, _) = scope.source_loc(hierarchy).unwrap();
+            let name = scope.full_name(hierarchy);
+            assert!(fs::exists(file).unwrap() && file.starts_with("rtl_ref/"), "{name}: {file}");
+        }
+        assert_eq!(scope.source_loc(hierarchy).unwrap().0, "rtl_ref/tdc_latch.v");
+        let (file, line) = scope.instantiation_source_loc(hierarchy).unwrap();
+        let text = fs::read_to_string(file).unwrap();
+        assert_eq!(text.lines().nth(line as usize - 1).unwrap().trim(), ") tdc_latch (");
+        let sync = &hierarchy[hierarchy.lookup_scope(&["tof_top", "reset_sync_sys"]).unwrap()];
+        let is_fst = path.extension().is_some_and(|ending| ending == "fst");
+        assert_eq!(sync.component(hierarchy), is_fst.then_some("reset_sync"));
+    }
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! VCD files. The header is written by the crate `vcd`, and the body by hand for speed.
 //!
-//! State names are written as `$attrbegin` lines, an extension that Surfer reads and GTKWave ignores.
+//! State names, units and places in the Verilog are written as `$attrbegin` lines, an extension that Surfer reads and
+//! GTKWave ignores.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -13,11 +15,13 @@ use crate::files::output::OutputFile;
 use crate::firmware::tdc_decoder::Encoder;
 use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
-use crate::kernel::signals::{SignalFormat, Sink};
+use crate::kernel::signals::{Sink, Unit};
 
 use super::body::{Body, Step};
 use super::digits::TapDigits;
 use super::scopes::{Element, elements};
+use super::sources::ScopeSources;
+use super::states::StateTables;
 
 mod text;
 
@@ -153,34 +157,38 @@ fn header(
         vcd.comment(&line.replace("$end", "$ end"))?;
     }
     vcd.timescale(1, TimescaleUnit::PS)?;
-    let tables = state_tables(entries);
-    for (table, (name, states, width)) in tables.iter().enumerate() {
-        let codes: Vec<_> = (0..states.len()).map(|code| format!("{code:0width$b}")).collect();
-        let (count, labels, codes) = (states.len(), states.join(" "), codes.join(" "));
-        writeln!(
-            vcd.writer(),
-            "$attrbegin misc 07 {name} {count} {labels} {codes} {} $end",
-            table + 1
-        )?;
+    let (mut sources, tables) = (ScopeSources::default(), StateTables::of(entries));
+    for (table, text) in tables.texts() {
+        attribute(&mut vcd, 7, text, table)?;
     }
     let mut codes: Vec<Option<IdCode>> = vec![None; signals.len()];
     let mut next = IdCode::FIRST;
     for element in elements(entries) {
         let entry = match element {
             Element::Enter(name) => {
+                let source = sources.enter(name);
+                for (path, text) in source.paths {
+                    attribute(&mut vcd, 3, text, path)?;
+                }
+                for (kind, stem) in [(4, source.declared), (5, source.instantiated)] {
+                    stem.map_or(Ok(()), |(path, line)| attribute(&mut vcd, kind, path, line))?;
+                }
                 vcd.add_module(name)?;
                 continue;
             }
             Element::Leave => {
+                sources.leave();
                 vcd.upscope()?;
                 continue;
             }
             Element::Signal(entry) => entry,
         };
-        if let SignalFormat::State(states) = entry.signal.format
-            && let Some(table) = tables.iter().position(|table| table.1 == states)
-        {
-            writeln!(vcd.writer(), "$attrbegin misc 07 \"\" {} $end", table + 1)?;
+        if entry.signal.fraction() > 0 || entry.signal.unit != Unit::default() {
+            let no_type_of_vhdl = 0;
+            attribute(&mut vcd, 2, entry.signal.type_text(), no_type_of_vhdl)?;
+        }
+        if let Some(table) = tables.number(&entry.signal) {
+            attribute(&mut vcd, 7, "\"\"", table)?;
         }
         let code = *codes[entry.id].get_or_insert_with(|| {
             let code = next;
@@ -197,17 +205,12 @@ fn header(
     vcd.enddefinitions()
 }
 
-/// Returns the distinct sets of states, each with a name and the width of its codes.
-fn state_tables(entries: &[Entry]) -> Vec<(String, &'static [&'static str], usize)> {
-    let mut tables: Vec<(String, &[&str], usize)> = Vec::new();
-    for entry in entries {
-        if let SignalFormat::State(states) = entry.signal.format
-            && tables.iter().all(|table| table.1 != states)
-        {
-            let module = entry.scope.rsplit('.').next().unwrap_or(&entry.scope);
-            let name = format!("{module}_{}", entry.signal.name);
-            tables.push((name, states, entry.signal.width as usize));
-        }
-    }
-    tables
+/// Writes an attribute: a kind as in FST, and what it has.
+fn attribute(
+    vcd: &mut vcd::Writer<&mut OutputFile>,
+    kind: u8,
+    what: impl Display,
+    value: impl Display,
+) -> io::Result<()> {
+    writeln!(vcd.writer(), "$attrbegin misc {kind:02} {what} {value} $end")
 }

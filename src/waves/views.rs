@@ -1,14 +1,15 @@
 //! Viewer setups next to a waveform, which show the signals in order, with names and scales.
 //!
-//! `X.gtkw` is for GTKWave (`gtkwave X.gtkw`), with a file of names for each state machine; `X.sucl` is for Surfer
-//! (`surfer --command-file X.sucl X.vcd`). Files refer to each other by name only, so that a folder can be moved.
+//! `X.gtkw` is for GTKWave (`gtkwave X.gtkw`), which needs a file of names for each state machine of a VCD; an FST has them
+//! itself. `X.sucl` is for Surfer (`surfer --command-file X.sucl X.vcd`). Files refer to each other by name only, so that
+//! a folder can be moved.
 
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::error::Result;
-use crate::files::output::{create_directory, write_file};
+use crate::files::output::write_file;
 use crate::hierarchy::Entry;
 use crate::kernel::signals::SignalFormat;
 
@@ -39,22 +40,17 @@ pub fn write_views(
     let folder = wave_path.parent().unwrap_or(Path::new(""));
     let groups = groups(entries);
     let mut files = Vec::new();
-    for row in groups.iter().flat_map(|group| &group.rows) {
+    let rows = groups.iter().flat_map(|group| &group.rows).filter(|_| format == WaveFormat::Vcd);
+    for row in rows {
         if let SignalFormat::State(states) = row.entry.signal.format {
             let width = row.entry.signal.width as usize;
             let path = folder.join(gtkwave::names_file(&stem, row));
             files.push((path, gtkwave::names(states, width)));
-            if format == WaveFormat::Fst {
-                let mappings = folder.join(surfer::MAPPINGS);
-                create_directory(&mappings)?;
-                files
-                    .push((mappings.join(surfer::mapping_name(row)), surfer::mapping(states, row)));
-            }
         }
     }
-    files
-        .push((wave_path.with_extension("gtkw"), gtkwave::save_file(&name, &stem, &groups, marks)));
-    files.push((wave_path.with_extension("sucl"), surfer::commands(format, &groups, marks)));
+    let save = gtkwave::save_file((&name, format), &stem, &groups, marks);
+    files.push((wave_path.with_extension("gtkw"), save));
+    files.push((wave_path.with_extension("sucl"), surfer::commands(&groups, marks)));
     let mut paths = Vec::new();
     for (path, contents) in files {
         write_file(&path, |file| file.write_all(contents.as_bytes()))?;
@@ -130,14 +126,20 @@ mod tests {
     }
 
     #[test]
-    fn states_have_names_in_both_viewers() {
+    fn states_of_a_vcd_have_names_in_a_file_and_those_of_an_fst_need_none() {
         let folder = tempfile::tempdir().unwrap();
-        let files = written(folder.path(), WaveFormat::Fst, &entries(&params()));
+        let files = written(folder.path(), WaveFormat::Vcd, &entries(&params()));
         let names = file(&files, "run.frame_ctrl.state.txt");
         assert_eq!(names, "00 Clear\n01 Acquire\n10 Drain\n11 Estimate\n");
-        assert!(file(&files, "run.gtkw").contains("\n@2028\n^1 run.frame_ctrl.state.txt\n"));
-        let mapping = file(&files, ".surfer/mappings/frame_ctrl_state");
-        assert!(mapping.starts_with("Name = frame_ctrl_state\nBits = 2\n0 Clear\n"));
+        let (enumeration, shown) =
+            ("@100000028\n", "+{frame_ctrl/state} tof_top.frame_ctrl.state[1:0]\n");
+        let from_file = format!("\n@2028\n^1 run.frame_ctrl.state.txt\n{shown}");
+        assert!(file(&files, "run.gtkw").contains(&from_file));
+        let folder = tempfile::tempdir().unwrap();
+        let files = written(folder.path(), WaveFormat::Fst, &entries(&params()));
+        let paths: Vec<_> = files.iter().map(|(path, _)| path.as_str()).collect();
+        assert_eq!(paths, ["run.gtkw", "run.sucl"]);
+        assert!(file(&files, "run.gtkw").contains(&format!("\n{enumeration}{shown}")));
     }
 
     #[test]

@@ -46,6 +46,12 @@ pub use stream::{Cursor, Disconnected, Feed, Marks};
 pub use tick::Tick;
 pub(crate) use translated::{Translation, WordValues, untranslated};
 
+/// Returns the comments on an FST file, given its contents: its origin is among them. A file of another format, or that is
+/// damaged, has none.
+pub fn fst_comments(contents: &[u8]) -> Vec<String> {
+    fst::comments_of(contents).unwrap_or_default()
+}
+
 impl Source {
     /// Opens a file, whose contents determine its format. `radix` applies to files that do not state the radix of
     /// their values.

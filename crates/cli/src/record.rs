@@ -13,7 +13,7 @@ use tofsim::error::{Input, Result, read_text};
 use tofsim::sim::setup::Setup;
 
 /// Begins the record in a file that is not JSON.
-const MARK: &str = "tofsim-record ";
+pub const MARK: &str = "tofsim-record ";
 
 /// Options that leave the bytes of an output as they are, or only say where it goes.
 const LEFT_OUT: [&str; 10] = [

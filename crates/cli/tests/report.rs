@@ -65,7 +65,7 @@ fn a_folder_receives_page_object_and_waveform_or_nothing() {
     let names: Vec<_> = (wave["signal"].as_array().unwrap().iter())
         .map(|signal| signal["name"].as_str().unwrap())
         .collect();
-    assert!(names.contains(&"tdc_stop") && names.contains(&"tdc_code[7:0]"), "{names:?}");
+    assert!(names.contains(&"tdc_stop") && names.contains(&"tdc_code [ps]"), "{names:?}");
     let error = refused(path, &["report", "nar", "-o", "other"]);
     assert!(error.contains("near"), "{error}");
     assert!(!path.join("other").exists());

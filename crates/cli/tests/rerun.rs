@@ -37,6 +37,27 @@ fn every_file_of_a_run_is_made_again_to_the_byte() {
 }
 
 #[test]
+fn a_waveform_alone_in_another_folder_is_made_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let long = format!("description={}", "→ a description ".repeat(3000));
+    fs::create_dir(path.join("mailed")).unwrap();
+    for (name, more) in [
+        ("kc705.fst", ["-s", "seed=3"]),
+        ("kc705.vcd", ["-s", &long]),
+        ("kc705.fst", ["-s", &long]),
+    ] {
+        let waves = name.rsplit('.').next().unwrap();
+        stdout(path, &[&["run", "-o", "out", "--waves", waves], &SHORT[..], &more].concat());
+        fs::rename(path.join("out").join(name), path.join("mailed").join(name)).unwrap();
+        fs::remove_dir_all(path.join("out")).unwrap();
+        let mailed = format!("mailed/{name}");
+        assert!(stdout(path, &["rerun", &mailed]).contains("the same"), "{mailed}");
+        fs::remove_file(path.join(mailed)).unwrap();
+    }
+}
+
+#[test]
 fn budgets_datasets_and_evaluations_are_made_again_too() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
@@ -161,7 +182,7 @@ fn a_folder_holds_the_files_of_one_run() {
     let mut listed: Vec<_> =
         summary["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
     listed.retain(|name| !name.contains('/'));
-    listed.extend([".surfer", "own.txt", "kc705.vcd"]);
+    listed.extend(["kc705.frame_ctrl.state.txt", "own.txt", "kc705.vcd"]);
     let mut found: Vec<_> =
         fs::read_dir(path.join("out")).unwrap().map(|file| file.unwrap().file_name()).collect();
     listed.sort();

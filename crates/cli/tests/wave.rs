@@ -3,6 +3,7 @@
 mod cells;
 mod convert;
 mod cut;
+mod described;
 mod names;
 mod other_tools;
 mod refused;

@@ -7,6 +7,7 @@ use crate::common;
 
 mod channels;
 mod row;
+mod views;
 mod wave;
 
 pub use wave::Wave;

@@ -22,6 +22,15 @@ pub enum DumpKind {
 /// Name of a state, and its value.
 pub type DumpState = (String, u64);
 
+/// What a waveform says of a signal.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SignalDescription {
+    /// Type, such as `signed/2^29[m]`, or a type of the design's language; empty if it is not known.
+    pub value_type: String,
+    /// Meaning; empty if it is not known.
+    pub meaning: String,
+}
+
 /// A signal under one of its names.
 #[derive(Clone, Debug)]
 pub struct DumpSignal {
@@ -35,6 +44,8 @@ pub struct DumpSignal {
     pub kind: DumpKind,
     /// Its states; empty if it has none.
     pub states: Arc<[DumpState]>,
+    /// Its description, if it has one.
+    pub description: Option<Arc<SignalDescription>>,
     /// Id, which all names of the signal share; ids count from 0.
     pub id: usize,
 }
@@ -191,7 +202,8 @@ mod tests {
     fn a_table_has_names_and_then_values_of_the_signal_s_width() {
         let states = Arc::new([("idle".to_owned(), 0), ("' '".to_owned(), 2)]);
         let (scopes, name, kind) = (Arc::default(), "s".to_owned(), DumpKind::Bits(2));
-        let signal = DumpSignal { scopes, name, range: None, kind, states, id: 0 };
+        let signal =
+            DumpSignal { scopes, name, range: None, kind, states, description: None, id: 0 };
         assert_eq!(signal.table(3), "states_3 2 idle \\'\\040\\' 00 10");
     }
 }

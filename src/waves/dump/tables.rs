@@ -32,8 +32,8 @@ mod tests {
         let mut tables = Tables::default();
         let mut of = |width: u32, states: &Arc<[DumpState]>| {
             let (scopes, name, kind) = (Arc::default(), "s".to_owned(), DumpKind::Bits(width));
-            let states = Arc::clone(states);
-            tables.of(&DumpSignal { scopes, name, range: None, kind, states, id: 0 })
+            let (states, description) = (Arc::clone(states), None);
+            tables.of(&DumpSignal { scopes, name, range: None, kind, states, description, id: 0 })
         };
         assert_eq!(of(1, &states), Some((1, Some("states_1 2 idle run 0 1".to_owned()))));
         assert_eq!(of(1, &states), Some((1, None)));

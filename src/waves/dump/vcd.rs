@@ -33,7 +33,7 @@ struct VcdSignal {
 
 impl VcdDump {
     /// Creates a file with signals whose ids are below `ids`; its unit is 10 to the `exponent` seconds, from -15 on, and
-    /// `comment` is its origin.
+    /// the first of `comments` is its origin.
     ///
     /// # Errors
     /// If the file cannot be created.
@@ -42,12 +42,12 @@ impl VcdDump {
         exponent: i8,
         signals: &[DumpSignal],
         ids: usize,
-        comment: &str,
+        comments: &[String],
     ) -> Result<VcdDump> {
         let mut file = OutputFile::create(path)?;
         let mut known = vec![VcdSignal::default(); ids];
         let date = date::fixed()?;
-        let written = header(&mut file, exponent, signals, &mut known, comment, date);
+        let written = header(&mut file, exponent, signals, &mut known, comments, date);
         written.map_err(|error| file.fault(error))?;
         Ok(VcdDump { file, signals: known, stamped: None, line: Vec::new() })
     }
@@ -59,7 +59,7 @@ fn header(
     exponent: i8,
     signals: &[DumpSignal],
     known: &mut [VcdSignal],
-    comment: &str,
+    comments: &[String],
     date: Option<String>,
 ) -> io::Result<()> {
     let mut vcd = vcd::Writer::new(file);
@@ -67,7 +67,9 @@ fn header(
         vcd.date(&date)?;
     }
     vcd.version(concat!("tofsim ", env!("CARGO_PKG_VERSION")))?;
-    vcd.comment(&comment.replace("$end", "$ end"))?;
+    for comment in comments {
+        vcd.comment(&comment.replace("$end", "$ end"))?;
+    }
     let (factor, unit) = unit(exponent);
     writeln!(vcd.writer(), "$timescale {factor} {unit} $end")?;
     let mut tables = Tables::default();
@@ -84,6 +86,10 @@ fn header(
             }
             Element::Signal(signal) => signal,
         };
+        let value_type = signal.description.as_ref().map_or("", |known| &known.value_type);
+        if !value_type.is_empty() {
+            writeln!(vcd.writer(), "$attrbegin misc 02 {} 0 $end", word(value_type))?;
+        }
         if let Some((table, text)) = tables.of(signal) {
             if let Some(text) = text {
                 writeln!(vcd.writer(), "$attrbegin misc 07 {text} {table} $end")?;

@@ -15,8 +15,6 @@ pub(super) enum Block {
     Hierarchy = 6,
     /// A section of value changes.
     Changes = 8,
-    /// Block that readers skip.
-    Skipped = 255,
 }
 
 impl Block {

@@ -3,7 +3,7 @@
 use std::io::{self, Seek, Write};
 
 use super::header::Header;
-use super::section::Section;
+use super::section::{FIRST_LARGE, LARGE, Section};
 use super::sections::Sections;
 use super::signal_stream::SignalStream;
 use super::stream::Stream;
@@ -90,6 +90,7 @@ impl<W: Write + Seek + Send + 'static, S: SignalStream> Changes<W, S> {
     fn write_section(&mut self) -> io::Result<()> {
         let section = &mut self.section;
         section.span = [self.start, self.at];
+        section.large = if self.header.sections == 0 { FIRST_LARGE } else { LARGE };
         for (stream, data) in self.streams.iter_mut().zip(&mut section.streams) {
             stream.hand_over(data);
         }

@@ -22,8 +22,8 @@ pub struct FstDump {
 }
 
 impl FstDump {
-    /// Creates a file with signals whose ids are below `ids`; its unit is 10 to the `exponent` seconds, and `comment`
-    /// is its origin.
+    /// Creates a file with signals whose ids are below `ids`; its unit is 10 to the `exponent` seconds, and the first of
+    /// `comments` is its origin.
     ///
     /// # Errors
     /// If the file cannot be created.
@@ -32,15 +32,15 @@ impl FstDump {
         exponent: i8,
         signals: &[DumpSignal],
         ids: usize,
-        comment: &str,
+        comments: &[String],
     ) -> Result<FstDump> {
-        let hierarchy = Hierarchy::of(signals, ids);
+        let hierarchy = Hierarchy::of(signals, ids, comments);
         let header = Header {
             exponent,
             scopes: hierarchy.scopes,
             names: hierarchy.names,
             signals: hierarchy.widths.len() as u64,
-            ..Header::new(&[comment.to_owned()])?
+            ..Header::new(comments)?
         };
         let mut file = OutputFile::create_seekable(path)?;
         let begun = header.write(&mut file).and_then(|()| hierarchy.write(&mut file));

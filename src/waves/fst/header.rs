@@ -77,18 +77,18 @@ fn text(bytes: &mut Vec<u8>, text: &str, length: usize) {
     bytes.resize(end, 0);
 }
 
-/// Formats program, version and provenance in one line, truncated to the field's size.
+/// Formats program and version, and the lines of the provenance as far as the field has room for whole ones.
 fn version(provenance: &[String]) -> String {
-    let mut version = concat!("tofsim ", env!("CARGO_PKG_VERSION")).to_owned();
-    for line in provenance {
-        version.push_str("; ");
-        version.push_str(line);
+    let program = concat!("tofsim ", env!("CARGO_PKG_VERSION"));
+    let mut version = program.to_owned();
+    for line in provenance.iter().skip_while(|line| *line == program) {
+        let line = line.replace('\0', " ");
+        if version.len() + "; ".len() + line.len() >= VERSION {
+            break;
+        }
+        version = format!("{version}; {line}");
     }
-    let mut end = version.len().min(VERSION - 1);
-    while !version.is_char_boundary(end) {
-        end -= 1;
-    }
-    version[..end].replace('\0', " ")
+    version
 }
 
 #[cfg(test)]
@@ -98,10 +98,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn provenance_goes_into_the_version_as_far_as_it_fits() {
+    fn whole_lines_of_the_provenance_go_into_the_version_as_far_as_they_fit() {
         let short = version(&["scenario kc705".into(), "seed 1".into()]);
         assert!(short.starts_with("tofsim ") && short.ends_with("; scenario kc705; seed 1"));
-        assert_eq!(version(&["é".repeat(100)]).len() / 2, (VERSION - 1) / 2);
+        let own = version(&[]);
+        assert_eq!(version(&[own.clone(), "seed 1".into()]), format!("{own}; seed 1"));
+        let room = VERSION - 1 - own.len() - "; ".len();
+        assert_eq!(version(&["a".repeat(room)]).len(), VERSION - 1);
+        assert_eq!(version(&["seed 1".into(), "a".repeat(room)]), format!("{own}; seed 1"));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Scopes, names and widths of an FST file.
+//! Scopes, names and widths of an FST file, and what else it says of them.
 
 use std::io::{self, Write};
 
@@ -7,14 +7,15 @@ use crate::hierarchy::{Entry, IDS, Kind};
 use super::super::dump::signal::{DumpKind, DumpSignal};
 use super::super::dump::tables::Tables;
 use super::super::scopes::{Element, elements, nested};
+use super::super::sources::ScopeSources;
+use super::super::states::StateTables;
+use super::attributes;
 use super::blocks::{Block, long, number};
 
 /// Start of a scope.
 const SCOPE: u8 = 254;
 /// End of the current scope.
 const UP: u8 = 255;
-/// Start and end of an attribute, and the kind that has tables of state names: miscellaneous, 7.
-const ATTRIBUTE: [u8; 3] = [252, 0, 7];
 /// Type of a scope.
 const MODULE: u8 = 0;
 /// Type of a variable that is driven.
@@ -49,33 +50,59 @@ pub(super) struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// Creates the hierarchy of `entries`.
-    pub(super) fn new(entries: &[Entry]) -> Self {
-        let mut hierarchy = Hierarchy { signals: vec![None; IDS], ..Hierarchy::default() };
+    /// Creates the hierarchy of `entries`, with comments on the file.
+    pub(super) fn new(entries: &[Entry], comments: &[String]) -> Self {
+        let mut hierarchy = Hierarchy::with_comments(IDS, comments);
+        let (mut sources, tables) = (ScopeSources::default(), StateTables::of(entries));
+        let mut texts = tables.texts().peekable();
         for element in elements(entries) {
+            let bytes = &mut hierarchy.spelled;
             match element {
-                Element::Enter(name) => hierarchy.enter(name),
-                Element::Leave => hierarchy.spelled.push(UP),
-                Element::Signal(entry) => hierarchy.name(entry),
+                Element::Enter(name) => {
+                    let source = sources.enter(name);
+                    attributes::source(bytes, &source);
+                    hierarchy.enter(name, source.component);
+                }
+                Element::Leave => {
+                    sources.leave();
+                    bytes.push(UP);
+                }
+                Element::Signal(entry) => {
+                    attributes::comment(bytes, &entry.signal.meaning());
+                    attributes::value_type(bytes, &entry.signal.type_text());
+                    if let Some(table) = tables.number(&entry.signal) {
+                        // GTKWave gives a new table to the next variable.
+                        if let Some((number, text)) = texts.next_if(|next| next.0 == table) {
+                            attributes::states(bytes, &text, number);
+                        }
+                        attributes::states(bytes, "", table);
+                    }
+                    hierarchy.name(entry);
+                }
             }
         }
         hierarchy
     }
 
-    /// Creates the hierarchy of any signals, whose ids are below `ids`.
-    pub(super) fn of(signals: &[DumpSignal], ids: usize) -> Self {
-        let mut hierarchy = Hierarchy { signals: vec![None; ids], ..Hierarchy::default() };
+    /// Creates the hierarchy of any signals, whose ids are below `ids`, with comments on the file.
+    pub(super) fn of(signals: &[DumpSignal], ids: usize, comments: &[String]) -> Self {
+        let mut hierarchy = Hierarchy::with_comments(ids, comments);
         let mut tables = Tables::default();
         for element in nested(signals, DumpSignal::scopes) {
+            let bytes = &mut hierarchy.spelled;
             match element {
-                Element::Enter(name) => hierarchy.enter(name),
-                Element::Leave => hierarchy.spelled.push(UP),
+                Element::Enter(name) => hierarchy.enter(name, ""),
+                Element::Leave => bytes.push(UP),
                 Element::Signal(signal) => {
+                    if let Some(known) = &signal.description {
+                        attributes::comment(bytes, &known.meaning);
+                        attributes::value_type(bytes, &known.value_type);
+                    }
                     if let Some((table, text)) = tables.of(signal) {
                         if let Some(text) = text {
-                            hierarchy.attribute(&text, table);
+                            attributes::states(bytes, &text, table);
                         }
-                        hierarchy.attribute("", table);
+                        attributes::states(bytes, "", table);
                     }
                     hierarchy.signal(signal);
                 }
@@ -84,11 +111,11 @@ impl Hierarchy {
         hierarchy
     }
 
-    /// Adds a table of states, or the table of the next variable.
-    fn attribute(&mut self, text: &str, table: u64) {
-        self.spelled.extend(ATTRIBUTE);
-        self.text(text);
-        number(&mut self.spelled, table);
+    /// Creates an empty hierarchy.
+    fn with_comments(ids: usize, comments: &[String]) -> Self {
+        let mut spelled = Vec::new();
+        comments.iter().for_each(|text| attributes::comment(&mut spelled, text));
+        Hierarchy { signals: vec![None; ids], spelled, ..Hierarchy::default() }
     }
 
     fn signal(&mut self, signal: &DumpSignal) {
@@ -102,10 +129,10 @@ impl Hierarchy {
         self.variable([variable, 0], &(signal.name.clone() + &range), width, (signal.id, initial));
     }
 
-    fn enter(&mut self, name: &str) {
+    /// Enters a scope that is an instance of a module, if that has a name.
+    fn enter(&mut self, name: &str, component: &str) {
         self.spelled.extend([SCOPE, MODULE]);
         self.text(name);
-        let component = "";
         self.text(component);
         self.scopes += 1;
     }

@@ -12,8 +12,9 @@ use super::times::Times;
 const LZ4: u8 = b'4';
 /// Length from which a stream is compressed [bytes].
 const SHORT: usize = 32;
-/// Length from which initial values are compressed [bytes].
-const LARGE: usize = 1 << 14;
+/// Lengths from which initial values are compressed: of the first section, which may be small, and of others [bytes].
+pub(super) const FIRST_LARGE: usize = 1 << 8;
+pub(super) const LARGE: usize = 1 << 14;
 /// Compression level of zlib for initial values, most of which are alike.
 const ZLIB: u8 = 1;
 
@@ -23,6 +24,8 @@ pub(super) struct Section {
     pub(super) span: [u64; 2],
     /// Values at the start, one digit per bit.
     pub(super) frame: Vec<u8>,
+    /// Length from which they are compressed [bytes].
+    pub(super) large: usize,
     /// Changes of each signal.
     pub(super) streams: Vec<Vec<u8>>,
     pub(super) times: Times,
@@ -32,7 +35,8 @@ impl Section {
     /// Creates an empty section of so many signals.
     pub(super) fn new(signals: usize) -> Self {
         let streams = vec![Vec::new(); signals];
-        Section { span: [0, 0], frame: Vec::new(), streams, times: Times::default() }
+        let (frame, times) = (Vec::new(), Times::default());
+        Section { span: [0, 0], frame, large: LARGE, streams, times }
     }
 
     /// Compresses the section, appends it to a file, and clears it.
@@ -53,7 +57,8 @@ impl Section {
 
     /// Appends the initial values, compressed if there are many. Two equal lengths say that they are not.
     fn take_frame(&mut self, body: &mut Vec<u8>) {
-        let packed = (self.frame.len() >= LARGE).then(|| compress_to_vec_zlib(&self.frame, ZLIB));
+        let packed =
+            (self.frame.len() >= self.large).then(|| compress_to_vec_zlib(&self.frame, ZLIB));
         let packed = packed.filter(|packed| packed.len() < self.frame.len());
         let written = packed.as_ref().unwrap_or(&self.frame);
         for count in [self.frame.len(), written.len(), self.streams.len()] {
@@ -119,7 +124,7 @@ mod tests {
     #[test]
     fn many_initial_values_are_packed_and_few_are_as_they_are() {
         let body = |length: usize| {
-            let mut section = Section::new(3);
+            let mut section = Section { large: FIRST_LARGE, ..Section::new(3) };
             section.frame.resize(length, b'x');
             let mut body = Vec::new();
             section.take_frame(&mut body);
@@ -127,12 +132,14 @@ mod tests {
             body
         };
         assert_eq!(body(4), [4, 4, 3, b'x', b'x', b'x', b'x']);
-        let packed = body(LARGE);
+        assert!(body(FIRST_LARGE).len() < FIRST_LARGE / 8);
+        let many = LARGE;
+        let packed = body(many);
         let mut lengths = Vec::new();
-        number(&mut lengths, LARGE as u64);
-        assert!(packed.starts_with(&lengths) && packed.len() < LARGE / 50, "{}", packed.len());
+        number(&mut lengths, many as u64);
+        assert!(packed.starts_with(&lengths) && packed.len() < many / 50, "{}", packed.len());
         let from = packed.len() - usize::from(packed[lengths.len()]);
         let frame = miniz_oxide::inflate::decompress_to_vec_zlib(&packed[from..]).unwrap();
-        assert_eq!(frame, [b'x'; LARGE]);
+        assert_eq!(frame, vec![b'x'; many]);
     }
 }

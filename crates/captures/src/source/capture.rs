@@ -43,7 +43,8 @@ fn signal(column: &Column, id: usize) -> Signal {
     let (name, range) = (Name::new(&column.name), Some([lsb + i64::from(width) - 1, lsb]));
     let range = range.filter(|_| !column.text && width > 1);
     let (scopes, own) = (Arc::default(), column.name.clone());
-    Signal { name, scopes, own, width, lsb, range, kind, radix, shape: None, words, id }
+    let (shape, description) = (None, None);
+    Signal { name, scopes, own, width, lsb, range, kind, radix, shape, words, description, id }
 }
 
 impl signals::Origin for CaptureOrigin {

@@ -5,6 +5,7 @@
 //! The format is described in GTKWave's `block_format.txt` and `fstapi.c`.
 
 mod changes;
+mod comments;
 mod names;
 mod unpack;
 
@@ -15,6 +16,7 @@ use std::path::Path;
 use tofsim::error::{Error, Result};
 
 use changes::Section;
+pub(super) use comments::Comments;
 use unpack::{gzip_prefix, most};
 
 use super::bytes::Bytes;
@@ -47,6 +49,17 @@ pub(super) fn open(path: &Path) -> Result<Bytes> {
     Ok(bytes)
 }
 
+/// Returns the comments on a file, given its contents.
+pub(super) fn comments_of(contents: &[u8]) -> Checked<Vec<String>> {
+    let mut file = Bytes::new(Cursor::new(contents.to_vec()));
+    match contents.first() {
+        Some(&WRAPPED) => file = Bytes::new(Cursor::new(unwrapped(&mut file)?)),
+        Some(&HEADER) => {}
+        _ => return Ok(Vec::new()),
+    }
+    Ok(check(&mut file)?.comments.on_file)
+}
+
 /// Decompresses a file that is compressed as a whole.
 fn unwrapped(file: &mut Bytes) -> Checked<Vec<u8>> {
     let head = file.range(1, 2 * LENGTH)?;
@@ -66,6 +79,7 @@ pub(super) struct Contents {
     pub(super) end: Option<u64>,
     /// The file as the library sees it.
     pub(super) pieces: Vec<Piece>,
+    pub(super) comments: Comments,
     sections: Vec<Section>,
 }
 
@@ -124,10 +138,10 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Contents> {
     let Some(signals) = signals else {
         return Err(Fault::of("geometry", "is missing: the file was not written to its end"));
     };
-    let (mut pieces, mut kept) = (Vec::new(), 0);
+    let (mut pieces, mut kept, mut comments) = (Vec::new(), 0, Comments::default());
     for (body, kind, block) in hierarchies {
         let place = block.start;
-        let names = names::check(&body, kind, signals);
+        let names = names::check(&body, kind, signals, &mut comments);
         let names = names.map_err(|fault| fault.within(&format!("block at byte {place}")))?;
         if let Some(names) = names {
             pieces.extend([Piece::Kept(kept..place), Piece::New(names)]);
@@ -141,7 +155,7 @@ pub(super) fn check(file: &mut Bytes) -> Checked<Contents> {
         let block = format!("block at byte {}", section.begin - 1);
         section.check(file, signals).map_err(|fault| fault.within(&block))?;
     }
-    Ok(Contents { end, pieces, sections })
+    Ok(Contents { end, pieces, comments, sections })
 }
 
 /// Parses the end time in the header.

@@ -103,7 +103,21 @@ fn signal(variable: &Variable, states: Arc<[NamedValue]>, id: usize) -> Signal {
     let (scopes, own, range) = (Arc::clone(&variable.scopes), variable.own.clone(), variable.range);
     let path: Vec<&str> = scopes.iter().chain([&own]).map(String::as_str).collect();
     let (name, lsb) = (Name::new(path.join(".")), range.map_or(0, |[_, lsb]| lsb));
-    Signal { name, scopes, own, width, lsb, range, kind, radix: None, shape: None, words, id }
+    let (shape, description) = (None, None);
+    Signal {
+        name,
+        scopes,
+        own,
+        width,
+        lsb,
+        range,
+        kind,
+        radix: None,
+        shape,
+        words,
+        description,
+        id,
+    }
 }
 
 impl signals::Origin for GhwOrigin {

@@ -38,6 +38,10 @@ pub(super) enum Values {
     Event,
 }
 
+/// Attribute with the type of the next signal, and the number of one that is none of VHDL's, some of which the library
+/// prints.
+const VALUE_TYPE: [&[u8]; 2] = [b"misc", b"02"];
+const PLAIN: &[u8] = b"0";
 /// Attribute with the names of an enumeration's values, or with the number of such a table.
 const ENUMERATION: [&[u8]; 2] = [b"misc", b"07"];
 
@@ -54,6 +58,8 @@ pub(super) struct Head {
     scale: Option<usize>,
     /// Numbers of the tables of names.
     tables: HashSet<Vec<u8>>,
+    /// Type of the next signal.
+    value_type: Vec<u8>,
 }
 
 impl Head {
@@ -94,8 +100,16 @@ impl Head {
                 }
             }
             match &name[..] {
-                "$var" => head.declare(&mut body, texts).map_err(|found| found.of(&fault))?,
+                "$var" => {
+                    head.declare(&mut body, texts).map_err(|found| found.of(&fault))?;
+                    head.text.append(&mut head.value_type);
+                }
                 "$timescale" => head.scale(line, &body).map_err(|found| found.of(&fault))?,
+                "$scope" | "$upscope" => head.value_type.clear(),
+                "$attrbegin" if is_plain_type(&body) => {
+                    let words = body.join(&b' ');
+                    head.value_type = [b"$attrbegin ", &words[..], b" $end\n"].concat();
+                }
                 _ => {}
             }
             if !LEFT_OUT.contains(&&name[..]) || (name == "$attrbegin" && head.is_table(&body)) {
@@ -250,6 +264,18 @@ impl<R: BufRead> HeadWords<R> {
     }
 }
 
+/// Returns whether an attribute is a type that is none of VHDL's, as the library understands it.
+fn is_plain_type(body: &[Vec<u8>]) -> bool {
+    match body {
+        [kind, subtype, name, number] => {
+            [&kind[..], &subtype[..]] == VALUE_TYPE
+                && std::str::from_utf8(name).is_ok()
+                && number == PLAIN
+        }
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -271,6 +297,16 @@ mod tests {
         let head = head(text, &[]).unwrap();
         assert_eq!(head.0, "$timescale 1 ns $end\n$var wire 2 ! two [1:0] $end\n");
         assert_eq!(head.1, "#0 b01 !\n#6 b10 !\n");
+    }
+
+    #[test]
+    fn a_type_that_is_none_of_vhdl_s_is_that_of_the_next_signal() {
+        let text = "$attrbegin misc 02 lost 0 $end\n$scope module a $end\n$attrbegin misc 02 unsigned[m] 0 $end\n\
+            $comment of b $end\n$var wire 2 ! b $end\n$attrbegin misc 02 SIGNED 1033 $end\n$var wire 2 # c $end\n\
+            $upscope $end\n$enddefinitions $end\n";
+        let expected = "$scope module a $end\n$attrbegin misc 02 unsigned[m] 0 $end\n$var wire 2 ! b $end\n\
+            $var wire 2 # c $end\n$upscope $end\n";
+        assert_eq!(head(text, &[]).unwrap().0, expected);
     }
 
     #[test]

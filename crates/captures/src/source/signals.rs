@@ -9,6 +9,7 @@ use strum::{Display, IntoStaticStr};
 
 use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
+use tofsim::waves::dump::SignalDescription;
 
 use crate::ila::Radix;
 use crate::ila::read::NamedValue;
@@ -148,6 +149,8 @@ pub struct Signal {
     pub shape: Option<Shape>,
     /// Words that represent its values.
     pub words: Words,
+    /// Description, if the source has one.
+    pub description: Option<Arc<SignalDescription>>,
     /// Id, which all names of the signal share.
     pub id: usize,
 }
@@ -177,6 +180,8 @@ pub struct Source {
     pub radix_stated: bool,
     /// Notes on deviations from the usual format, and on values taken from another part.
     pub notes: Vec<String>,
+    /// Comments in the source, which may state its origin.
+    pub comments: Vec<String>,
     pub(super) origin: Arc<dyn Origin>,
     /// Flag that stops reading.
     pub(super) stop: Arc<AtomicBool>,
@@ -199,7 +204,7 @@ pub(super) trait Origin: Debug + Send + Sync {
 }
 
 impl Source {
-    /// Creates a source without end and notes, which needs no radix.
+    /// Creates a source without end, notes and comments, which needs no radix.
     pub(super) fn new(
         name: String,
         format: SourceFormat,
@@ -207,9 +212,19 @@ impl Source {
         signals: Vec<Signal>,
         origin: impl Origin + 'static,
     ) -> Source {
-        let (end, radix_stated, notes, origin) = (None, true, Vec::new(), Arc::new(origin));
-        let (stop, by_last) = (Arc::default(), OnceLock::new());
-        Source { name, format, axis, signals, end, radix_stated, notes, origin, stop, by_last }
+        Source {
+            name,
+            format,
+            axis,
+            signals,
+            end: None,
+            radix_stated: true,
+            notes: Vec::new(),
+            comments: Vec::new(),
+            origin: Arc::new(origin),
+            stop: Arc::default(),
+            by_last: OnceLock::new(),
+        }
     }
 
     /// Returns the source with a flag: once `stop` is set, reading fails as interrupted.

@@ -51,6 +51,7 @@ pub(super) fn source(setup: Setup, array: Option<ArraySetup>, frames: Option<u64
         range: (entry.signal.width > 1).then(|| [i64::from(entry.signal.width) - 1, 0]),
         kind: SignalKind::Bits,
         words: Words::default(),
+        description: None,
         radix: None,
         shape: Some(entry.signal.format),
         id: entry.id,

@@ -9,6 +9,7 @@ use wellen::stream::{Filter, StreamError, StreamingWaveform};
 use wellen::{Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
 
 use tofsim::error::{Error, Input, Result};
+use tofsim::waves::dump::SignalDescription;
 
 use crate::ila::read::LONGEST_WORD;
 use crate::words::Bits;
@@ -16,6 +17,7 @@ use crate::words::Bits;
 use super::bytes::Bytes;
 use super::end::{Body, body};
 use super::fst;
+use super::fst::Comments;
 use super::guard::{DAMAGED, guarded};
 use super::head::{Head, HeadWords};
 use super::library::{fault, set};
@@ -57,9 +59,11 @@ fn open(path: &Path, pieces: &Arc<[Piece]>) -> Result<StreamingWaveform<Bytes>> 
 /// Opens the waveform at `path`, until `stop` is set.
 pub(super) fn source(path: &Path, format: SourceFormat, stop: &AtomicBool) -> Result<Source> {
     let mut file = fst::open(path)?;
+    let mut comments = Comments::default();
     let (end, pieces) = match format {
         SourceFormat::Fst => {
             let contents = fst::check(&mut file).map_err(|fault| fault.of_file(path))?;
+            comments = contents.comments;
             (contents.end, contents.pieces)
         }
         // Time stamps are looked for in text alone: packed bytes may look like some.
@@ -73,7 +77,26 @@ pub(super) fn source(path: &Path, format: SourceFormat, stop: &AtomicBool) -> Re
         described(path, format, open(path, &pieces)?.hierarchy(), Arc::clone(&pieces))
     });
     let source = described.map_err(|error| at_place(path, format, error))?;
+    let source = commented(source, comments);
     Ok(if source.is_capture() { source } else { Source { end, ..source } })
+}
+
+/// Adds the comments of an FST file to its source.
+fn commented(mut source: Source, mut comments: Comments) -> Source {
+    source.comments = comments.on_file;
+    for signal in &mut source.signals {
+        if comments.on_signals.is_empty() {
+            break;
+        }
+        let path = signal.scopes.iter().chain([&signal.own]).map(String::as_str);
+        let Some(meaning) = comments.on_signals.remove(&path.collect::<Vec<_>>().join(".")) else {
+            continue;
+        };
+        let known = signal.description.take().map(|known| known.value_type.clone());
+        let value_type = known.unwrap_or_default();
+        signal.description = Some(SignalDescription { value_type, meaning }.into());
+    }
+    source
 }
 
 /// Adds line or byte, and signal, to an error about a file that the library cannot read.
@@ -158,7 +181,22 @@ fn signal(
     let range = var.index().map(|index| [index.msb(), index.lsb()]);
     let states = if kind == SignalKind::Bits { tables.of(var, hierarchy) } else { Arc::default() };
     let (lsb, words) = (range.map_or(0, |[_, lsb]| lsb), Words { states, ..Words::default() });
-    Signal { name, scopes, own, width, lsb, range, kind, radix: None, shape: None, words, id }
+    let value_type = var.vhdl_type_name(hierarchy).map(str::to_owned);
+    let of_type = |value_type| SignalDescription { value_type, meaning: String::new() }.into();
+    Signal {
+        name,
+        scopes,
+        own,
+        width,
+        lsb,
+        range,
+        kind,
+        radix: None,
+        shape: None,
+        words,
+        description: value_type.map(of_type),
+        id,
+    }
 }
 
 fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {

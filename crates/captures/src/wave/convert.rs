@@ -49,6 +49,10 @@ impl OutputFormat {
     }
 }
 
+/// Begins the comment with the origin of a converted file.
+const ORIGIN: &str = "converted from ";
+/// Begins the record of a command, from which `tofsim rerun` makes a file again.
+const RECORD: &str = "tofsim-record ";
 /// Units of time below a second.
 const FEMTOSECOND: i8 = -15;
 
@@ -72,15 +76,18 @@ pub fn convert(source: &Source, excerpt: &Excerpt, path: &Path) -> Result<u64> {
         let expected = format!("has times of 1e{exponent} s, and VCD's are 1 fs or more");
         return Err(Input::new(&source.name, expected).into());
     }
-    let origin = format!("converted from {}", source.name);
+    // A record of another file's command is none of this one's.
+    let own = source.comments.iter().filter(|text| !text.starts_with(ORIGIN));
+    let own = own.map(|text| text.replace(RECORD, "record "));
+    let comments: Vec<_> = [format!("{ORIGIN}{}", source.name)].into_iter().chain(own).collect();
     let mut dump: Box<dyn Dump> = match format {
         OutputFormat::Vcd => {
             let signals = declared(&chosen);
-            Box::new(VcdDump::create(path, exponent, &signals, chosen.len(), &origin)?)
+            Box::new(VcdDump::create(path, exponent, &signals, chosen.len(), &comments)?)
         }
         OutputFormat::Fst => {
             let signals = declared(&chosen);
-            Box::new(FstDump::create(path, exponent, &signals, chosen.len(), &origin)?)
+            Box::new(FstDump::create(path, exponent, &signals, chosen.len(), &comments)?)
         }
         OutputFormat::Csv => Box::new(CsvDump::create(path, Columns::new(&chosen, source))?),
         OutputFormat::WaveJson => Box::new(WaveJson::create(path, Columns::new(&chosen, source))?),
@@ -154,7 +161,8 @@ fn declared(chosen: &Chosen) -> Vec<DumpSignal> {
             SignalKind::Event | SignalKind::Other => DumpKind::Event,
         };
         let (scopes, name, range) = (Arc::clone(&signal.scopes), signal.own.clone(), signal.range);
-        DumpSignal { scopes, name, range, kind, states: of(signal), id }
+        let (states, description) = (of(signal), signal.description.clone());
+        DumpSignal { scopes, name, range, kind, states, description, id }
     };
     chosen.names.iter().map(declare).collect()
 }

@@ -1,5 +1,6 @@
 //! Samples of a run, as a logic analyser takes them, for a timing diagram and for WaveDrom.
 
+use std::iter;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
@@ -7,6 +8,7 @@ use bitvec::field::BitField;
 use serde_json::{Value, json};
 
 use tofsim::error::Result;
+use tofsim::kernel::signals::Signal;
 use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Probe, Radix, capture};
@@ -52,19 +54,34 @@ impl Wave {
 impl Trace {
     /// Samples `range` of a capture, whose clock has that period; time begins with the range [ns].
     pub fn of_capture(capture: &Capture, range: Range<usize>, step_ns: f64) -> Self {
+        Trace::of_signals(capture, &[], range, step_ns)
+    }
+
+    /// Samples `range` of a capture as [`Trace::of_capture`] does, with the numbers of those of its probes' `signals` that
+    /// have a unit.
+    pub fn of_signals(
+        capture: &Capture,
+        signals: &[Option<Signal>],
+        range: Range<usize>,
+        step_ns: f64,
+    ) -> Self {
         let range = range.start..range.end.min(capture.samples());
-        let wave = |(probe, place): (&Probe, Range<usize>)| {
+        let signals = signals.iter().map(Option::as_ref).chain(iter::repeat(None));
+        let wave = |((probe, place), signal): ((&Probe, Range<usize>), Option<&Signal>)| {
+            let signal = signal.filter(|signal| !signal.number_unit().is_empty());
             let value = |k: usize| {
                 let word: u64 = capture.sample(k)[place.clone()].load_le();
-                shown(word, probe.width, probe.radix)
+                let as_radix = || shown(word, probe.width, probe.radix);
+                signal.map_or_else(as_radix, |signal| signal.number_text(word))
             };
+            let with_unit = |signal: &Signal| format!("{} [{}]", probe.name, signal.number_unit());
             Wave {
-                name: probe.head(),
+                name: signal.map_or_else(|| probe.head(), with_unit),
                 is_word: probe.width > 1,
                 samples: range.clone().map(value).collect(),
             }
         };
-        let waves = capture.probes.iter().zip(capture.places()).map(wave).collect();
+        let waves = capture.probes.iter().zip(capture.places()).zip(signals).map(wave).collect();
         Trace { step_ns, waves, ..Trace::default() }
     }
 

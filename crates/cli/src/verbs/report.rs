@@ -213,7 +213,14 @@ impl Parts<'_> {
         let none = || Input::new("waveform", "no shot begins in the run");
         let seen = seen.ok_or_else(none)?;
         let step_ns = self.setup.cycle().fs() as f64 * 0.5e-6;
-        let mut trace = Trace::of_capture(&seen, 0..SAMPLES, step_ns);
+        let entries = tofsim::hierarchy::entries(&self.setup.params);
+        let signal = |path: &str| {
+            let entry = entries.iter().find(|entry| entry.below_top() == path)?;
+            Some(entry.signal.clone())
+        };
+        let probes = set_up.file.probe.iter();
+        let signals: Vec<_> = probes.map(|probe| signal(&probe.signal)).collect();
+        let mut trace = Trace::of_signals(&seen, &signals, 0..SAMPLES, step_ns);
         trace.marks = vec![(8.0 * step_ns, "laser edge".to_owned())];
         Ok(trace)
     }

@@ -10,6 +10,7 @@ use serde_json::json;
 
 use tofsim::error::open::open_file;
 use tofsim::error::{Error, Input, Result};
+use tofsim_captures::source::fst_comments;
 
 use crate::record::Record;
 
@@ -116,9 +117,20 @@ fn is_home(folder: &Path, file: &Path) -> bool {
     folder.canonicalize().is_ok_and(|folder| home.canonicalize().is_ok_and(|home| home == folder))
 }
 
+/// The record in a file.
+fn inside(bytes: &[u8]) -> Option<Record> {
+    // An FST file has it in compressed comments, of which a long one is in parts.
+    let of_comments = || {
+        let comments = fst_comments(bytes);
+        let whole = comments.iter().find_map(|comment| Record::find(comment.as_bytes()));
+        whole.or_else(|| Record::find(comments.concat().as_bytes()))
+    };
+    Record::find(bytes).or_else(of_comments)
+}
+
 /// The record of a file, or of another output in its folder that was made with it.
 fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
-    if let Some(record) = Record::find(bytes) {
+    if let Some(record) = inside(bytes) {
         return Ok(record);
     }
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -240,7 +252,7 @@ fn differences(given: &[u8], again: &[u8], record: &Record) -> Vec<String> {
         return Vec::new();
     }
     let mut found = Vec::new();
-    let now = Record::find(again).unwrap_or_else(|| record.clone());
+    let now = inside(again).unwrap_or_else(|| record.clone());
     for (what, then, now) in [
         ("version", &record.version, &now.version),
         ("hash of the scenario and its files", &record.hash, &now.hash),

@@ -2,6 +2,7 @@
 
 use super::super::signals::WIDEST;
 use super::super::span::{Checked, Fault, Span, at_most};
+use super::comments::Comments;
 use super::unpack::{gzip, gzipped, lz4, zlib};
 
 /// Parses the width of each signal's initial value in the geometry block [bytes].
@@ -21,8 +22,13 @@ pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
 
 /// Checks that every name in a hierarchy block belongs to one of the first `signals` signals. The block's kind is 4 if it
 /// is compressed by gzip, 6 for LZ4, or 7 for LZ4 twice. If there are VHDL types among the names, the block is returned
-/// without them.
-pub(super) fn check(body: &[u8], kind: u8, signals: u64) -> Checked<Option<Vec<u8>>> {
+/// without them. The comments in it are added to `comments`.
+pub(super) fn check(
+    body: &[u8],
+    kind: u8,
+    signals: u64,
+    comments: &mut Comments,
+) -> Checked<Option<Vec<u8>>> {
     const SIZE: &str = "names' size";
     let mut span = Span::new(body, "names");
     let size = span.word(8)?;
@@ -42,12 +48,12 @@ pub(super) fn check(body: &[u8], kind: u8, signals: u64) -> Checked<Option<Vec<u
         match span.byte()? {
             SCOPE => {
                 span.byte()?;
-                span.text()?;
+                comments.enter(span.text()?);
                 span.text()?;
             }
             0..=LAST_KIND => {
                 span.byte()?;
-                span.text()?;
+                comments.variable(span.text()?);
                 at_most("a signal's width", span.number()?, u32::MAX.into())?;
                 if at_most("a name's signal", span.number()?, signals)? == 0 {
                     own = at_most("names' signals", own + 1, signals)?;
@@ -58,11 +64,16 @@ pub(super) fn check(body: &[u8], kind: u8, signals: u64) -> Checked<Option<Vec<u
                 if SOURCES.contains(&kind) {
                     span.number()?;
                 }
-                span.text()?;
-                span.number()?;
-                is_kept = kind != VHDL_TYPE;
+                let text = span.text()?;
+                let value = span.number()?;
+                if kind == COMMENT {
+                    comments.add(text);
+                }
+                // The library prints some of VHDL's types, which have numbers.
+                is_kept = kind != VHDL_TYPE || value == 0;
             }
-            ATTRIBUTE_END | SCOPE_END => {}
+            ATTRIBUTE_END => {}
+            SCOPE_END => comments.leave(),
             kind => return Err(Fault::value("a name's kind", kind.into(), "is none")),
         }
         if is_kept {
@@ -89,7 +100,9 @@ const ATTRIBUTE: u8 = 252;
 const ATTRIBUTE_END: u8 = 253;
 const SCOPE: u8 = 254;
 const SCOPE_END: u8 = 255;
-/// Attribute with the VHDL type of the next variable.
+/// Attribute with a comment.
+const COMMENT: [u8; 2] = [0, 0];
+/// Attribute with the type of the next variable.
 const VHDL_TYPE: [u8; 2] = [0, 2];
 /// Attributes that have a number in place of their text: source stems.
 const SOURCES: [[u8; 2]; 2] = [[0, 4], [0, 5]];

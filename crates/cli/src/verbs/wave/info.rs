@@ -3,9 +3,11 @@
 use serde_json::{Value, json};
 
 use tofsim::error::Result;
+use tofsim::waves::dump::SignalDescription;
 use tofsim_captures::source::{Axis, Signal, Source};
 use tofsim_captures::wave::Contents;
 
+use crate::record::MARK;
 use crate::report::writer::{Findings, Report};
 use crate::text::table::{facts, grouped, table};
 
@@ -61,6 +63,8 @@ impl Findings for Info<'_> {
                 "width": Contents::width(signal),
                 "range": signal.range,
                 "states": states,
+                "value_type": stated(signal, |known| &known.value_type),
+                "meaning": meaning(signal),
                 "id": signal.id,
             })
         };
@@ -75,6 +79,7 @@ impl Findings for Info<'_> {
             "different_signals": contents.signals,
             "bits": contents.bits,
             "types": contents.types,
+            "comments": source.comments,
             "signals": source.signals.iter().map(signal).collect::<Vec<_>>(),
             "notes": source.notes,
         })
@@ -87,6 +92,8 @@ impl Findings for Info<'_> {
         let end = source.end.map_or("not stated".to_owned(), |end| source.axis.place_text(end));
         let resolution =
             resolution(source.axis).map_or("samples".to_owned(), |ps| format!("{ps} ps"));
+        let comments = source.comments.iter().filter(|comment| !comment.starts_with(MARK));
+        let comments = comments.map(|comment| ("comment", comment.clone()));
         let rows = [
             ("end", end),
             ("resolution", resolution),
@@ -96,19 +103,36 @@ impl Findings for Info<'_> {
             ("bits", grouped(contents.bits)),
             ("types", types.collect::<Vec<_>>().join(", ")),
         ];
-        let rows = rows.map(|(name, value)| (name.to_owned(), value));
+        let rows = rows.into_iter().chain(comments).map(|(name, value)| (name.to_owned(), value));
         let mut text = format!("{}: {}\n\n{}\n", source.name, source.format, facts(rows));
         if *lists {
+            let has_meanings = source.signals.iter().any(|signal| meaning(signal).is_some());
+            let header =
+                &["signal", "width", "type", "meaning"][..if has_meanings { 4 } else { 3 }];
             let row = |signal: &Signal| {
                 let name = format!("{} {}", signal.name.text, range(signal));
                 let width = Contents::width(signal).map_or("-".to_owned(), |w| w.to_string());
-                [name, width, Contents::type_of(signal).to_owned()]
+                let value_type = stated(signal, |known| &known.value_type);
+                let value_type = value_type.unwrap_or(Contents::type_of(signal)).to_owned();
+                let mut row = vec![name, width, value_type];
+                row.extend(has_meanings.then(|| meaning(signal).unwrap_or_default().to_owned()));
+                row
             };
             let rows = source.signals.iter().map(row);
-            text += &format!("\n{}\n", table(["signal", "width", "type"], rows, 1..2));
+            text += &format!("\n{}\n", table(header.to_vec(), rows, 1..2));
         }
         text
     }
+}
+
+/// Returns a part of a signal's description, if the source states it.
+fn stated(signal: &Signal, part: impl Fn(&SignalDescription) -> &String) -> Option<&str> {
+    Some(part(signal.description.as_ref()?).as_str()).filter(|text| !text.is_empty())
+}
+
+/// Returns a signal's meaning, if the source states it.
+fn meaning(signal: &Signal) -> Option<&str> {
+    stated(signal, |known| &known.meaning)
 }
 
 /// Returns the unit of times in JSON.
