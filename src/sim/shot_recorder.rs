@@ -10,7 +10,7 @@ use crate::optics::hazard::Cause;
 use super::callback::Callback;
 use super::device::{AvalancheListener, Device, Off};
 use super::frames::Frames;
-use super::tdc_hits::{LastAvalanches, may_be_of};
+use super::tdc_hits::{ComingAvalanches, LastAvalanches, may_be_of};
 
 /// One shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,6 +45,7 @@ pub(super) struct ShotRecorder {
     open: VecDeque<Shot>,
     /// Shots that are complete, oldest first.
     complete: Vec<Shot>,
+    coming: ComingAvalanches,
     avalanches: LastAvalanches<Option<Cause>>,
     shot: u64,
     /// The driver's `enable`, as the coming shot takes it.
@@ -58,7 +59,8 @@ pub(super) struct ShotRecorder {
 pub(super) const OPEN: usize = 3;
 
 impl ShotRecorder {
-    fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
+    /// Gives an avalanche to the shot under way.
+    fn take(&mut self, at: Time, cause: Option<Cause>) {
         self.avalanches.push(at, cause);
         if let Some(shot) = self.open.back_mut()
             && shot.arrival_fs.is_none()
@@ -69,6 +71,9 @@ impl ShotRecorder {
 
     /// Updates shots from the registers after edge `cycle` at `now`.
     fn edge(&mut self, (cycle, now): (u64, Time), frame: u64, top: &TofTop, p: &Params) {
+        while let Some((at, cause)) = self.coming.take_before(now) {
+            self.take(at, cause);
+        }
         match p.code_source {
             CodeSource::Tdc => self.follow_tdc(cycle, top, p),
             CodeSource::Preload(_) => self.follow_preload(top),
@@ -84,6 +89,9 @@ impl ShotRecorder {
             if self.open.len() > OPEN {
                 self.complete.extend(self.open.pop_front());
             }
+        }
+        while let Some((at, cause)) = self.coming.take_at(now) {
+            self.take(at, cause);
         }
         if top.frame_ctrl.clear && top.frame_ctrl.clear_addr == 0 {
             self.complete.extend(self.open.drain(..));
@@ -160,7 +168,7 @@ impl AvalancheListener for Recording<'_> {
     const ON: bool = true;
 
     fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
-        self.recorder.avalanche(at, cause);
+        self.recorder.coming.push(at, cause);
     }
 }
 

@@ -1,21 +1,18 @@
 //! Avalanches: from the SPAD until `tdc_stop` falls.
 
-use std::collections::VecDeque;
-
 use crate::firmware::carry_chain::Transitions;
 use crate::kernel::Time;
 use crate::optics::hazard::Cause;
-use crate::sim::tdc_hits::LastAvalanches;
+use crate::sim::tdc_hits::{ComingAvalanches, LastAvalanches};
 
 use super::edge::{BegunShot, Numbers};
 use super::{Content, Transaction};
 
-/// Follows avalanches. What happens after an edge is looked at with the next one, because how far a device has gone by
-/// then depends on who else observes it.
+/// Follows avalanches.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Photons {
     /// Avalanches that no edge has passed yet.
-    coming: VecDeque<(Time, Option<Cause>)>,
+    pub(super) coming: ComingAvalanches,
     /// Photons while `tdc_stop` is high.
     going: Vec<Transaction>,
     /// Number of each of the last photons.
@@ -25,36 +22,26 @@ pub(super) struct Photons {
 }
 
 impl Photons {
-    /// Takes an avalanche.
-    pub(super) fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
-        self.coming.push_back((at, cause));
-    }
-
-    /// Begins the photons before `until`, in `frame` and the shot under way.
+    /// Begins a photon, in `frame` and the shot under way.
     pub(super) fn begin(
         &mut self,
-        until: Time,
+        (at, cause): (Time, Option<Cause>),
         frame: u64,
         shot: Option<&BegunShot>,
         numbers: &mut Numbers,
     ) {
-        while let Some(&(at, cause)) = self.coming.front()
-            && at < until
-        {
-            self.coming.pop_front();
-            let id = numbers.next();
-            self.avalanches.push(at, id);
-            let arrival_fs = shot.map(|shot| shot.time_fs(at));
-            self.going.push(Transaction {
-                id,
-                begin: at,
-                end: at,
-                frame,
-                shot: shot.map(|shot| shot.shot),
-                origin: shot.map(BegunShot::as_origin),
-                content: Content::Photon { cause, arrival_fs },
-            });
-        }
+        let id = numbers.next();
+        self.avalanches.push(at, id);
+        let arrival_fs = shot.map(|shot| shot.time_fs(at));
+        self.going.push(Transaction {
+            id,
+            begin: at,
+            end: at,
+            frame,
+            shot: shot.map(|shot| shot.shot),
+            origin: shot.map(BegunShot::as_origin),
+            content: Content::Photon { cause, arrival_fs },
+        });
     }
 
     /// Ends photons where `tdc_stop` has fallen by `now`; its level is `stop` after the last transition.

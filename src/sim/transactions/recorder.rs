@@ -47,11 +47,14 @@ struct BegunEstimation {
 impl TransactionRecorder {
     /// Follows an edge.
     fn edge(&mut self, edge: &EdgeState, device: &Device) {
-        let (top, numbers) = (edge.top, &mut self.numbers);
-        self.photons.begin(edge.now, edge.frame, self.shots.last(), numbers);
+        let top = edge.top;
+        while let Some(avalanche) = self.photons.coming.take_before(edge.now) {
+            self.photons.begin(avalanche, edge.frame, self.shots.last(), &mut self.numbers);
+        }
         self.follow_shot(edge);
-        let after_now = edge.now.saturating_add(Time::from_fs(1));
-        self.photons.begin(after_now, edge.frame, self.shots.last(), &mut self.numbers);
+        while let Some(avalanche) = self.photons.coming.take_at(edge.now) {
+            self.photons.begin(avalanche, edge.frame, self.shots.last(), &mut self.numbers);
+        }
         let wire = (&device.transitions, top.pins.tdc_stop);
         self.photons.end(edge.now, wire, &mut self.complete);
         let (numbers, complete) = (&mut self.numbers, &mut self.complete);
@@ -170,7 +173,7 @@ impl AvalancheListener for TransactionRecording<'_> {
     const ON: bool = true;
 
     fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
-        self.recorder.photons.avalanche(at, cause);
+        self.recorder.photons.coming.push(at, cause);
     }
 }
 
