@@ -9,19 +9,36 @@ use parquet::record::Field;
 use serde_json::Value;
 
 use crate::common::{empty, json, refused, stdout};
-use crate::waveform::Wave;
+use crate::waveform::{Changes, Wave};
 
 mod ftr;
 
 use ftr::{Transactions, Tx};
 
-/// Runs a scenario, and returns its result, transactions and waveform.
-fn run(folder: &Path, args: &[&str]) -> (Value, Transactions, Wave) {
-    let outputs = ["--transactions", "run.ftr", "--waves", "fst", "-o", "out", "--json", "-q"];
+/// Runs a scenario, and returns its result and transactions.
+fn run(folder: &Path, args: &[&str]) -> (Value, Transactions) {
+    let outputs = ["--transactions", "run.ftr", "--waves", "none", "--json", "-q"];
     let result = json(folder, &[&["run"], args, &outputs].concat());
-    let wave = Wave::open(&folder.join(result["waves"].as_str().unwrap()));
-    (result, Transactions::open(&folder.join("run.ftr")), wave)
+    (result, Transactions::open(&folder.join("run.ftr")))
 }
+
+/// Runs a scenario again with a waveform of the whole run but for its last cycle, and returns that; the transactions
+/// are the same.
+fn waveform(folder: &Path, args: &[&str], found: &Transactions) -> Wave {
+    let window = format!("0ns..{}ns", (found.of("estimation").last().unwrap().end + CYCLE) / 1000);
+    let outputs =
+        ["--transactions", "again.ftr", "--waves", "fst", "--window", &window, "-o", "out", "-q"];
+    let result = json(folder, &[&["run"], args, &outputs, &["--json"]].concat());
+    let again = Transactions::open(&folder.join("again.ftr"));
+    for stream in found.streams.keys() {
+        assert_eq!(found.of(stream), again.of(stream));
+    }
+    assert_eq!(found.relations, again.relations);
+    Wave::open(&folder.join(result["waves"].as_str().unwrap()))
+}
+
+/// A cycle of `clk_sys` [ps].
+const CYCLE: u64 = 8_000;
 
 fn begins(transactions: &[Tx]) -> Vec<u64> {
     transactions.iter().map(|one| one.begin).collect()
@@ -32,10 +49,9 @@ fn ends(transactions: &[Tx]) -> Vec<u64> {
 }
 
 /// Value of a word from an instant on.
-fn word_at(wave: &Wave, name: &str, at: u64) -> i64 {
-    let changes = wave.changes(name);
-    let last = changes.iter().rfind(|(time, _)| *time <= at).unwrap();
-    i64::from_str_radix(&last.1, 2).unwrap()
+fn word_at(changes: &Changes, at: u64) -> i64 {
+    let last = changes.partition_point(|(time, _)| *time <= at) - 1;
+    i64::from_str_radix(&changes[last].1, 2).unwrap()
 }
 
 /// Counts of a histogram in a result.
@@ -56,23 +72,31 @@ fn every_transaction_begins_and_ends_at_the_waveforms_edges() {
     ];
     for case in of_cases {
         let folder = empty();
-        let (result, found, wave) = run(folder.path(), &[case, &shots[..]].concat());
-        let end = *wave.waveform.time_table().last().unwrap();
+        let args = [case, &shots[..]].concat();
+        let (result, found) = run(folder.path(), &args);
+        let wave = waveform(folder.path(), &args, &found);
+        let end = found.of("estimation").last().unwrap().end + 2 * CYCLE;
         let calibrates = case.iter().any(|word| word.contains("recalibrate"));
         check_photons(&found, &wave, end, calibrates);
         check_shots(&found, &wave);
-        check_codes(&found, &wave, calibrates);
+        let mode_1 = case.contains(&"firmware.mode=1");
+        check_codes(&found, &wave, (calibrates, mode_1));
         check_counts(&found, &wave, calibrates);
         check_estimations(&found, &wave, &result);
-        assert!(found.of("count").len() > 100, "{case:?}");
+        assert!(found.of("count").len() > 30, "{case:?}");
     }
 }
 
 fn check_photons(found: &Transactions, wave: &Wave, end: u64, calibrates: bool) {
     let photons = found.of("photon");
     if !calibrates {
-        assert_eq!(begins(photons), wave.rises("tdc_stop"));
-        let falls = wave.falls("tdc_stop");
+        // Before the PLL locks nobody looks.
+        let first = wave.rises("clk_sys")[0];
+        let mut rises = wave.rises("tdc_stop");
+        let mut falls = wave.falls("tdc_stop");
+        let unseen = rises.iter().filter(|rise| **rise < first).count();
+        assert_eq!(begins(photons), rises.split_off(unseen));
+        let falls = falls.split_off(unseen);
         assert_eq!(ends(photons)[..falls.len()], falls);
         assert!(photons[falls.len()..].iter().all(|last| last.end == end), "{photons:?}");
         assert_eq!(ends(found.of("hit")), wave.rises("tdc.tdc_latch.hit"));
@@ -106,7 +130,7 @@ fn check_shots(found: &Transactions, wave: &Wave) {
     }
 }
 
-fn check_codes(found: &Transactions, wave: &Wave, calibrates: bool) {
+fn check_codes(found: &Transactions, wave: &Wave, (calibrates, mode_1): (bool, bool)) {
     let codes = found.of("code");
     let valid = wave.rises("tdc.tdc_decoder.tdc_valid");
     if calibrates {
@@ -115,9 +139,10 @@ fn check_codes(found: &Transactions, wave: &Wave, calibrates: bool) {
         assert_eq!(begins(codes), valid);
     }
     assert_eq!(found.relations["code of hit"].len(), codes.len());
+    let words = wave.changes("tdc.tdc_decoder.tdc_code");
     for code in codes {
         assert_eq!(code.end - code.begin, 8_000);
-        assert_eq!(code.number("code"), word_at(wave, "tdc.tdc_decoder.tdc_code", code.begin));
+        assert_eq!(code.number("code"), word_at(&words, code.begin));
         assert_eq!(code.number("time_fs"), code.number("code") * 25_000);
     }
     for (hit, code) in &found.relations["code of hit"] {
@@ -131,9 +156,10 @@ fn check_codes(found: &Transactions, wave: &Wave, calibrates: bool) {
                 && code.begin - shot.begin < 250_000
         });
         let Some(shot) = shot else { panic!("no shot of {hit:?} and {code:?}") };
-        // Quantised to a bin, with the chain's unevenness.
+        // Quantised to a bin, with the chain's unevenness; in MODE 1 the last pulse may still travel in the chain.
         let arrival_ps = hit.begin as i64 - shot.begin as i64;
-        assert!((code.number("time_fs") / 1000 - arrival_ps).abs() < 120, "{hit:?} {code:?}");
+        let off_ps = code.number("time_fs") / 1000 - arrival_ps;
+        assert!(mode_1 || off_ps.abs() < 60, "{hit:?} {code:?}");
     }
 }
 
@@ -198,7 +224,7 @@ fn a_photon_can_be_followed_from_its_arrival_to_its_bin() {
     let path = folder.path();
     std::fs::write(path.join("photons.csv"), "shot,arrival_ps\n3,1000.5\n").unwrap();
     let list = ["-s", "stimulus.photons=photons.csv", "-s", "firmware.shots_per_frame=6"];
-    let (result, found, _) = run(path, &[&["-s", "tdc.profile=ideal"], &list[..]].concat());
+    let (result, found) = run(path, &[&["-s", "tdc.profile=ideal"], &list[..]].concat());
     let [photon] = found.of("photon") else { panic!("{:?}", found.of("photon")) };
     let shot = &found.of("shot")[3];
     assert_eq!(found.relations["photon of shot"], [(shot.id, photon.id)]);
@@ -227,7 +253,7 @@ fn a_photon_can_be_followed_from_its_arrival_to_its_bin() {
 fn parquet_has_the_transactions_of_ftr() {
     let folder = empty();
     let case = ["far", "-s", "firmware.shots_per_frame=200", "--frames", "2"];
-    let (.., found, _) = run(folder.path(), &case);
+    let (_, found) = run(folder.path(), &case);
     let more = ["--transactions", "run.parquet", "--waves", "none", "-q"];
     stdout(folder.path(), &[&["run"], &case[..], &more].concat());
     let file = File::open(folder.path().join("run.parquet")).unwrap();
@@ -248,11 +274,11 @@ fn parquet_has_the_transactions_of_ftr() {
         for (row, one) in rows.iter().zip(found.of(stream)) {
             let numbers = ["id", "begin_ps", "end_ps"].map(|name| row[name].to_string());
             assert_eq!(numbers, [one.id, one.begin, one.end].map(|number| number.to_string()));
-            let known = row.iter().skip_while(|_| false).filter(|(name, field)| {
-                !["id", "stream", "begin_ps", "end_ps", "origin"].contains(&name.as_str())
-                    && **field != Field::Null
-            });
-            let known: Vec<_> = known.collect();
+            let of_all = ["id", "stream", "begin_ps", "end_ps", "origin"];
+            let is_known = |(name, field): &(&String, &Field)| {
+                !of_all.contains(&name.as_str()) && **field != Field::Null
+            };
+            let known: Vec<_> = row.iter().filter(is_known).collect();
             assert_eq!(known.len(), one.attributes.len(), "{row:?} {one:?}");
             for (name, field) in known {
                 let expected = match field {
@@ -280,14 +306,14 @@ fn check_origin(row: &BTreeMap<String, Field>, one: &Tx, found: &Transactions) {
 #[test]
 fn preloaded_codes_are_counted_and_a_preloaded_histogram_is_estimated() {
     let folder = empty();
-    let (result, found, _) = run(folder.path(), &["histogram_validation"]);
+    let (result, found) = run(folder.path(), &["histogram_validation"]);
     let codes: Vec<_> = found.of("code").iter().map(|code| code.number("code")).collect();
     let counted: Vec<_> = found.of("count").iter().map(|count| count.number("bin")).collect();
     assert!(codes.len() > 10);
     assert_eq!(codes, counted);
     assert_eq!(found.relations["code of shot"].len(), codes.len());
     assert_eq!(histogram(&result["frames"][0]).iter().sum::<i64>(), codes.len() as i64);
-    let (result, found, _) = run(folder.path(), &["estimator_validation"]);
+    let (result, found) = run(folder.path(), &["estimator_validation"]);
     let [estimation] = found.of("estimation") else { panic!() };
     let hits: i64 = histogram(&result["frames"][0]).iter().sum();
     assert_eq!((estimation.number("hits"), found.of("shot").len()), (hits, 0));
@@ -299,7 +325,7 @@ fn a_transaction_file_that_cannot_be_is_refused() {
     let refused =
         |args: &[&str]| refused(folder.path(), &[&["run", "--transactions"], args].concat());
     let ending = refused(&["run.csv"]);
-    assert!(ending.contains("--transactions = run.csv"), "{ending}");
+    assert!(ending.contains("--transactions: run.csv: expected"), "{ending}");
     assert!(ending.contains("expected a name that ends in .ftr or .parquet"), "{ending}");
     for fidelity in ["shot", "histogram"] {
         let error = refused(&["run.ftr", "--fidelity", fidelity]);

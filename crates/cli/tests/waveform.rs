@@ -9,7 +9,7 @@ mod channels;
 mod row;
 mod wave;
 
-pub use wave::Wave;
+pub use wave::{Changes, Wave};
 
 fn run(folder: &Path, args: &[&str]) {
     common::stdout(folder, &[&["run", "-o", "."], args].concat());

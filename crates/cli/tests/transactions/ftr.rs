@@ -7,7 +7,7 @@ use ftr_parser::parse::parse_ftr;
 use ftr_parser::types::{FTR, TransactionId};
 
 /// A transaction.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tx {
     pub id: u64,
     pub begin: u64,
