@@ -144,14 +144,14 @@ impl TransactionRecorder {
 }
 
 /// Calls back with each transaction once it has ended.
-pub(in crate::sim) struct TransactionRecording<'a> {
+pub(crate) struct TransactionRecording<'a> {
     recorder: TransactionRecorder,
     take: Callback<'a, Transaction>,
 }
 
 impl<'a> TransactionRecording<'a> {
     /// Calls `take` with every transaction from power-up on.
-    pub(in crate::sim) fn new(take: Callback<'a, Transaction>) -> Self {
+    pub(crate) fn new(take: Callback<'a, Transaction>) -> Self {
         TransactionRecording { recorder: TransactionRecorder::default(), take }
     }
 
@@ -159,7 +159,7 @@ impl<'a> TransactionRecording<'a> {
     ///
     /// # Errors
     /// When the callback fails.
-    pub(in crate::sim) fn finish(mut self, end: Time) -> Result<()> {
+    pub(crate) fn finish(mut self, end: Time) -> Result<()> {
         self.recorder.finish(end);
         self.hand_on()
     }
