@@ -38,7 +38,7 @@ fn waveform(folder: &Path, args: &[&str], found: &Transactions) -> Wave {
 }
 
 /// A short calibration, and so a rough one.
-const FEW_HITS: &str = "tdc.calibration_hits_log2=12";
+const FEW_HITS: &str = "tdc.calibration_hits_log2=10";
 
 /// A cycle of `clk_sys` [ps].
 const CYCLE: u64 = 8_000;
