@@ -134,5 +134,6 @@ pub use sim::second_opinion::SecondOpinion;
 pub use sim::setup::Setup;
 pub use sim::shot_recorder::Shot;
 pub use sim::stepping::Stepping;
+pub use sim::transactions::Transaction;
 pub use waves::marks::Marks;
 pub use waves::writer::{WaveFormat, Waves};

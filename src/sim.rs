@@ -18,13 +18,16 @@ pub mod live;
 mod oscillator;
 pub mod photons;
 mod probe;
+mod recordings;
 pub mod run;
 pub mod second_opinion;
 pub mod setup;
 pub mod shot_recorder;
 pub mod stepped;
 pub(crate) mod stepping;
+mod tdc_hits;
 mod timeline;
+pub mod transactions;
 mod wave_tracer;
 
 pub use device::Device;

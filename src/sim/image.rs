@@ -113,7 +113,7 @@ pub fn simulate(
                 frames: Some(&mut take),
                 shots: wants_shots.then_some(&mut take_shot),
                 stop,
-                waves: None,
+                ..Observers::default()
             };
             Run::new(setup).stepping(stepping).observe(count, observers)?;
         }

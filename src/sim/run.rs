@@ -13,9 +13,11 @@ use super::callback::{Callback, call};
 use super::clockwork::{Clockwork, Event};
 use super::device::Off;
 use super::frames::Frame;
+use super::recordings::Recordings;
 use super::setup::Setup;
-use super::shot_recorder::{Recording, Shot, ShotListener};
+use super::shot_recorder::{Shot, ShotListener};
 use super::stepping::Stepping;
+use super::transactions::Transaction;
 use super::wave_tracer::{WaveTracer, WindowedProbe};
 
 /// Cycles between two polls of whether to stop, a part of a second.
@@ -28,6 +30,8 @@ pub struct Observers<'a> {
     pub waves: Option<(Waves, Vec<Window>)>,
     /// Receives each shot, in order.
     pub shots: Option<Callback<'a, Shot>>,
+    /// Receives each transaction, as they end.
+    pub transactions: Option<Callback<'a, Transaction>>,
     /// Receives each frame, in order, after its shots.
     pub frames: Option<Callback<'a, Frame>>,
     /// Set from outside to stop the run.
@@ -91,13 +95,14 @@ impl<'a> Run<'a> {
     /// When the control signals keep a frame from ending, a window lies past the end, an observer
     /// fails, or the run is stopped.
     pub fn observe(mut self, count: u64, observers: Observers) -> Result<Outcome> {
-        let Observers { waves, shots, frames, stop } = observers;
+        let Observers { waves, shots, transactions, frames, stop } = observers;
+        let recordings = Recordings::of(shots, transactions);
         let Some((waves, windows)) = waves else {
-            self.follow(count, &mut Off, shots, frames, stop)?;
+            self.follow(count, &mut Off, recordings, frames, stop)?;
             return Ok(self.outcome(Marks::default()));
         };
         let mut tracer = WaveTracer::new(waves, windows);
-        self.follow(count, &mut tracer, shots, frames, stop)?;
+        self.follow(count, &mut tracer, recordings, frames, stop)?;
         let end = self.clockwork.device.next_edge();
         let marks = tracer.finish(end, self.clockwork.frames.shots())?;
         Ok(self.outcome(marks))
@@ -124,7 +129,7 @@ impl<'a> Run<'a> {
         &mut self,
         count: u64,
         probe: &mut T,
-        shots: Option<Callback<Shot>>,
+        recordings: Option<Recordings>,
         mut frames: Option<Callback<Frame>>,
         stop: Option<&AtomicBool>,
     ) -> Result<()> {
@@ -135,10 +140,11 @@ impl<'a> Run<'a> {
         } else {
             device.power_up(&mut Off, &mut Off);
         }
-        match shots {
-            None => self.go(count, probe, &mut Off, &mut frames, stop),
-            Some(shots) => self.go(count, probe, &mut Recording::new(shots), &mut frames, stop),
-        }
+        let Some(mut recordings) = recordings else {
+            return self.go(count, probe, &mut Off, &mut frames, stop);
+        };
+        self.go(count, probe, &mut recordings, &mut frames, stop)?;
+        recordings.finish(self.clockwork.device.next_edge())
     }
 
     /// Simulates until `count` frames are done, one at least, or until `probe` is.

@@ -10,6 +10,7 @@ use crate::optics::hazard::Cause;
 use super::callback::Callback;
 use super::device::{AvalancheListener, Device, Off};
 use super::frames::Frames;
+use super::tdc_hits::{ComingAvalanches, LastAvalanches, may_be_of};
 
 /// One shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,7 +45,8 @@ pub(super) struct ShotRecorder {
     open: VecDeque<Shot>,
     /// Shots that are complete, oldest first.
     complete: Vec<Shot>,
-    avalanches: VecDeque<(Time, Option<Cause>)>,
+    coming: ComingAvalanches,
+    avalanches: LastAvalanches<Option<Cause>>,
     shot: u64,
     /// The driver's `enable`, as the coming shot takes it.
     laser_en: bool,
@@ -54,16 +56,12 @@ pub(super) struct ShotRecorder {
 }
 
 /// Shots that can be open at once.
-const OPEN: usize = 3;
-/// Avalanches that may still travel in the chain, and then some.
-const AVALANCHES: usize = 16;
+pub(super) const OPEN: usize = 3;
 
 impl ShotRecorder {
-    fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
-        self.avalanches.push_back((at, cause));
-        if self.avalanches.len() > AVALANCHES {
-            self.avalanches.pop_front();
-        }
+    /// Gives an avalanche to the shot under way.
+    fn take(&mut self, at: Time, cause: Option<Cause>) {
+        self.avalanches.push(at, cause);
         if let Some(shot) = self.open.back_mut()
             && shot.arrival_fs.is_none()
         {
@@ -73,6 +71,9 @@ impl ShotRecorder {
 
     /// Updates shots from the registers after edge `cycle` at `now`.
     fn edge(&mut self, (cycle, now): (u64, Time), frame: u64, top: &TofTop, p: &Params) {
+        while let Some((at, cause)) = self.coming.take_before(now) {
+            self.take(at, cause);
+        }
         match p.code_source {
             CodeSource::Tdc => self.follow_tdc(cycle, top, p),
             CodeSource::Preload(_) => self.follow_preload(top),
@@ -88,6 +89,9 @@ impl ShotRecorder {
             if self.open.len() > OPEN {
                 self.complete.extend(self.open.pop_front());
             }
+        }
+        while let Some((at, cause)) = self.coming.take_at(now) {
+            self.take(at, cause);
         }
         if top.frame_ctrl.clear && top.frame_ctrl.clear_addr == 0 {
             self.complete.extend(self.open.drain(..));
@@ -112,10 +116,8 @@ impl ShotRecorder {
             (shot.n, shot.coarse) = (Some(n), Some(coarse));
         }
         if top.tdc.tdc_latch.hit {
-            let seen =
-                |&&(at, _): &&(Time, Option<Cause>)| at + p.tdc.delays.tap_0() <= self.last_edge;
-            let avalanche = self.avalanches.iter().rfind(seen).copied();
-            if let Some(shot) = self.open.iter_mut().rfind(|shot| shot.cycle + 2 <= cycle) {
+            let avalanche = self.avalanches.of_hit(self.last_edge, p);
+            if let Some(shot) = self.open.iter_mut().rfind(|shot| may_be_of(shot.cycle, cycle)) {
                 shot.has_hit = true;
                 if let Some((at, cause)) = avalanche {
                     (shot.arrival_fs, shot.cause) = (Some(between(shot.begun, at)), cause);
@@ -166,7 +168,7 @@ impl AvalancheListener for Recording<'_> {
     const ON: bool = true;
 
     fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
-        self.recorder.avalanche(at, cause);
+        self.recorder.coming.push(at, cause);
     }
 }
 
@@ -177,6 +179,7 @@ impl ShotListener for Recording<'_> {
     }
 }
 
-fn between(from: Time, to: Time) -> i64 {
+/// Returns the time from an instant to another, negative if that came before [fs].
+pub(super) fn between(from: Time, to: Time) -> i64 {
     to.fs() as i64 - from.fs() as i64
 }

@@ -1,4 +1,4 @@
-//! Surfer command files, written from the documentation of version 0.7 and not tried with the program.
+//! Surfer command files, as version 0.7.0-dev runs them without an error (`docs/files.md`).
 //!
 //! Surfer reads state names from the waveform.
 

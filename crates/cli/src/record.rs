@@ -160,9 +160,11 @@ pub fn command_line(command: &Command, matches: &ArgMatches) -> Vec<String> {
         }
         let values = given.get_raw(id).into_iter().flatten();
         let values = values.map(|value| value.to_string_lossy().into_owned());
-        // The shots of a run go where it is told; only their name is part of it.
+        // The shots and transactions of a run go where it is told; only the name of their file is part of it.
         let name = |path: String| match Path::new(&path).file_name() {
-            Some(name) if id == "events" => name.to_string_lossy().into_owned(),
+            Some(name) if ["events", "transactions"].contains(&id) => {
+                name.to_string_lossy().into_owned()
+            }
             _ => path,
         };
         let values = values.map(name);

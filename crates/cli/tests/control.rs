@@ -144,6 +144,15 @@ fn photons_on_the_ends_of_the_range_have_the_first_and_the_last_code() {
 }
 
 #[test]
+fn a_photon_soon_after_the_laser_edge_is_not_of_the_shot_before() {
+    for slow in [&[][..], &["-s", "firmware.laser_freq=0"]] {
+        let rows = events("1,1000\n1,2000\n1,3000\n3,0\n", slow);
+        assert!(rows[1].starts_with("0,1,1000.000,") && rows[3].starts_with("0,3,0.000,"));
+        assert_eq!((&*rows[0], &*rows[2]), ("0,0,,,,,,", "0,2,,,,,,"));
+    }
+}
+
+#[test]
 fn a_hit_at_the_edge_of_the_next_start_belongs_to_the_old_shot() {
     let mode_1 = ["-s", "firmware.mode=1"];
     let rows = events("0,45000\n1,28000\n", &mode_1);

@@ -63,6 +63,7 @@ mod terminal;
 mod three_ways;
 mod timing;
 mod train;
+mod transactions;
 mod vectors;
 mod verify;
 mod vhdl;

@@ -14,13 +14,16 @@ fn every_file_of_a_run_is_made_again_to_the_byte() {
     for (out, more) in [
         ("vcd", &["--events", "shots.csv", "-s", "description=a --> $end <b>"][..]),
         ("fst", &["--waves", "fst", "--events", "shots.parquet", "--threads", "1"]),
+        ("ftr", &["--waves", "none", "--events", "some.csv", "--transactions", "run.ftr"]),
+        ("rows", &["--waves", "none", "--events", "any.csv", "--transactions", "run.parquet"]),
         ("pair", &["--estimator", "subtraction", "--waves", "none", "--events", "pair.csv"]),
     ] {
         stdout(path, &[&["run", "-o", out], &SHORT[..], more].concat());
         let files = fs::read_dir(path.join(out)).unwrap().map(|file| file.unwrap().path());
         let mut files: Vec<_> = files.filter(|file| file.is_file()).collect();
-        files.push(path.join(more[more.iter().position(|word| *word == "--events").unwrap() + 1]));
-        assert!(files.len() >= 5, "{files:?}");
+        let named = more.windows(2).filter(|two| ["--events", "--transactions"].contains(&two[0]));
+        files.extend(named.map(|two| path.join(two[1])));
+        assert!(files.len() >= 4, "{files:?}");
         for file in files {
             let said = output(path, &["rerun", file.to_str().unwrap()]);
             let text = String::from_utf8_lossy(&said.stdout).into_owned();

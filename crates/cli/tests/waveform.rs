@@ -10,7 +10,7 @@ mod row;
 mod views;
 mod wave;
 
-pub use wave::Wave;
+pub use wave::{Changes, Wave};
 
 fn run(folder: &Path, args: &[&str]) {
     common::stdout(folder, &[&["run", "-o", "."], args].concat());

@@ -11,6 +11,7 @@ mod decimal;
 pub mod description;
 pub mod files;
 mod format;
+pub mod ftr;
 pub mod grid;
 pub mod grid_array;
 pub mod grid_option;
@@ -30,6 +31,8 @@ pub mod scene_columns;
 pub mod sensor;
 pub mod shot_file;
 pub mod source;
+mod transaction_columns;
+pub mod transaction_file;
 
 pub use axis::Axis;
 pub use blocks::{BLOCK, Sample};

@@ -33,6 +33,17 @@ pub fn is_same(a: &Path, b: &Path) -> bool {
     a.file_name() == b.file_name() && folder(a) == folder(b)
 }
 
+/// Checks that the file of an option is none of those in `folder`.
+pub fn check_name(option: &str, file: Option<&Path>, folder: Option<&Path>) -> Result<()> {
+    if let (Some(folder), Some(file)) = (folder, file)
+        && NAMES.iter().any(|name| is_same(&folder.join(name), file))
+    {
+        let expected = "expected another name: the run writes a file of its own there";
+        return Err(Input::new(option, expected).value(file.display()).into());
+    }
+    Ok(())
+}
+
 /// Files under construction, and what they are made from.
 pub struct RunFiles<'a> {
     folder: Option<&'a Path>,
@@ -53,12 +64,7 @@ impl<'a> RunFiles<'a> {
         record: &LazyRecord,
         setup: &Setup,
     ) -> Result<Self> {
-        if let (Some(folder), Some(events)) = (folder, events)
-            && NAMES.iter().any(|name| is_same(&folder.join(name), events))
-        {
-            let expected = "expected another name: the run writes a file of its own there";
-            return Err(Input::new("--events", expected).value(events.display()).into());
-        }
+        check_name("--events", events, folder)?;
         let create = |path| ShotFile::of_run(path, setup.has_pairs(), &record.line());
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);

@@ -176,7 +176,7 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
         None => std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?,
     };
     let mut command = Command::new(program);
-    command.args(record.command.iter().map(|word| with_events_in(folder, word))).arg("--quiet");
+    command.args(record.command.iter().map(|word| with_file_in(folder, word))).arg("--quiet");
     let is_printed = given.starts_with(b"{");
     match &verb[..] {
         verb if PRINTING.contains(&verb) => {}
@@ -240,10 +240,15 @@ fn without_folder(bytes: Vec<u8>) -> Vec<u8> {
     keys.replace_all(&text, name).into_owned().into_bytes()
 }
 
-/// A word of a command, with the file of `--events` in a folder.
-fn with_events_in(folder: &Path, word: &str) -> String {
-    let name = word.strip_prefix("--events=").and_then(|path| Path::new(path).file_name());
-    name.map_or(word.to_owned(), |name| format!("--events={}", folder.join(name).display()))
+/// Returns a word of a command, with the file of `--events` or `--transactions` in a folder.
+fn with_file_in(folder: &Path, word: &str) -> String {
+    let Some((option, path)) = word.split_once('=') else { return word.to_owned() };
+    match Path::new(path).file_name() {
+        Some(name) if ["--events", "--transactions"].contains(&option) => {
+            format!("{option}={}", folder.join(name).display())
+        }
+        _ => word.to_owned(),
+    }
 }
 
 /// Describes the differences: the record first, then the first byte.

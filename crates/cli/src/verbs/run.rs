@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::scenario;
@@ -13,15 +12,18 @@ use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
+use tofsim::sim::transactions::Transaction;
 use tofsim::sim::{Outcome, Run};
 use tofsim::waves::{WaveFormat, Waves};
+use tofsim::{Callback, Note};
+use tofsim_learn::dataset::transaction_file::TransactionFile;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 use tofsim_learn::estimation::{EstimatorKind, Needs, Panel};
 
 use crate::choice::{self, Fidelity, WaveformChoice, seed, words};
-use crate::record::Record;
+use crate::record::{LazyRecord, Record};
 use crate::report::frame_log::FrameLog;
-use crate::report::run_files::RunFiles;
+use crate::report::run_files::{RunFiles, check_name, is_same};
 use crate::report::statistics::second_opinion;
 use crate::report::summary::Summary;
 use crate::report::table;
@@ -40,7 +42,8 @@ use super::wave_plan::{SignalArgs, WavePlan};
     tofsim run far --frames 1000 --fidelity shot\n  \
     tofsim run --estimator subtraction   a dark and a lit frame of 15,000 shots\n  \
     tofsim run -s target.distance_m=0.3 --seed 7 -o out\n  \
-    tofsim run --window 10us..12us --signals 'tdc.*' --waves fst")]
+    tofsim run --window 10us..12us --signals 'tdc.*' --waves fst\n  \
+    tofsim run --transactions run.ftr    the way of each photon, from arrival to bin")]
 pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
     #[arg(default_value = scenario::DEFAULT)]
@@ -57,7 +60,7 @@ pub struct Args {
     /// Simulation fidelity: cycle and shot give identical frames, histogram frames of the same distribution
     #[arg(long, value_parser = words(&Fidelity::ALL), default_value = "cycle")]
     fidelity: Fidelity,
-    /// Threads for the frames of a run without waveform and events; the results are the same for
+    /// Threads for the frames of a run without waveform, events and transactions; the results are the same for
     /// any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -82,6 +85,9 @@ pub struct Args {
     /// Write a row per shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
+    /// Write shots, photons, hits, codes, counts and estimations with begin, end and attributes, as .ftr or .parquet
+    #[arg(long, value_name = "FILE")]
+    transactions: Option<PathBuf>,
     /// Write summary.json, histogram.csv, histogram.svg and the waveform into this folder
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -115,6 +121,7 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     let _held = home.map(FolderLock::take).transpose()?;
     let record = Record::lazy(&setup, &console.command);
     let mut files = RunFiles::new(args.output.as_deref(), args.events.as_deref(), &record, &setup)?;
+    let mut transactions = args.transaction_file(&record)?;
     let waves = plan.as_ref().map(|plan| plan.open(&record, &setup)).transpose()?;
     use_threads(args.threads)?;
     let mut log = args.log(&setup, &mut notes, console)?;
@@ -125,8 +132,8 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
         progress.inc(1);
         log.push(frame)
     };
-    let outcome =
-        args.simulate(&setup, histograms, (frames, &mut take_frame), waves, &mut files)?;
+    let listening = (&mut files, transactions.as_mut());
+    let outcome = args.simulate(&setup, histograms, (frames, &mut take_frame), waves, listening)?;
     let wall = began.elapsed();
     progress.finish_and_clear();
     log.settle()?;
@@ -139,7 +146,8 @@ pub fn run(args: &Args, console: &Console) -> Result<()> {
     notes.extend(late);
 
     let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
-    let written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;
+    let mut written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;
+    written.extend(transactions.map(TransactionFile::finish).transpose()?);
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
     let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), &notes);
@@ -161,6 +169,17 @@ impl Args {
         Ok(FrameLog::new(setup, json, (panel, second), 1e-3 * self.outlier_limit_mm))
     }
 
+    /// Begins the file of transactions, if it is wanted.
+    fn transaction_file(&self, record: &LazyRecord) -> Result<Option<TransactionFile>> {
+        let Some(path) = &self.transactions else { return Ok(None) };
+        check_name("--transactions", Some(path), self.output.as_deref())?;
+        if self.events.as_ref().is_some_and(|events| is_same(events, path)) {
+            let expected = "expected another name than that of --events";
+            return Err(Input::new("--transactions", expected).value(path.display()).into());
+        }
+        TransactionFile::create(path, &record.line()).map(Some)
+    }
+
     /// Simulates so many frames: on several threads unless there is a waveform or every shot is wanted.
     fn simulate(
         &self,
@@ -168,22 +187,25 @@ impl Args {
         histograms: Option<Histograms>,
         (count, take_frame): (u64, TakeFrame),
         waves: Option<(Waves, Vec<Window>)>,
-        files: &mut RunFiles,
+        (files, transactions): (&mut RunFiles, Option<&mut TransactionFile>),
     ) -> Result<Outcome> {
         let sees_shots = self.fidelity == Fidelity::Cycle && files.want_shots();
-        let wants_all_shots = files.want_all_shots();
+        let wants_all = files.want_all_shots() || transactions.is_some();
         let mut take_shot = |shot: &Shot| files.shot(shot);
+        let mut take_transaction =
+            transactions.map(|file| |transaction: &Transaction| file.write(transaction));
         let stop = stop_signal();
         let watch = Observers {
             waves,
             shots: sees_shots.then_some(&mut take_shot),
+            transactions: take_transaction.as_mut().map(|take| take as Callback<Transaction>),
             frames: Some(take_frame),
             stop: stop.as_deref(),
         };
         let run = || Run::new(setup).stepping(self.fidelity.stepping());
         match histograms {
             Some(histograms) => histograms.many(count, watch),
-            None if watch.waves.is_some() || wants_all_shots => run().observe(count, watch),
+            None if watch.waves.is_some() || wants_all => run().observe(count, watch),
             None => run().many(count, watch),
         }
     }
@@ -233,8 +255,11 @@ impl Args {
         if self.fidelity == Fidelity::Cycle {
             return Ok(());
         }
-        let asked =
-            [("--events", self.events.is_some()), ("report.tdc", setup.scenario.report.tdc)];
+        let asked = [
+            ("--events", self.events.is_some()),
+            ("--transactions", self.transactions.is_some()),
+            ("report.tdc", setup.scenario.report.tdc),
+        ];
         match self.shown.given().iter().chain(&asked).find(|(_, asked)| *asked) {
             Some((option, _)) => Err(self.without_signals(option)),
             None => Ok(()),
