@@ -21,7 +21,7 @@ use channels::channel_entries;
 pub use entry::{Entry, IDS, Kind, ROW, TOP, below_top, within};
 use entry::{MOST_OUTPUTS, RAM};
 pub use part::{Part, changes, copy};
-pub use sources::ModuleSource;
+pub use sources::{ModulePlaces, ScopePlace};
 
 /// Lists every name in every scope of a design with these parameters, without the RAM's words and the other columns of
 /// an array.

@@ -12,6 +12,7 @@ pub mod sizes;
 mod tap_groups;
 pub(crate) mod thermometer;
 pub(crate) mod time;
+pub mod verilog;
 mod word_format;
 
 pub use bits::{S, U};

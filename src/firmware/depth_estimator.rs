@@ -49,7 +49,7 @@ pub struct DepthEstimator {
 
 connect! {
     /// Port connections.
-    pub struct Wires(this: &DepthEstimator, i: &In) {
+    pub struct Wires in depth_estimator (this: &DepthEstimator, i: &In) {
         output [read_en, read_addr] <- this.estimator_ctrl;
         output depth <- this.forward2.depth;
         output algo_done <- this.estimator_ctrl.algo_done;

@@ -107,7 +107,7 @@ pub struct LaserGuard {
 
 connect! {
     /// It has no modules inside.
-    pub struct Wires(this: &LaserGuard) {
+    pub struct Wires in laser_guard (this: &LaserGuard) {
         signals registers, registers_laser;
     }
 }

@@ -256,7 +256,7 @@ pub struct LikelihoodEstimator {
 
 connect! {
     /// Port connections.
-    pub struct Wires(this: &LikelihoodEstimator, i: &In) {
+    pub struct Wires in likelihood_estimator (this: &LikelihoodEstimator, i: &In) {
         signals registers;
         output [read_en, read_addr] <- this.likelihood_memory.registers;
     }

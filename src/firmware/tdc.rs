@@ -119,7 +119,7 @@ pub struct Tdc {
 
 connect! {
     /// Port connections.
-    pub struct Wires(this: &Tdc, i: &In) {
+    pub struct Wires in tdc (this: &Tdc, i: &In) {
         output [tdc_code, tdc_valid, n, n_valid] <- this.tdc_decoder;
     }
     carry_chain(clk_sys): carry_chain::In {

@@ -107,7 +107,7 @@ pub struct TofTop {
 
 connect! {
     /// Port connections. Every module output is a register, so one pass settles them.
-    pub struct Wires(this: &TofTop) {
+    pub struct Wires in tof_top (this: &TofTop) {
         signals clocks, pins, nets;
         wire rst_sys <- this.reset_sync_sys.rst_sync;
         wire rst_laser <- this.reset_sync_laser.rst_sync;

@@ -109,7 +109,7 @@ pub struct VcselDriver {
 
 connect! {
     /// Port connections inside the driver.
-    pub struct Wires(this: &VcselDriver, i: &In) {
+    pub struct Wires in vcsel_driver (this: &VcselDriver, i: &In) {
         signals registers, registers_laser;
         output laser_on <- this.ddr_output.q;
     }

@@ -5,7 +5,7 @@
 ///
 /// From one list it makes, on an empty struct, a function for each module that reads its input
 /// ports, and the container's [`Module`](crate::kernel::module::Module), by which waveforms have all of
-/// it. In the braces after the struct stand the fields with signals of the container's own, then its
+/// it. After `in` stands the container's module. In the braces after the struct stand the fields with signals of the container's own, then its
 /// wires and output ports that show what a module inside holds. Each module is a field of the container
 /// and has, in parentheses, its clock ports, with `port <- clock` where that is called otherwise. A
 /// source is a path that begins with the container (`this`) or with the container's own input ports. Names
@@ -15,7 +15,7 @@
 macro_rules! connect {
     (
         $(#[$doc:meta])*
-        $vis:vis struct $Wires:ident $from:tt {
+        $vis:vis struct $Wires:ident in $container:ident $from:tt {
             $(signals $($own:ident),+;)?
             $(wire $($wire:ident <- this $(. $wire_from:ident)+)?
                 $([$($wires:ident),+] <- $wires_from:expr)?;)*
@@ -77,6 +77,18 @@ macro_rules! connect {
                 $(visitor.module(
                     const { &$crate::kernel::module::Instance {
                         name: stringify!($module),
+                        module: stringify!($file),
+                        declared: $crate::kernel::verilog::line_of(
+                            $crate::verilog!($file),
+                            &[concat!("\nmodule ", stringify!($file), " ")],
+                        ),
+                        instantiated: $crate::kernel::verilog::line_of(
+                            $crate::verilog!($container),
+                            &[
+                                concat!("\n    ) ", stringify!($module), " ("),
+                                concat!("\n    ", stringify!($file), " ", stringify!($module), " ("),
+                            ],
+                        ),
                         clocks: &[$($crate::connect!(@clock $clock $($clock_from)?)),*],
                         inputs: <$file::In as $crate::kernel::signals::Signals>::list,
                         sources: &[$(

@@ -27,6 +27,12 @@ pub trait Visitor {
 pub struct Instance {
     /// Its name, which is also that of the field.
     pub name: &'static str,
+    /// Name of the module, which is also that of its file in `rtl_ref`.
+    pub module: &'static str,
+    /// Line of the module's declaration.
+    pub declared: u32,
+    /// Line of this instance, in the file of the module around it.
+    pub instantiated: u32,
     /// Clock ports, and the clock that each has.
     pub clocks: &'static [(&'static str, &'static str)],
     /// Its input ports beside the clocks.

@@ -1,6 +1,6 @@
 //! Places of a waveform's scopes in the Verilog, with numbers for the files' paths.
 
-use crate::hierarchy::ModuleSource;
+use crate::hierarchy::ModulePlaces;
 
 /// A line of a file, by the number of its path.
 pub(super) type Stem = (u64, u32);
@@ -11,47 +11,40 @@ pub(super) struct ScopeSource {
     /// Name of the module; empty if it is none.
     pub(super) component: &'static str,
     /// Paths that have not been numbered before.
-    pub(super) paths: Vec<(u64, &'static str)>,
+    pub(super) paths: Vec<(u64, String)>,
     /// Line of the module's declaration.
     pub(super) declared: Option<Stem>,
     /// Line of its instance.
     pub(super) instantiated: Option<Stem>,
 }
 
-/// Scopes that are open, and paths so far.
+/// Scopes that are open, and files so far.
 #[derive(Default)]
 pub(super) struct ScopeSources {
-    open: Vec<Option<&'static ModuleSource>>,
-    paths: Vec<&'static str>,
+    places: ModulePlaces,
+    open: Vec<String>,
+    /// Modules whose files have a number.
+    files: Vec<&'static str>,
 }
 
 impl ScopeSources {
     /// Enters a scope.
     pub(super) fn enter(&mut self, name: &str) -> ScopeSource {
-        let around = self.open.last().copied();
-        let (module, placed) = match around {
-            None => (ModuleSource::outermost(name), None),
-            Some(around) => around
-                .and_then(|around| Some((around, around.inside(name)?)))
-                .map_or((None, None), |(around, (module, line))| {
-                    (Some(module), Some((around.file, line)))
-                }),
-        };
-        self.open.push(module);
+        self.open.push(name.to_owned());
         let mut source = ScopeSource::default();
-        let Some(module) = module else { return source };
-        source.component = module.component();
-        let mut stem = |(file, line)| {
-            let known = self.paths.iter().position(|path| *path == file);
+        let Some(place) = self.places.of(&self.open.join(".")) else { return source };
+        source.component = place.component;
+        let mut stem = |(module, line)| {
+            let known = self.files.iter().position(|file| *file == module);
             let place = known.unwrap_or_else(|| {
-                self.paths.push(file);
-                source.paths.push((self.paths.len() as u64, file));
-                self.paths.len() - 1
+                self.files.push(module);
+                source.paths.push((self.files.len() as u64, format!("rtl_ref/{module}.v")));
+                self.files.len() - 1
             });
             (place as u64 + 1, line)
         };
-        source.instantiated = placed.map(&mut stem);
-        source.declared = Some(stem((module.file, module.line)));
+        source.instantiated = place.instantiated.map(&mut stem);
+        source.declared = Some(stem(place.declared));
         source
     }
 
@@ -69,10 +62,13 @@ mod tests {
     fn a_path_is_numbered_once() {
         let mut sources = ScopeSources::default();
         let top = sources.enter("tof_top");
-        assert_eq!((top.component, top.paths), ("tof_top", vec![(1, "rtl_ref/tof_top.v")]));
+        assert_eq!(
+            (top.component, top.paths),
+            ("tof_top", vec![(1, "rtl_ref/tof_top.v".to_owned())])
+        );
         assert!(top.instantiated.is_none() && top.declared.is_some_and(|stem| stem.0 == 1));
         let first = sources.enter("reset_sync_sys");
-        assert_eq!(first.paths, [(2, "rtl_ref/reset_sync.v")]);
+        assert_eq!(first.paths, [(2, "rtl_ref/reset_sync.v".to_owned())]);
         sources.leave();
         let second = sources.enter("reset_sync_laser");
         assert_eq!((second.component, second.paths), ("reset_sync", Vec::new()));

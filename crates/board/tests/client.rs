@@ -27,6 +27,7 @@ pub fn results(setup: &Setup) -> Vec<HeldFrame> {
             sigma: words.sigma.get(),
             status: words.status.get() as u32,
             valid: words.valid,
+            code: words.code as u32,
             histogram,
         }
     };

@@ -46,6 +46,7 @@ fn results(run: &Value) -> Vec<HeldFrame> {
             sigma: words.sigma.get(),
             status: words.status.get() as u32,
             valid: words.valid,
+            code: words.code as u32,
             histogram,
         }
     };
@@ -112,6 +113,7 @@ fn frames_have_the_form_of_a_run_and_the_words_of_the_board() {
             "sigma_m",
             "valid",
             "status",
+            "code",
             "shots",
             "hits",
             "histogram",

@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn a_stem_has_the_number_of_its_path_in_place_of_a_text() {
         let mut bytes = Vec::new();
-        let paths = vec![(200, "a.v")];
+        let paths = vec![(200, "a.v".to_owned())];
         let (declared, instantiated) = (Some((200, 300)), Some((10, 7)));
         source(&mut bytes, &ScopeSource { component: "a", paths, declared, instantiated });
         let path = [252, 0, 3, b'a', b'.', b'v', 0, 200, 1];

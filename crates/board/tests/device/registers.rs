@@ -4,10 +4,10 @@ use std::time::{Duration, Instant};
 
 use tofsim::firmware::registers::map::{
     ARM, ARM_KEY, ARMED, CODE_DENSITY, CONTROL, DENSITY_CLEAR, DENSITY_HITS, DEPTH, DSP_EN,
-    DSP_RST, ESTIMATE_STATUS, ESTIMATE_VALID, FRAME, FRAMES, FRAMES_PERMITTED, FREE_RUNNING,
-    HISTOGRAM, HITS, HOLD, HOST_SILENT, HOST_TIMEOUT, IDENTITY, IDENTITY_VALUE, INTERLOCK_OPEN,
-    INTERLOCKED, LASER_EN, LASER_FAULTS, LOCKED, MAP_VERSION, PARAMETERS_HASH, PINS_SELECTED,
-    RING_ON, SCRATCH, SHOTS, SIGMA, STATUS, SYSTEM_HZ,
+    DSP_RST, ESTIMATE_CODE, ESTIMATE_STATUS, ESTIMATE_VALID, FRAME, FRAMES, FRAMES_PERMITTED,
+    FREE_RUNNING, HISTOGRAM, HITS, HOLD, HOST_SILENT, HOST_TIMEOUT, IDENTITY, IDENTITY_VALUE,
+    INTERLOCK_OPEN, INTERLOCKED, LASER_EN, LASER_FAULTS, LOCKED, MAP_VERSION, PARAMETERS_HASH,
+    PINS_SELECTED, RING_ON, SCRATCH, SHOTS, SIGMA, STATUS, SYSTEM_HZ,
 };
 
 /// Commands in which a frame is taken.
@@ -20,6 +20,7 @@ pub struct HeldFrame {
     pub sigma: u64,
     pub status: u32,
     pub valid: bool,
+    pub code: u32,
     pub histogram: Vec<u32>,
 }
 
@@ -168,6 +169,7 @@ impl Registers {
             _ if is(SIGMA, 1) => lower(self.held.sigma),
             _ if is(ESTIMATE_STATUS, 0) => self.held.status,
             _ if is(ESTIMATE_VALID, 0) => self.held.valid.into(),
+            _ if is(ESTIMATE_CODE, 0) => self.held.code,
             _ if is(DENSITY_HITS, 0) => self.density.iter().sum(),
             _ => 0,
         }

@@ -43,7 +43,7 @@ use super::wave_plan::{SignalArgs, WavePlan};
     tofsim run --estimator subtraction   a dark and a lit frame of 15,000 shots\n  \
     tofsim run -s target.distance_m=0.3 --seed 7 -o out\n  \
     tofsim run --window 10us..12us --signals 'tdc.*' --waves fst\n  \
-    tofsim run --transactions run.ftr    the way of each photon, from arrival to bin")]
+    tofsim run --transactions run.ftr   each photon, from its arrival to its bin")]
 pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
     #[arg(default_value = scenario::DEFAULT)]

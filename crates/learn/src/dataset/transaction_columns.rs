@@ -25,7 +25,7 @@ macro_rules! of {
 }
 
 /// The attributes, in the order of the streams that have them.
-pub const ATTRIBUTES: [Attribute; 21] = [
+pub const ATTRIBUTES: [Attribute; 22] = [
     ("frame", Known::Begin, Values::Count(|transaction| Some(transaction.frame))),
     ("shot", Known::Begin, Values::Count(|transaction| transaction.shot)),
     ("laser_en", Known::Begin, Values::Flag(of!(Content::Shot { laser_en } => Some(laser_en)))),
@@ -68,6 +68,14 @@ pub const ATTRIBUTES: [Attribute; 21] = [
         "status",
         Known::End,
         Values::Word(|row| estimate(row).map(|found| found.status.to_string().into())),
+    ),
+    (
+        "code",
+        Known::End,
+        Values::Word(|row| {
+            let code = estimate(row)?.code;
+            (!code.is_unstated()).then(|| code.word().into())
+        }),
     ),
     ("second_depth_m", Known::End, Values::Real(|row| second(row).map(|echo| echo.depth_m))),
     ("second_sigma_m", Known::End, Values::Real(|row| second(row).map(|echo| echo.sigma_m))),
