@@ -113,7 +113,7 @@ fn frames_have_the_form_of_a_run_and_the_words_of_the_board() {
             "sigma_m",
             "valid",
             "status",
-            "code",
+            "status_code",
             "shots",
             "hits",
             "histogram",

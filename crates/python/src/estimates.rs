@@ -103,8 +103,8 @@ fn columns<'py, 'a>(
     found.set_item("valid", PyArray1::<bool>::from_vec(py, valid))?;
     let status: Vec<_> = estimates.clone().map(|one| one.status.words()).collect();
     found.set_item("status", status)?;
-    let code: Vec<_> = estimates.map(|one| one.code.word()).collect();
-    found.set_item("code", code)?;
+    let codes: Vec<_> = estimates.map(|one| one.status_code.word()).collect();
+    found.set_item("status_code", codes)?;
     Ok(found)
 }
 

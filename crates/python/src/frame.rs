@@ -100,8 +100,8 @@ impl Frame {
 
     /// What a host can rely on; `not stated` from an estimator without a status.
     #[getter]
-    fn code(&self) -> &'static str {
-        self.estimate.code.word()
+    fn status_code(&self) -> &'static str {
+        self.estimate.status_code.word()
     }
 
     /// Depth of the second target, if the firmware has found one [m].

@@ -99,7 +99,7 @@ pub struct Frames {
     status: Vec<Vec<&'static str>>,
     /// What a host can rely on, a word for each frame; `not stated` from an estimator without a status.
     #[pyo3(get)]
-    code: Vec<&'static str>,
+    status_code: Vec<&'static str>,
     /// Depth of the second target, NaN where the firmware has found none [m].
     #[pyo3(get)]
     second_depth_m: Py<PyArray1<f64>>,
@@ -147,7 +147,7 @@ impl Frames {
         let sigmas = estimates.iter().map(|one| one.sigma_m.unwrap_or(f64::NAN)).collect();
         let valid = estimates.iter().map(|one| one.valid).collect();
         let status = estimates.iter().map(|one| one.status.words()).collect();
-        let code = estimates.iter().map(|one| one.code.word()).collect();
+        let status_code = estimates.iter().map(|one| one.status_code.word()).collect();
         let seconds = |of: fn(&EchoDepth) -> f64| {
             let metres = estimates.iter().map(|one| one.second.as_ref().map_or(f64::NAN, of));
             PyArray1::from_vec(py, metres.collect()).unbind()
@@ -166,7 +166,7 @@ impl Frames {
             sigma_m: PyArray1::from_vec(py, sigmas).unbind(),
             valid: PyArray1::from_vec(py, valid).unbind(),
             status,
-            code,
+            status_code,
             second_depth_m: seconds(|second| second.depth_m),
             second_sigma_m: seconds(|second| second.sigma_m),
             second_valid: PyArray1::from_vec(py, second_valid).unbind(),

@@ -23,7 +23,7 @@ def test_depths_are_those_of_the_run(frames: tofsim.Frames) -> None:
     assert np.isnan(found["sigma_m"]).all() and np.isnan(frames.sigma_m).all()
     assert found["valid"].all() and frames.valid.all() and frames[0].valid
     assert found["status"] == frames.status == [[]] * 5
-    assert found["code"] == frames.code
+    assert found["status_code"] == frames.status_code == ["not stated"] * 5
     one = tofsim.estimate(frames.histograms[2])
     assert one["depth_raw"].tolist() == [frames.depth_raw[2]]
 

@@ -27,7 +27,7 @@ pub struct Estimate {
     pub status: StatusSet,
     /// What a host can rely on, from the firmware's likelihood estimator.
     #[serde(skip_serializing_if = "StatusCode::is_unstated")]
-    pub code: StatusCode,
+    pub status_code: StatusCode,
     /// Sum of squared residuals over their variances, about one a bin of the fit [1].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi_square: Option<f64>,
@@ -103,7 +103,7 @@ impl Estimate {
             sigma_m: None,
             valid: depth_m.is_some(),
             status: StatusSet::default(),
-            code: StatusCode::Unstated,
+            status_code: StatusCode::Unstated,
             chi_square: None,
             second: None,
             pedestal: None,
@@ -119,7 +119,7 @@ impl Estimate {
             sigma_m: states.then(|| words.sigma_m().to_num()),
             valid: words.valid || !states,
             status: words.status.into(),
-            code: words.code,
+            status_code: words.code,
             second: EchoDepth::of_words(&words.second),
             ..Estimate::of_depth(estimator.estimator(), Some(depth.to_num()))
         }
@@ -127,7 +127,7 @@ impl Estimate {
 
     /// Returns why the depth is rejected: the code, if the estimator states one, and the reasons; `None` if it is valid.
     pub fn rejection(&self) -> Option<String> {
-        let (code, reasons) = (self.code, self.status.to_string());
+        let (code, reasons) = (self.status_code, self.status.to_string());
         let text = if code.is_unstated() || code.word() == reasons {
             reasons
         } else {
@@ -170,7 +170,7 @@ mod tests {
             "sigma_m": 2f64.powi(-10),
             "valid": false,
             "status": ["cut off by the window", "no fit"],
-            "code": "cut off by the window",
+            "status_code": "cut off by the window",
         });
         assert_eq!(json(&words).unwrap(), expected);
         let estimate = Estimate::of_words(FirmwareEstimator::LikelihoodEstimator, &words);

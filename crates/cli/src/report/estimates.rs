@@ -143,7 +143,11 @@ fn in_word(estimate: &Estimate) -> String {
     } else if let Some(why) = estimate.rejection() {
         why
     } else if estimate.sigma_m.is_some() {
-        let code = if estimate.code.is_unstated() { StatusCode::Valid } else { estimate.code };
+        let code = if estimate.status_code.is_unstated() {
+            StatusCode::Valid
+        } else {
+            estimate.status_code
+        };
         code.word().to_owned()
     } else {
         "-".to_owned()

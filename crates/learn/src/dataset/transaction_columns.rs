@@ -70,10 +70,10 @@ pub const ATTRIBUTES: [Attribute; 22] = [
         Values::Word(|row| estimate(row).map(|found| found.status.to_string().into())),
     ),
     (
-        "code",
+        "status_code",
         Known::End,
         Values::Word(|row| {
-            let code = estimate(row)?.code;
+            let code = estimate(row)?.status_code;
             (!code.is_unstated()).then(|| code.word().into())
         }),
     ),

@@ -71,7 +71,7 @@ fn count(scene: Scene, at: [f64; 3], template: &Path, frames: u64) -> ByCode {
         let found = drawn.frame(index).estimate();
         let off = off(&found, &truths_m);
         let mut codes = ByCode::default();
-        codes[found.code as usize] = Coded {
+        codes[found.status_code as usize] = Coded {
             frames: 1,
             empty: usize::from(truths_m.is_empty()),
             two: usize::from(truths_m.len() == 2),
