@@ -8,12 +8,11 @@ use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::kernel::{U, scan};
 use crate::signals;
 
+pub use super::status::StatusBits;
 use super::status_code::StatusCode;
 
 /// Standard deviation of a depth, with as many fraction bits as the depth word [2^-29 m].
 pub type Sigma = U<36>;
-/// Status word: each bit a reason to reject the depth (see [`Status`](super::status::Status)).
-pub type StatusBits = U<7>;
 
 signals! {
     /// Input ports of the slot; an estimator has those that it needs.

@@ -4,7 +4,10 @@ use std::fmt::{self, Display};
 
 use serde::{Serialize, Serializer};
 
-use super::slot::StatusBits;
+use crate::kernel::U;
+
+/// Status word: each bit a reason to reject the depth (see [`Status`]).
+pub type StatusBits = U<7>;
 
 macro_rules! statuses {
     ($($(#[doc = $meaning:literal])+ $Name:ident = $word:literal,)+) => {
