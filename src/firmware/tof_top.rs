@@ -117,7 +117,6 @@ connect! {
         wire [bank, row] <- this.frame_ctrl;
         wire [pre_start, start] <- this.vcsel_driver.registers;
         wire [read_en, read_addr] <- this.slot;
-        wire code <- this.slot.words.code;
         output laser_on_lvds_p <- this.lvds_output.o;
         output laser_on_lvds_n <- this.lvds_output.ob;
         output ring_on <- this.tdc_calibration.registers.ring_on;

@@ -245,9 +245,7 @@ mod tests {
         for &estimator in FirmwareEstimator::ALL {
             let entries = Build::entries(estimator);
             let id = |path: &str| entries.iter().find(|e| e.path() == path).map(|e| e.id);
-            for port in
-                ["read_en", "read_addr", "depth", "sigma", "status", "valid", "code", "algo_done"]
-            {
+            for port in ["read_en", "read_addr", "depth", "sigma", "status", "valid", "algo_done"] {
                 let own = id(&format!("tof_top.{}.{port}", estimator.module()));
                 let unused = id(&format!("tof_top.likelihood_estimator.{port}"));
                 let own = if estimator.states_sigma() { own } else { own.or(unused) };
