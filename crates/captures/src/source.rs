@@ -13,6 +13,7 @@ mod library;
 mod locate;
 mod marks;
 mod names;
+mod opened;
 mod shapes;
 mod signals;
 mod simulation;

@@ -1,7 +1,5 @@
 //! Signals and slices of a source that a comparison reads.
 
-use std::collections::HashMap;
-
 use crate::source::{Signal, SourceState};
 use crate::words::{Bits, bit};
 
@@ -10,18 +8,20 @@ use crate::words::{Bits, bit};
 pub(super) struct Slots {
     /// Id of each signal.
     pub(super) ids: Vec<usize>,
-    by_id: HashMap<usize, usize>,
+    /// Index of each signal by its id.
+    places: Vec<Option<usize>>,
 }
 
 impl Slots {
     /// Returns the index of a signal, which is added if necessary.
     pub(super) fn place(&mut self, id: usize) -> usize {
-        let next = self.ids.len();
-        let place = *self.by_id.entry(id).or_insert(next);
-        if place == next {
-            self.ids.push(id);
+        if self.places.len() <= id {
+            self.places.resize(id + 1, None);
         }
-        place
+        *self.places[id].get_or_insert_with(|| {
+            self.ids.push(id);
+            self.ids.len() - 1
+        })
     }
 }
 

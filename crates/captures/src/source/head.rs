@@ -4,8 +4,11 @@
 //! `$enddefinitions $end` on its line, prints attributes on standard output, and panics on a second `$timescale`, on
 //! words of a signal that is not declared as a string, and on an enumeration without a table.
 
-use std::collections::{HashMap, HashSet};
-use std::io::{BufRead, Result as IoResult};
+mod declaration;
+mod words;
+
+use std::collections::HashSet;
+use std::io::BufRead;
 use std::path::Path;
 
 use tofsim::error::{Error, Input, Result};
@@ -14,29 +17,15 @@ use tofsim::waves::dump::UNITS;
 use super::spliced::Piece;
 use super::tick::Tick;
 
+use declaration::Wrong;
+pub(super) use declaration::{Values, Variable};
+pub(super) use words::HeadWords;
+
 /// Commands that are passed on, in the order of the standard.
 const COMMANDS: [&str; 5] = ["$version", "$timescale", "$scope", "$upscope", "$var"];
 /// Commands that are left out.
 const LEFT_OUT: [&str; 4] = ["$date", "$comment", "$attrbegin", "$attrend"];
 const END: &[u8] = b"$end";
-
-/// A declared signal.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Variable {
-    pub(super) name: String,
-    /// Width [bits].
-    pub(super) width: u32,
-    pub(super) values: Values,
-}
-
-/// Values that a signal may have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Values {
-    Bits,
-    Real,
-    Text,
-    Event,
-}
 
 /// Attribute with the type of the next signal, and the number of one that is none of VHDL's, some of which the library
 /// prints.
@@ -52,8 +41,6 @@ pub(super) struct Head {
     text: Vec<u8>,
     /// Number of bytes of the file that it replaces.
     length: u64,
-    /// Declared signals, by their codes.
-    pub(super) variables: HashMap<Vec<u8>, Variable>,
     /// Line of the time scale.
     scale: Option<usize>,
     /// Numbers of the tables of names.
@@ -63,7 +50,8 @@ pub(super) struct Head {
 }
 
 impl Head {
-    /// Reads the header of the file at `path`; the signals with the codes `texts` have words.
+    /// Reads the header of the file at `path`, and calls `declared` with the code of each signal and its declaration;
+    /// the signals with the codes `texts` have words.
     ///
     /// # Errors
     /// If it is invalid; with the line.
@@ -71,6 +59,7 @@ impl Head {
         path: &Path,
         words: &mut HeadWords<R>,
         texts: &HashSet<Vec<u8>>,
+        mut declared: impl FnMut(&[u8], Variable),
     ) -> Result<Head> {
         let io = |error| Error::io(path, "read")(error);
         let mut head = Head::default();
@@ -79,7 +68,7 @@ impl Head {
                 let expected = "ends before $enddefinitions";
                 return Err(Input::new(path.display(), expected).at(words.line, 1).into());
             };
-            let (line, name) = (words.line, String::from_utf8_lossy(&command).into_owned());
+            let (line, name) = (words.line, String::from_utf8_lossy(&command));
             let fault = |expected: String| Input::new(path.display(), expected).at(line, 1);
             let is_end = name == "$enddefinitions";
             if !is_end && !COMMANDS.iter().chain(&LEFT_OUT).any(|known| *known == name) {
@@ -101,7 +90,8 @@ impl Head {
             }
             match &name[..] {
                 "$var" => {
-                    head.declare(&mut body, texts).map_err(|found| found.of(&fault))?;
+                    let variable = Variable::parse(&mut body, texts);
+                    declared(&body[2], variable.map_err(|found| found.of(&fault))?);
                     head.text.append(&mut head.value_type);
                 }
                 "$timescale" => head.scale(line, &body).map_err(|found| found.of(&fault))?,
@@ -113,8 +103,11 @@ impl Head {
                 _ => {}
             }
             if !LEFT_OUT.contains(&&name[..]) || (name == "$attrbegin" && head.is_table(&body)) {
-                let all = [&[command][..], &body, &[END.to_vec()]].concat();
-                head.text.extend_from_slice(&all.join(&b' '));
+                head.text.extend_from_slice(&command);
+                for word in body.iter().map(Vec::as_slice).chain([END]) {
+                    head.text.push(b' ');
+                    head.text.extend_from_slice(word);
+                }
                 head.text.push(b'\n');
             }
             if is_end {
@@ -127,42 +120,6 @@ impl Head {
     /// Returns the file with this header in place of its own.
     pub(super) fn pieces(self) -> [Piece; 2] {
         [Piece::New(self.text), Piece::Kept(self.length..u64::MAX)]
-    }
-
-    /// Adds a declaration of a signal, and changes its type if it has words.
-    fn declare(
-        &mut self,
-        body: &mut [Vec<u8>],
-        texts: &HashSet<Vec<u8>>,
-    ) -> std::result::Result<(), Wrong> {
-        let shown = |words: &[Vec<u8>]| String::from_utf8_lossy(&words.join(&b' ')).into_owned();
-        let [kind, width, code, name @ ..] = body else {
-            let expected = "expected a type, a width, a code and a name";
-            return Err(Wrong::new("$var", shown(body), expected));
-        };
-        let name = shown(name);
-        let bits = std::str::from_utf8(width).ok().and_then(|width| width.parse().ok());
-        let Some(bits) = bits else {
-            let width = String::from_utf8_lossy(width).into_owned();
-            return Err(Wrong::new(&name, width, "expected a width in bits"));
-        };
-        if texts.contains(code) {
-            *kind = b"string".to_vec();
-        }
-        let values = match &kind[..] {
-            b"string" => Values::Text,
-            b"real" | b"realtime" | b"shortreal" | b"real_parameter" => Values::Real,
-            b"event" => Values::Event,
-            b"port" => {
-                let expected =
-                    "is of an extended VCD ($dumpports), which is not read: use $dumpvars";
-                return Err(Wrong::new(&name, "port".into(), expected));
-            }
-            _ => Values::Bits,
-        };
-        let variable = Variable { name, width: bits, values };
-        self.variables.entry(code.clone()).or_insert(variable);
-        Ok(())
     }
 
     /// Returns whether an attribute is a table of names, or the number of one, as the library understands it.
@@ -210,60 +167,6 @@ impl Head {
     }
 }
 
-/// Invalid field of a command, and what was expected.
-struct Wrong {
-    field: String,
-    value: String,
-    expected: String,
-}
-
-impl Wrong {
-    fn new(field: &str, value: String, expected: impl Into<String>) -> Wrong {
-        Wrong { field: field.to_owned(), value, expected: expected.into() }
-    }
-
-    fn of(self, fault: &dyn Fn(String) -> Input) -> Error {
-        fault(self.expected).field(self.field).value(self.value).into()
-    }
-}
-
-/// Words of a text, separated by blanks and line ends.
-pub(super) struct HeadWords<R> {
-    file: R,
-    /// Line of the last word, from 1.
-    pub(super) line: usize,
-    /// Line of the next byte.
-    next_line: usize,
-    /// Number of bytes read.
-    place: u64,
-}
-
-impl<R: BufRead> HeadWords<R> {
-    pub(super) fn new(file: R) -> HeadWords<R> {
-        HeadWords { file, line: 1, next_line: 1, place: 0 }
-    }
-
-    /// Reads a word and the byte behind it; `None` at the end.
-    pub(super) fn next(&mut self) -> IoResult<Option<Vec<u8>>> {
-        let mut word = Vec::new();
-        loop {
-            let Some(&byte) = self.file.fill_buf()?.first() else {
-                return Ok(Some(word).filter(|word| !word.is_empty()));
-            };
-            self.file.consume(1);
-            self.place += 1;
-            if !byte.is_ascii_whitespace() {
-                self.line = self.next_line;
-                word.push(byte);
-            }
-            self.next_line += usize::from(byte == b'\n');
-            if byte.is_ascii_whitespace() && !word.is_empty() {
-                return Ok(Some(word));
-            }
-        }
-    }
-}
-
 /// Returns whether an attribute is a type that is none of VHDL's, as the library understands it.
 fn is_plain_type(body: &[Vec<u8>]) -> bool {
     match body {
@@ -283,7 +186,7 @@ mod tests {
     fn head(text: &str, texts: &[&str]) -> std::result::Result<(String, String), String> {
         let texts = texts.iter().map(|code| code.as_bytes().to_vec()).collect();
         let mut words = HeadWords::new(text.as_bytes());
-        let head = Head::read(Path::new("a.vcd"), &mut words, &texts);
+        let head = Head::read(Path::new("a.vcd"), &mut words, &texts, |_, _| ());
         let head = head.map_err(|error| error.to_string())?;
         let body = text[head.length as usize..].to_owned();
         let head = String::from_utf8(head.text).unwrap();

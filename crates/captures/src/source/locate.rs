@@ -1,5 +1,6 @@
 //! Position of the first error in the body of a VCD, because the waveform library does not report it.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use tofsim::error::{Error, Input};
@@ -25,11 +26,15 @@ pub(super) fn located(path: &Path, error: Error) -> Error {
 fn fault(path: &Path) -> Option<Input> {
     let texts = body(path, None).ok()?.texts;
     let mut words = HeadWords::new(fst::open(path).ok()?);
-    let head = match Head::read(path, &mut words, &texts) {
-        Ok(head) => head,
+    let mut variables: HashMap<Vec<u8>, Variable> = HashMap::new();
+    let head = Head::read(path, &mut words, &texts, |code, variable| {
+        variables.entry(code.to_vec()).or_insert(variable);
+    });
+    match head {
+        Ok(_) => {}
         Err(Error::Input(input)) => return Some(*input),
         Err(_) => return None,
-    };
+    }
     while let Some(word) = words.next().ok()? {
         let line = words.line;
         let fault = |expected: &str| Input::new(path.display(), expected).at(line, 1);
@@ -50,7 +55,7 @@ fn fault(path: &Path) -> Option<Input> {
             first if is_level(&first) => (&word[..1], word[1..].to_vec()),
             _ => return Some(fault("expected a value, a time or $end").value(shown(&word))),
         };
-        let Some(variable) = head.variables.get(&code) else {
+        let Some(variable) = variables.get(&code) else {
             let expected = "expected the code of a declared signal";
             return Some(fault(expected).field("code").value(shown(&code)));
         };

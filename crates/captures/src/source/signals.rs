@@ -151,7 +151,7 @@ pub struct Signal {
     pub words: Words,
     /// Description, if the source has one.
     pub description: Option<Arc<SignalDescription>>,
-    /// Id, which all names of the signal share.
+    /// Number of the signal in its source, which all its names share.
     pub id: usize,
 }
 
@@ -238,12 +238,17 @@ impl Source {
     /// If the file has changed or cannot be read any more.
     pub fn read(&self, ids: &[usize]) -> Result<Cursor> {
         // The first name of a signal says how wide it is.
-        let signals = self.signals.iter().rev();
-        let widths: HashMap<usize, u32> = signals.map(|s| (s.id, s.width)).collect();
-        let widths: Vec<u32> = ids.iter().map(|id| widths.get(id).copied().unwrap_or(0)).collect();
+        let mut known = vec![0; self.id_count()];
+        self.signals.iter().rev().for_each(|signal| known[signal.id] = signal.width);
+        let widths: Vec<u32> = ids.iter().map(|&id| known.get(id).copied().unwrap_or(0)).collect();
         let mut cursor = self.origin.read(ids, &widths)?;
         cursor.stop = Arc::clone(&self.stop);
         Ok(cursor)
+    }
+
+    /// Returns the number that all ids are below.
+    pub(crate) fn id_count(&self) -> usize {
+        self.signals.iter().map(|signal| signal.id + 1).max().unwrap_or(0)
     }
 
     /// Returns the last place to search for a match: for a simulation of unlimited length, the end of its first
@@ -262,15 +267,17 @@ impl Source {
 
     /// Adds ranges to names that several signals would otherwise share: the source's, or else that of the bits.
     pub(super) fn distinguish(mut self) -> Self {
-        let mut ids: HashMap<String, HashSet<usize>> = HashMap::new();
+        let mut first: HashMap<&str, usize> = HashMap::new();
+        let mut shared: HashSet<String> = HashSet::new();
         for signal in &self.signals {
-            ids.entry(signal.name.text.clone()).or_default().insert(signal.id);
+            if *first.entry(&signal.name.text).or_insert(signal.id) != signal.id {
+                shared.insert(signal.name.text.clone());
+            }
         }
-        for signal in &mut self.signals {
-            let shared = ids.get(&signal.name.text).is_some_and(|ids| ids.len() > 1);
+        for signal in self.signals.iter_mut().filter(|signal| shared.contains(&signal.name.text)) {
             let top = signal.lsb + i64::from(signal.width) - 1;
             let of_bits = (signal.kind == SignalKind::Bits).then_some([top, signal.lsb]);
-            if let Some([high, low]) = signal.range.or(of_bits).filter(|_| shared) {
+            if let Some([high, low]) = signal.range.or(of_bits) {
                 signal.name = Name::new(format!("{}[{high}:{low}]", signal.name.text));
             }
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use wellen::stream::{Filter, StreamError, StreamingWaveform};
-use wellen::{Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
+use wellen::{Hierarchy, SignalEncoding, SignalRef, SignalValueRef, Var};
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::waves::dump::SignalDescription;
@@ -24,9 +24,10 @@ use super::library::{fault, set};
 use super::locate::located;
 use super::marks::{Marking, Style};
 use super::names::Name;
+use super::opened::{Opened, open};
 use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, WIDEST, Words};
 use super::span::Fault;
-use super::spliced::{Piece, Spliced};
+use super::spliced::Piece;
 use super::stream::{Cursor, Disconnected, Feed};
 use super::tables::Tables;
 use super::tick::Tick;
@@ -46,14 +47,8 @@ struct WaveOrigin {
     references: Vec<SignalRef>,
     /// Marks of a logic analyser.
     marks: Option<Style>,
-}
-
-/// Opens a file for the library, which sees `pieces` of it.
-fn open(path: &Path, pieces: &Arc<[Piece]>) -> Result<StreamingWaveform<Bytes>> {
-    let file = Spliced::open(fst::open(path)?, pieces).map_err(Error::io(path, "read"))?;
-    let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
-    let wave = wellen::stream::read(file, &options);
-    wave.map_err(|error| fault(path, error))
+    /// The file as it was opened, whose header need not be read again by the first who reads its changes.
+    opened: Opened,
 }
 
 /// Opens the waveform at `path`, until `stop` is set.
@@ -69,12 +64,12 @@ pub(super) fn source(path: &Path, format: SourceFormat, stop: &AtomicBool) -> Re
         // Time stamps are looked for in text alone: packed bytes may look like some.
         _ => {
             let Body { end, texts } = body(path, Some(stop))?;
-            (end, Head::read(path, &mut HeadWords::new(file), &texts)?.pieces().into())
+            (end, Head::read(path, &mut HeadWords::new(file), &texts, |_, _| ())?.pieces().into())
         }
     };
     let pieces = Arc::from(pieces);
     let described = guarded(&path.display().to_string(), || {
-        described(path, format, open(path, &pieces)?.hierarchy(), Arc::clone(&pieces))
+        described(path, format, open(path, &pieces)?, Arc::clone(&pieces))
     });
     let source = described.map_err(|error| at_place(path, format, error))?;
     let source = commented(source, comments);
@@ -130,9 +125,10 @@ fn fst_fault(path: &Path) -> Option<Fault> {
 fn described(
     path: &Path,
     format: SourceFormat,
-    hierarchy: &Hierarchy,
+    wave: StreamingWaveform<Bytes>,
     pieces: Arc<[Piece]>,
 ) -> Result<Source> {
+    let hierarchy = wave.hierarchy();
     let source = path.display().to_string();
     let mut signals = Vec::new();
     let mut references: Vec<SignalRef> = Vec::new();
@@ -149,17 +145,17 @@ fn described(
         let expected = format!("expected {WIDEST} bits at most");
         return Err(Input::new(source, expected).field(&wide.name.text).value(wide.width).into());
     }
-    let path = path.to_owned();
-    let mut origin = WaveOrigin { path, format, pieces, references, marks: None };
     let style = Style::of(&signals, hierarchy.version());
+    let tick = tick(&source, hierarchy);
+    let (path, opened) = (path.to_owned(), Opened::new(wave));
+    let mut origin = WaveOrigin { path, format, pieces, references, marks: None, opened };
     if let Some(style) = style.filter(|_| format == SourceFormat::Vcd) {
         style.hide(&mut signals);
         origin.marks = Some(style);
         let source = Source::new(source, SourceFormat::IlaVcd, Axis::Samples, signals, origin);
         return Ok(Source { radix_stated: false, ..source });
     }
-    let axis = Axis::Time(tick(&source, hierarchy)?);
-    Ok(Source::new(source, format, axis, signals, origin))
+    Ok(Source::new(source, format, Axis::Time(tick?), signals, origin))
 }
 
 fn signal(
@@ -225,7 +221,10 @@ impl signals::Origin for WaveOrigin {
 }
 
 fn stream(origin: &WaveOrigin, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
-    let mut wave = open(&origin.path, &origin.pieces)?;
+    let mut wave = match origin.opened.take() {
+        Some(wave) => wave,
+        None => open(&origin.path, &origin.pieces)?,
+    };
     let mut marking = origin.marks.as_ref().map(|style| Marking::new(style, &origin.references));
     let mut wanted = references.to_vec();
     wanted.extend(marking.iter().flat_map(Marking::references));

@@ -1,6 +1,9 @@
 //! Matching of signals by name.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+
+use smallvec::SmallVec;
 
 use crate::source::{Name, Signal, SignalKind, Source};
 
@@ -13,16 +16,23 @@ use super::tails::{by_tail, ends};
 /// first.
 const VOTES: usize = 1 << 16;
 
+/// Indices of signals that share a name, of which there is mostly one.
+type Few = SmallVec<[usize; 2]>;
+
 /// Finds the scopes of both sides below which most names agree, such as the instance of the design in a test bench.
 fn scopes(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Option<[String; 2]> {
-    let mut by_last: BTreeMap<&str, [Vec<usize>; 2]> = BTreeMap::new();
+    let mut places: HashMap<&str, usize> = HashMap::new();
+    let mut alike: Vec<[Few; 2]> = Vec::new();
     for side in 0..2 {
         for &k in &candidates[side] {
-            by_last.entry(names[side][k].last()).or_default()[side].push(k);
+            let place = *places.entry(names[side][k].last()).or_insert(alike.len());
+            if place == alike.len() {
+                alike.push(Default::default());
+            }
+            alike[place][side].push(k);
         }
     }
-    let mut alike: Vec<_> = by_last.into_values().collect();
-    let pairs = |[a, b]: &[Vec<usize>; 2]| a.len() * b.len();
+    let pairs = |[a, b]: &[Few; 2]| a.len() * b.len();
     alike.sort_by_key(pairs);
     let mut votes: BTreeMap<[&str; 2], usize> = BTreeMap::new();
     let mut count = 0;
@@ -60,7 +70,7 @@ const SHARED: &str = "*";
 #[derive(Clone, Debug, Default)]
 struct Best {
     score: usize,
-    found: Vec<usize>,
+    found: Few,
     /// Names of the signals found, if they are not the same signal.
     several: Option<Vec<String>>,
 }
@@ -68,7 +78,9 @@ struct Best {
 impl Best {
     fn take(&mut self, score: usize, other: usize) {
         if score > self.score {
-            (self.score, self.found) = (score, vec![other]);
+            self.score = score;
+            self.found.clear();
+            self.found.push(other);
         } else if score == self.score {
             self.found.push(other);
         }
@@ -81,17 +93,23 @@ fn best(
     names: &[Vec<Name>; 2],
     candidates: &[Vec<usize>; 2],
 ) -> [Vec<Best>; 2] {
-    let mut whole: [HashMap<&str, Vec<usize>>; 2] = Default::default();
+    let mut whole: [HashMap<&str, Few>; 2] = Default::default();
+    let mut depths: [BTreeSet<usize>; 2] = Default::default();
     for side in 0..2 {
         for &k in &candidates[side] {
             whole[side].entry(names[side][k].parts()).or_default().push(k);
+            depths[side].insert(names[side][k].depth());
         }
     }
     let mut best = [0, 1].map(|side| vec![Best::default(); names[side].len()]);
     for side in 0..2 {
         for &own in &candidates[side] {
+            let name = &names[side][own];
             // Names that are the same are found from the first side.
-            for end in ends(names[side][own].parts()).skip(side) {
+            for (end, depth) in ends(name.parts()).zip((1..=name.depth()).rev()).skip(side) {
+                if !depths[1 - side].contains(&depth) {
+                    continue;
+                }
                 for &other in whole[1 - side].get(end).into_iter().flatten() {
                     let [a, b] = ordered(side, own, other);
                     let score = score(&names[0][a], &names[1][b]);
@@ -129,13 +147,13 @@ pub(super) fn by_name(
     let names = hung.as_ref().unwrap_or(own);
     let best = best(sides, names, candidates);
     let mut pairs: HashMap<(usize, usize), usize> = HashMap::new();
-    let mut joined = [HashSet::new(), HashSet::new()];
+    let mut joined = sides.map(|side| vec![false; side.id_count()]);
     let mut reasons: [HashMap<usize, UnmatchedReason>; 2] = Default::default();
     for &k in &candidates[0] {
         let found = &best[0][k];
         let a = &sides[0].signals[k];
         let is_mutual = |&b: &usize| best[1][b].score == found.score;
-        let mutual: Vec<usize> = found.found.iter().copied().filter(is_mutual).collect();
+        let mutual: Few = found.found.iter().copied().filter(is_mutual).collect();
         let Some(&first) = mutual.first() else { continue };
         let b = &sides[1].signals[first];
         let refused = refused(sides, k, &mutual, &best[1][first], fits);
@@ -145,18 +163,20 @@ pub(super) fn by_name(
             }
             continue;
         }
-        joined[0].insert(a.id);
-        joined[1].insert(b.id);
-        if let Some(&pair) = pairs.get(&(a.id, b.id)) {
-            matching.pairs[pair].aliases += 1;
-            continue;
-        }
-        pairs.insert((a.id, b.id), matching.pairs.len());
+        joined[0][a.id] = true;
+        joined[1][b.id] = true;
+        match pairs.entry((a.id, b.id)) {
+            Entry::Occupied(pair) => {
+                matching.pairs[*pair.get()].aliases += 1;
+                continue;
+            }
+            Entry::Vacant(place) => place.insert(matching.pairs.len()),
+        };
         let how = if a.name.is(&b.name) { MatchedBy::Name } else { MatchedBy::Suffix };
         matching.pairs.push(Pair::whole([a, b], how, &mut matching.slots));
     }
     let is_alone = |side: usize, k: &usize| {
-        !joined[side].contains(&sides[side].signals[*k].id) && !reasons[side].contains_key(k)
+        !joined[side][sides[side].signals[*k].id] && !reasons[side].contains_key(k)
     };
     let alone = [0, 1].map(|side| {
         let alone = candidates[side].iter().copied();
@@ -164,14 +184,15 @@ pub(super) fn by_name(
     });
     for [a, b] in by_tail(sides, own, candidates, &alone, fits) {
         let [a, b] = [&sides[0].signals[a], &sides[1].signals[b]];
-        if joined[0].insert(a.id) && joined[1].insert(b.id) {
+        if !joined[0][a.id] && !joined[1][b.id] {
+            (joined[0][a.id], joined[1][b.id]) = (true, true);
             matching.pairs.push(Pair::whole([a, b], MatchedBy::Tail, &mut matching.slots));
         }
     }
     for side in 0..2 {
         for &k in &candidates[side] {
             let signal = &sides[side].signals[k];
-            if !joined[side].contains(&signal.id) {
+            if !joined[side][signal.id] {
                 let reason = reasons[side].remove(&k).unwrap_or(UnmatchedReason::Alone);
                 let name = signal.name.text.clone();
                 matching.unmatched.push(Unmatched { side, name, signal: k, reason });
