@@ -2,6 +2,7 @@
 //! bounded memory.
 
 mod bytes;
+mod called;
 mod capture;
 mod detect;
 mod end;

@@ -13,4 +13,5 @@ mod ila_files;
 mod ila_round_trip;
 mod ila_spreadsheets;
 mod many_signals;
+mod other_tools;
 mod words;

@@ -9,6 +9,8 @@ impl Tick {
     pub const FEMTOSECOND: Tick = Tick(1_000_000);
     /// One picosecond.
     pub const PICOSECOND: Tick = Tick(1_000_000_000);
+    /// One nanosecond.
+    pub(super) const NANOSECOND: Tick = Tick(1_000_000_000_000);
 
     /// Creates a unit of `factor` times 10 to the `exponent` seconds; `None` if it is 0 or not a multiple of 1e-21 s.
     pub fn new(factor: u32, exponent: i8) -> Option<Tick> {

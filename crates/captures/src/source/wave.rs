@@ -36,6 +36,9 @@ use super::variables::{joined, variables};
 /// Width of a number of events [bits].
 const EVENTS: u32 = 32;
 
+/// Note on a file without a time scale, such as a VCD of Yosys; GTKWave reads it in nanoseconds too.
+const UNSCALED: &str = "has no $timescale: times are read as nanoseconds";
+
 /// Path and format of a waveform.
 #[derive(Clone, Debug)]
 struct WaveOrigin {
@@ -155,7 +158,10 @@ fn described(
         let source = Source::new(source, SourceFormat::IlaVcd, Axis::Samples, signals, origin);
         return Ok(Source { radix_stated: false, ..source });
     }
-    Ok(Source::new(source, format, Axis::Time(tick?), signals, origin))
+    let tick = tick?;
+    let axis = Axis::Time(tick.unwrap_or(Tick::NANOSECOND));
+    let notes = if tick.is_none() { vec![UNSCALED.to_owned()] } else { Vec::new() };
+    Ok(Source { notes, ..Source::new(source, format, axis, signals, origin) })
 }
 
 fn signal(
@@ -195,17 +201,16 @@ fn signal(
     }
 }
 
-fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {
-    let Some(scale) = hierarchy.timescale() else {
-        return Err(Input::new(source, "expected a $timescale").into());
-    };
+/// Returns the unit of times, if the file states it.
+fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Option<Tick>> {
+    let Some(scale) = hierarchy.timescale() else { return Ok(None) };
     let tick = scale.unit.to_exponent().and_then(|exponent| Tick::new(scale.factor, exponent));
     let fault = || {
         let expected = "expected a number and one of zs, as, fs, ps, ns, us, ms, s";
         let value = format!("{} {:?}", scale.factor, scale.unit);
         Input::new(source, expected).field("$timescale").value(value).into()
     };
-    tick.ok_or_else(fault)
+    tick.map(Some).ok_or_else(fault)
 }
 
 impl signals::Origin for WaveOrigin {
