@@ -281,6 +281,17 @@ fn ghdl_s_two_formats_are_the_same() {
 }
 
 #[test]
+fn a_waveform_without_a_time_scale_is_in_nanoseconds_with_a_note() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let good = counting("1ns", 5, "top", 7);
+    write(folder, "good.vcd", &good);
+    write(folder, "unscaled.vcd", &good.replace("$timescale 1ns $end\n", ""));
+    let notes = same(folder, &["good.vcd", "unscaled.vcd"])["notes"].to_string();
+    assert!(notes.contains("unscaled.vcd: has no $timescale: times are read as"), "{notes}");
+}
+
+#[test]
 fn what_is_no_waveform_or_a_broken_one_is_refused() {
     let folder = common::empty();
     let folder = folder.path();
@@ -294,7 +305,6 @@ fn what_is_no_waveform_or_a_broken_one_is_refused() {
     assert!(refused(&back).contains("bad.vcd:37:1: time goes back from 55 to 20"));
     assert!(refused("").contains("bad.vcd: is empty"));
     assert!(refused("hello\n").contains("bad.vcd:1:1: hello: expected VCD, FST, GHW"));
-    assert!(refused(&good.replace("$timescale 1ns $end\n", "")).contains("expected a $timescale"));
     assert!(refused(&good.replace("wire 8", "wire 4000000000")).contains("bits at most"));
     for (from, to) in [("b111 b", "b1q1 b"), ("b111 b", "b111111111111 b")] {
         let error = refused(&good.replacen(from, to, 1));
