@@ -91,7 +91,8 @@ impl Head {
             match &name[..] {
                 "$var" => {
                     let variable = Variable::parse(&mut body, texts);
-                    declared(&body[2], variable.map_err(|found| found.of(&fault))?);
+                    let variable = variable.map_err(|found| found.of(&fault))?;
+                    declared(&body[2], variable);
                     head.text.append(&mut head.value_type);
                 }
                 "$timescale" => head.scale(line, &body).map_err(|found| found.of(&fault))?,
@@ -230,6 +231,8 @@ mod tests {
         assert!(port.starts_with("a.vcd:2:1: p = port: is of an extended VCD"), "{port}");
         let width = told("$var\n wire x ! a $end\n");
         assert_eq!(width, "a.vcd:1:1: a = x: expected a width in bits");
+        let short = told("$var wire 1 $end\n");
+        assert_eq!(short, "a.vcd:1:1: $var = wire 1: expected a type, a width, a code and a name");
         assert!(told("$var wire 1 ! a\n").ends_with("$var: expected $end"));
         assert!(told("$date $end\n$fall $end").starts_with("a.vcd:2:1: $fall: expected $version"));
         let joined = told("$date $end $scope module a$end\n$attrbegin misc 02 A 1039 $end\n");
