@@ -455,7 +455,10 @@ module tof_top #(
     generate
         for (c = 1; c < Columns; c = c + 1) begin : channel
             wire code_valid;
+            // Of the column's TDC; the top's is that of the status.
+            // verilator lint_off VARHIDDEN
             wire [BinBits-1:0] code;
+            // verilator lint_on VARHIDDEN
             localparam [7:0] Tens = 8'd48 + c / 10, Units = 8'd48 + c % 10;
             localparam [23:0] Number = {8'd46, Tens, Units};
             if (Banks == 1) assign shown[(2*c+1)*CountBits+:CountBits] = {CountBits{1'b0}};
