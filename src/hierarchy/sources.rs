@@ -63,8 +63,8 @@ impl ModulePlaces {
     /// Returns the place of a column's scope, or of one inside of it.
     fn in_channel(&self, path: &str) -> Option<ScopePlace> {
         let Some((_, inside)) = path.split_once('.') else {
-            let place = Some((TOP, CHANNEL_LINE));
-            return Some(ScopePlace { component: "", declared: place?, instantiated: place });
+            let place = (TOP, CHANNEL_LINE);
+            return Some(ScopePlace { component: "", declared: place, instantiated: Some(place) });
         };
         if inside.starts_with("bank_") {
             let Instance { module, declared, .. } = *self.instance(BANK)?;

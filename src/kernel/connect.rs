@@ -5,8 +5,9 @@
 ///
 /// From one list it makes, on an empty struct, a function for each module that reads its input
 /// ports, and the container's [`Module`](crate::kernel::module::Module), by which waveforms have all of
-/// it. After `in` stands the container's module. In the braces after the struct stand the fields with signals of the container's own, then its
-/// wires and output ports that show what a module inside holds. Each module is a field of the container
+/// it. After `in` stands the container's module. In the braces after the struct stand the fields with
+/// signals of the container's own, then its wires and output ports that show what a module inside holds.
+/// Each module is a field of the container
 /// and has, in parentheses, its clock ports, with `port <- clock` where that is called otherwise. A
 /// source is a path that begins with the container (`this`) or with the container's own input ports. Names
 /// in brackets have the signals of the same names in one source. After `->` stand output ports of a module that are no
